@@ -89,7 +89,8 @@ def places(
 def _correlate(
     recorded: FloatArray, expected_chroma: FloatArray, energy: FloatArray, spectra: dict[int, Spectrum]
 ) -> tuple[IntArray, FloatArray]:
-    """Return the similarity (-1..1) of score and recording at every lag, weighted by their overlap."""
+    """Return the lags in frames (N,), and the similarity (N,), -1..1, of score and recording at each, weighted by their
+    overlap; ``spectra`` caches transforms by size."""
     frames, length = recorded.shape[1], expected_chroma.shape[1]
     from scipy import fft  # heavy, and only here
 

@@ -55,7 +55,8 @@ class RecordingLoudness:
     level_db: FloatArray
 
     def at(self, seconds: FloatArray) -> FloatArray:
-        """Return interpolated loudness in decibels; silence beyond the ends."""
+        """Return the loudness (N,) in decibels at given seconds, interpolated; silence beyond the ends of the
+        recording."""
         at_s = STEP_S * np.arange(len(self.level_db))
         result: FloatArray = np.interp(seconds, at_s, self.level_db, left=_FLOOR_DB, right=_FLOOR_DB)
         return result
@@ -150,7 +151,7 @@ def _weighting(rate_hz: int) -> FloatArray:
 
 @dataclass(frozen=True)
 class _Sounding:
-    """Grid of seconds of the score, and the times on it at which a part sounds."""
+    """Grid of seconds of the score, and a mask of the times on it at which a part sounds."""
 
     at_s: FloatArray
     sounds: BoolArray
@@ -182,7 +183,7 @@ class _Sounding:
 
 
 def _together(score: Score, at_s: FloatArray) -> IntArray:
-    """Return the number of notes that sound at each time."""
+    """Return the number (N,) of notes of the whole score that sound at each time."""
     seconds, notes = score.tempo_map.seconds, [note for part in score.parts for note in part.notes]
     return _count(
         np.sort(seconds(np.array([note.onset_tick for note in notes], np.float64))),
@@ -210,7 +211,8 @@ def _of_pitches(pitch: IntArray, levels: FloatArray, audible: BoolArray) -> Floa
 
 
 def _scaled(levels: FloatArray, audible: BoolArray) -> FloatArray:
-    """Convert decibels to the controller's range."""
+    """Convert loudness in decibels (N,) to values (N,) of a MIDI controller, so that the levels of the audible frames
+    fill its usual range."""
     low, middle, high = np.quantile(levels[audible], [_SHARE, 0.5, 1.0 - _SHARE])
     slope = min(
         _PER_DB, (_MIDDLE - _QUIETEST) / max(middle - low, 1e-6), (_LOUDEST - _MIDDLE) / max(high - middle, 1e-6)

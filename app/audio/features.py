@@ -111,7 +111,8 @@ def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> FloatArra
 
 
 def _spectra(sound: Sound, size: int, hop: int) -> Iterator[FloatArray]:
-    """Yield power spectra, shape (frames, size
+    """Yield power spectra (frames, size // 2 + 1) of a sound, a limited number of frames at a time; ``hop`` is the
+    samples from frame to frame.
 
     2 + 1), some frames at a time.
     """

@@ -85,7 +85,7 @@ _AS_SURE: Final = 0.01
 
 
 def beats_of(metre_map: MetreMap, end_tick: int, pinned: Iterable[int] = ()) -> IntArray:
-    """Return the felt beats of a piece, the first at tick 0, and the pinned ticks."""
+    """Return the ticks (N,) of a piece's felt beats, the first at tick 0, together with the pinned ticks."""
     ticks = metre_map.felt_between(0, max(end_tick, 1))
     return np.unique(np.concatenate(([0], ticks[ticks > 0], np.array([*pinned], np.int64))))
 
@@ -139,7 +139,8 @@ def follow(
 
 @dataclass(frozen=True)
 class _Prepared:
-    """A score and a recording, prepared for the comparison."""
+    """A score and a recording prepared for comparison: the expected sound, the recorded sound, and chroma shapes (12,
+    F) of the score."""
 
     score: Score
     expected: ExpectedSound
@@ -150,7 +151,8 @@ class _Prepared:
 
 
 def _found(prepared: _Prepared, reached: Callable[[float], None]) -> tuple[Following | None, RunnerUp | None]:
-    """Return the likeliest alignment regardless of its confidence, and the second likeliest."""
+    """Return the likeliest alignment regardless of its confidence, and the second likeliest for comparison; None where
+    there is none."""
     shapes, recorded = prepared.shapes, prepared.recorded
     result = _followed(prepared, slice(0, shapes.shape[1]))
     reached(0.4)
@@ -199,7 +201,7 @@ def _margin(following: Following) -> float:
 
 
 def _line(prepared: _Prepared, place: RecordingPlace) -> Warped:
-    """Return an alignment at a constant tempo."""
+    """Return the alignment of a recording played at one constant tempo from a known place."""
     length_s = prepared.shapes.shape[1] * CHROMA_S
     ends_s = np.array([0.0, length_s])
     there_s = place.start_s + ends_s / place.ratio
@@ -236,7 +238,8 @@ def _part_limit(played: Sequence[Passage], recorded: RecordedSound) -> float:
 
 
 def _parts(played: Sequence[Passage], frames: int, pins: Pins) -> tuple[slice, tuple[Jump, ...]]:
-    """Return the range of the score's frames that a recording contains, and its jumps between them."""
+    """Return the range of the score's chroma frames that a recording contains, and the jumps between its passages;
+    ``frames`` is the score's length."""
     if not played:
         return slice(0, frames), ()
     first, last = round(played[0].start_s / CHROMA_S), round(played[-1].end_s / CHROMA_S)
@@ -287,7 +290,8 @@ def _refined(prepared: _Prepared, rough: Warped, pins: Pins) -> Following:
 def _present(
     times: FloatArray, found: FloatArray, rough: Warped, recorded: RecordedSound
 ) -> tuple[FloatArray, FloatArray]:
-    """Return pairs of score onset and recorded onset, without those missing in the recording."""
+    """Return score time and recorded time (N,) of the onsets found in the recording; ``found`` is recorded seconds for
+    each score time in ``times``."""
     there = (found >= 0.0) & (found < recorded.length_s)
     for span in rough.missing:
         there &= (times < span.start) | (times >= span.end)
@@ -365,9 +369,8 @@ def _confidence(
 
 
 def _lengths(beat_s: FloatArray, recording_s: FloatArray) -> FloatArray:
-    """Return the natural logarithm of the beats' length around each beat relative to the score and the average of the
-    recording.
-    """
+    """Return the natural logarithm (N,) of the length of the recorded beats around each beat, relative to the score and
+    the average of the recording."""
     wide = min(_EVEN_BEATS, len(beat_s) - 1)
     lengths = (recording_s[wide:] - recording_s[:-wide]) / np.maximum(beat_s[wide:] - beat_s[:-wide], 1e-6)
     places = np.clip(np.arange(len(beat_s)) - wide // 2, 0, len(lengths) - 1)
@@ -391,7 +394,7 @@ def _squeezed(beat_s: FloatArray, lengths: FloatArray) -> tuple[UnmatchedSpan, .
 
 
 def _joined(spans: Iterable[UnmatchedSpan]) -> tuple[UnmatchedSpan, ...]:
-    """Return spans in order with touching ones joined."""
+    """Return spans in order of time; those less than `MISSING_S` apart become one."""
     result: list[UnmatchedSpan] = []
     for span in sorted(spans, key=lambda one: one.start):
         if result and span.start <= result[-1].end + MISSING_S:

@@ -118,7 +118,8 @@ def _curves(
     options: FollowOptions,
     reached: Callable[[float], None],
 ) -> dict[str, ControllerCurve]:
-    """Return the dynamics of all parts."""
+    """Return the expression curve of every part by part id, measured from the recording, or from the recordings of
+    single players in `FollowOptions.stems`."""
     parts = {player.id: player.part_id for player in project.players}
     stems: dict[str, RecordingLoudness] = {}
     for number, (player_id, stem) in enumerate(options.stems.items()):

@@ -68,9 +68,8 @@ def player_tracks(project: Project, pieces: Mapping[str, Iterable[AudioSegment]]
 
 
 def player_gains(project: Project) -> dict[str, tuple[float, float]]:
-    """Return left and right gains of the audible players: soloed ones if there are any, else `PERCUSSION` and all that
-    are not muted.
-    """
+    """Return left and right gain, factors by player id, of the players to be heard: soloed ones if there are any, else
+    `PERCUSSION` and all that are not muted. Positions on stage give the balance."""
     players = project.players
     soloed = any(player.soloed for player in players)
     width_m = max((abs(player.stage.x_m) for player in players), default=0.0)

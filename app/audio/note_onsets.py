@@ -78,7 +78,7 @@ def note_onsets(
 
 
 def _own_partials(pitch: float, others: FloatArray) -> FloatArray:
-    """Return the frequencies of a note's partials that the other notes lack."""
+    """Return the frequencies (K,) of those partials of a note that no other sounding note shares."""
     numbers = np.arange(1, _PARTIALS + 1)
     own = pitch + 12.0 * np.log2(numbers)
     theirs = others[:, None] + 12.0 * np.log2(np.arange(1, 2 * _PARTIALS + 1))
@@ -88,7 +88,8 @@ def _own_partials(pitch: float, others: FloatArray) -> FloatArray:
 
 
 def _without_lateness(score: Score, shifts: dict[str, float]) -> dict[str, float]:
-    """Subtract each part's common onset delay."""
+    """Subtract from the shift of each note, seconds by note id, the median shift of its part, so that a player who is
+    always late stays in place."""
     result = {}
     for part in score.parts:
         own = {note.id: shifts[note.id] for note in part.notes if note.id in shifts}

@@ -107,7 +107,8 @@ def _estimated(recorded: RecordedSound, expected: ExpectedSound, reached: Callab
 
 
 def _by_onsets(recorded: RecordedSound, expected: ExpectedSound, rough: RecordingPlace) -> tuple[RecordingPlace, float]:
-    """Return the exact position near a rough one, and the mean onset strength there in standard deviations.
+    """Refine the position of a recording by its onsets. Returns the position, and the mean onset strength there in
+    standard deviations.
 
     In each round the onsets must agree more closely with the recording's.
     """

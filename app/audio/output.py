@@ -77,7 +77,7 @@ class OutputSink:
         return max(round((BUFFER_S - self._queue.waiting_s()) * RATE_HZ), 0)
 
     def write(self, block: Block) -> None:
-        """Queue samples behind those already written."""
+        """Add samples behind those already written, resampled to the device's rate."""
         if self._resampler is not None:
             block = self._resampler.resample_chunk(np.ascontiguousarray(block))
         self._queue.put(block)
@@ -95,7 +95,7 @@ class OutputSink:
         return not self._device.is_started or self._queue.unfetched_s() > _STALLED_S
 
     def stop(self) -> None:
-        """Stop the sound immediately."""
+        """Stop the sound immediately and close the device."""
         self._device.close()
         _playing.discard(self)
 
@@ -162,7 +162,7 @@ class Queue:
         return out * np.float32(self.gain)
 
     def frames(self) -> Generator[SingleArray | bytes, int, None]:
-        """Return `fetch` as a started generator to which miniaudio sends counts."""
+        """Return a started generator that yields sound when it is sent a number of frames, as miniaudio expects."""
         generator = self._frames()
         next(generator)
         return generator

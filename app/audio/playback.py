@@ -88,7 +88,7 @@ class Playback(QObject):
 
     @property
     def mix(self) -> Mix:
-        """The mix being played."""
+        """The mix of sources (score, recording, metronome) that is being played."""
         return self._mix
 
     def set_mix(self, mix: Mix) -> None:
@@ -110,7 +110,7 @@ class Playback(QObject):
         self._reader.set_speed(speed)
 
     def set_volume(self, volume: float) -> None:
-        """Set the perceived volume, 0..1."""
+        """Set the volume as perceived, 0..1; the gain is its square."""
         self._gain = volume**2
         for sink in (self._sink, self._grains):
             if sink is not None:
@@ -229,7 +229,8 @@ class Playback(QObject):
             self._position_s = self._span_s[1]
 
     def _begin(self, start_s: float, sink: Sink | None = None, may_sound: bool = True) -> None:
-        """Fill an open device, else open one, or play silently."""
+        """Start playing at ``start_s``: into the given open device, else into a newly opened one, or silently if
+        ``may_sound`` is False."""
         if self._sink is not None:
             self._sink.stop()
         self._begun_s = self._now()

@@ -53,7 +53,7 @@ class Reader:
         self.seek(position_s)
 
     def seek(self, position_s: float) -> None:
-        """Continue at another position."""
+        """Continue reading the mix at another position in seconds."""
         self._begin(round(position_s * RATE_HZ))
 
     def set_speed(self, speed: float) -> None:
@@ -103,7 +103,7 @@ class Reader:
         self._marks.append((self._made, at / RATE_HZ, self._speed))
 
     def _next(self, requested: int) -> Block:
-        """Return the next block of output."""
+        """Return the next block of output, about ``requested`` frames at the set speed."""
         if self._speed == 1.0:
             segments = len(self._segments)
             block = self._input(requested)

@@ -45,7 +45,7 @@ class RecordedSound:
 
 @dataclass(frozen=True)
 class ExpectedSound:
-    """Expected sound of a score: onsets and ends of notes in seconds, pitches, weights, and timbre."""
+    """The sound that a score lets expect: onsets and ends of notes in seconds, pitches, weights, and timbre."""
 
     onset_s: FloatArray
     end_s: FloatArray
@@ -122,7 +122,8 @@ def recorded_sound(samples: Samples, rate_hz: int, progress: Progress) -> Record
 
 
 def shape(chroma: FloatArray) -> FloatArray:
-    """Return each frame as a direction, so that loudness does not matter; frames near silence have less weight."""
+    """Return chroma (12, F) with every frame as a unit direction, so that loudness does not matter; frames near silence
+    are shorter."""
     level = np.sqrt(chroma.sum(axis=0))
     chroma = np.sqrt(chroma)
     chroma = chroma - chroma.mean(axis=0)
@@ -133,7 +134,7 @@ def shape(chroma: FloatArray) -> FloatArray:
 
 
 def levelled_onsets(onsets: FloatArray) -> FloatArray:
-    """Return onset strength above its surroundings, in standard deviations."""
+    """Return onset strength (F,) above the mean of its surroundings, in standard deviations, limited to -1..4."""
     width = round(1.5 / ONSET_S)
     around = np.convolve(onsets, np.ones(width) / width, "same")
     spread = np.sqrt(np.convolve((onsets - around) ** 2, np.ones(width) / width, "same"))
@@ -142,7 +143,8 @@ def levelled_onsets(onsets: FloatArray) -> FloatArray:
 
 
 def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.0) -> FloatArray:
-    """Return the score's chroma at a tempo, from second 0 of the score or from a number of frames before it."""
+    """Return the expected chroma (12, F) of the score played ``ratio`` times as fast, beginning ``later_frames`` frames
+    before second 0."""
     begin = expected.onset_s / ratio / CHROMA_S + later_frames
     end = expected.end_s / ratio / CHROMA_S + later_frames
     frames = int(np.ceil(end.max())) + 1
@@ -159,7 +161,7 @@ def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.
 
 
 def onset_edges(onsets: FloatArray, width_s: float) -> FloatArray:
-    """Return the increase of onset strength from before to after each frame.
+    """Return the increase of onset strength (F,) from before to after each frame.
 
     The strength of an onset keeps rising for a while, longer for slow onsets; the note begins at the start of the rise
     and not at the maximum.

@@ -59,7 +59,7 @@ class SilentSink:
         return max(round(BUFFER_S * RATE_HZ) - waiting, 0)
 
     def write(self, block: Block) -> None:
-        """Count the samples."""
+        """Count the samples as if they were played."""
         self._written += len(block)
 
     def processed_s(self) -> float:
@@ -67,7 +67,7 @@ class SilentSink:
         return self._now() - self._start_s
 
     def set_volume(self, gain: float) -> None:
-        """Ignore the volume."""
+        """Ignore the volume, since nothing is heard."""
 
     def failed(self) -> bool:
         """Return False, since a silent output cannot be lost."""

@@ -61,7 +61,7 @@ class Shelved:
         self._file: _File | None = None
 
     def __call__(self, midi: bytes) -> Samples:
-        """Return a MIDI file as sound."""
+        """Return the sound of a MIDI file as samples, which are kept for the next time."""
         samples = self._render(midi)
         with self._lock:
             try:

@@ -76,7 +76,8 @@ def _fitted(times: FloatArray, found: FloatArray) -> tuple[float, float]:
 
 
 def _refined(edges: FloatArray, times: FloatArray, first_s: float, last_s: float) -> tuple[float, float]:
-    """Return both ends of the line, moved slightly to maximise the onset strength along it."""
+    """Return first and last second of the recording, moved slightly from ``first_s`` and ``last_s`` so that the score's
+    onsets meet the strongest onsets (``edges``)."""
     shares = (times - times[0]) / (times[-1] - times[0])
     for reach_s, step_s in _REFINED_S:
         moves = np.arange(-reach_s, reach_s + 1e-9, step_s)
@@ -92,7 +93,8 @@ def _refined(edges: FloatArray, times: FloatArray, first_s: float, last_s: float
 
 
 def _strength(edges: FloatArray, at_s: FloatArray) -> FloatArray:
-    """Return the onset strength at given seconds of the recording."""
+    """Return the onset strength at given seconds of the recording, interpolated, in the shape of ``at_s``; 0
+    outside."""
     places = at_s / ONSET_S
     result: FloatArray = np.interp(places.ravel(), np.arange(len(edges)), edges, left=0.0, right=0.0).reshape(
         at_s.shape

@@ -196,7 +196,8 @@ def _opening(program: int, bent: int) -> bytes:
 
 
 def _controls(part: Part, tempo_map: TempoMap, bent: int) -> tuple[tuple[IntArray, tuple[bytes, ...]], ...]:
-    """Return the audible curves as samples and messages: loudness as expression, volume, pitch bend.
+    """Return sample positions and MIDI messages of each audible controller of a part: loudness as expression, volume,
+    pitch bend.
 
     ``bent`` is the range of the bends in semitones.
     """

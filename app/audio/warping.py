@@ -68,7 +68,8 @@ NO_PINS: Final = Pins(np.empty(0), np.empty(0))
 
 @dataclass(frozen=True)
 class Jump:
-    """A jump in a recording: the seconds at which it leaves the score and continues in it."""
+    """A jump of a recording relative to the score, such as an omitted repeat: score and recording seconds at which it
+    leaves the score (``from``), and at which it continues (``to``)."""
 
     from_s: float
     to_s: float
@@ -88,7 +89,8 @@ class Jump:
 
 @dataclass(frozen=True)
 class Warped:
-    """Corresponding seconds of score and recording, both ascending, and spans in only one of them."""
+    """An alignment: corresponding seconds (N,) of score and recording, both ascending, and the spans found in only the
+    score (``missing``) or only the recording (``added``)."""
 
     score_s: FloatArray
     recording_s: FloatArray
@@ -180,7 +182,8 @@ def _stretches(
 def _path(
     ours: FloatArray, theirs: FloatArray, step: int, stretches: Sequence[tuple[int, int, int, int]]
 ) -> tuple[IntArray, IntArray]:
-    """Return corresponding frames, section by section."""
+    """Return the corresponding frames (N,) of both chroma sequences by dynamic time warping, separately for each
+    stretch (first and last frame of ours, first and last of theirs)."""
     found = []
     for first, last, first_theirs, last_theirs in stretches:
         filled, our_frame = _with_fillers(ours[first:last], step)
@@ -194,7 +197,8 @@ def _path(
 
 
 def _through(pins: Pins, x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return an ascending curve corrected to pass through the pins."""
+    """Return a curve of score seconds and recorded seconds (N,) that passes exactly through the user's pins and stays
+    ascending."""
     if not len(pins.score_s):
         return x, y
     apart = np.abs(x[:, None] - pins.score_s).min(axis=1) > CHROMA_S
@@ -207,20 +211,21 @@ def _through(pins: Pins, x: FloatArray, y: FloatArray) -> tuple[FloatArray, Floa
 
 
 def _sounding(frames: FloatArray, least: float) -> BoolArray:
-    """Return whether each frame exceeds a level near silence."""
+    """Return for each frame (F,) of chroma (F, 12) whether it is louder than ``least``."""
     result: BoolArray = np.linalg.norm(frames, axis=1) > least
     return result
 
 
 def _alone(frames: FloatArray, matched: IntArray) -> BoolArray:
-    """Return whether each frame sounds without a matching frame."""
+    """Return for each frame (F,) of chroma (F, 12) whether it sounds but is not among the ``matched`` frames."""
     alone = _sounding(frames, _LOUD)
     alone[matched] = False
     return alone
 
 
 def _runs(there: BoolArray, frame_s: float) -> tuple[UnmatchedSpan, ...]:
-    """Return the runs of at least `MISSING_S`, ignoring short breaks."""
+    """Return the spans of at least `MISSING_S` seconds in which ``there`` is true, ignoring short breaks; a frame lasts
+    ``frame_s``."""
     places = np.flatnonzero(there)
     if not len(places):
         return ()
@@ -235,7 +240,7 @@ def _runs(there: BoolArray, frame_s: float) -> tuple[UnmatchedSpan, ...]:
 
 
 def _pooled(shapes: FloatArray, count: int) -> FloatArray:
-    """Return means (n, 12) over groups of frames."""
+    """Return the means (n, 12) of chroma (12, F) over groups of ``count`` frames."""
     whole = shapes.shape[1] // count * count
     result: FloatArray = np.ascontiguousarray(shapes[:, :whole].reshape(12, -1, count).mean(axis=2).T)
     return result
@@ -251,7 +256,8 @@ def _with_fillers(frames: FloatArray, step: int) -> tuple[FloatArray, IntArray]:
 
 
 def _smoothed(x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return an ascending curve of local lines through the found points."""
+    """Return smoothed values (N,) of an ascending curve: at each point the height of a line fitted to the points within
+    `_AROUND_S`."""
     result = np.empty_like(y)
     first = np.searchsorted(x, x - _AROUND_S)
     last = np.searchsorted(x, x + _AROUND_S)

@@ -42,7 +42,7 @@ class Peaks:
 
     @property
     def duration_s(self) -> float:
-        """Length of the recording."""
+        """Length of the recording in seconds."""
         return len(self._samples) / self.rate_hz
 
     def levels(self, start_s: float, end_s: float, width_px: int) -> tuple[SingleArray, SingleArray]:

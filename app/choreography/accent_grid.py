@@ -34,13 +34,14 @@ class AccentGrid:
 
     @cached_property
     def strengths(self) -> FloatArray:
-        """Return strengths (G,): 1 on a beat of the piece, `WEAK` on an additional beat, 0 between beats."""
+        """Strength (G,) of each of G accents: 1 on a beat of the piece, `WEAK` on an additional beat, 0 between
+        beats."""
         written = self.on_beat if self.written is None else self.written
         return np.where(written, 1.0, np.where(self.on_beat, WEAK, 0.0))
 
     @cached_property
     def beats(self) -> FloatArray:
-        """Return positions (G,) in beats from the first one."""
+        """Position (G,) of each of G accents in beats from the first one."""
         on_beat = np.flatnonzero(self.on_beat)
         return np.asarray(np.interp(np.arange(len(self.times_s)), on_beat, np.arange(len(on_beat))))
 

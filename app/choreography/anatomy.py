@@ -71,7 +71,8 @@ def t_pose(body: Captured) -> dict[str, FloatArray]:
 
 
 def _ways(body: Captured, name: str, turn: FloatArray, way: FloatArray) -> FloatArray:
-    """Directions (F, 3) in the world of one (3,) of a segment's T-pose."""
+    """Directions (F, 3) in the world of the direction ``way`` (3,) of a body segment's T-pose; ``turn`` is the bone's
+    rotation in that pose."""
     return quaternion.rotate(
         quaternion.multiply(body.rotations[:, body.segments[name]], quaternion.conjugate(turn)), way
     )
@@ -94,7 +95,8 @@ def _trunk(body: Captured) -> dict[str, FloatArray]:
 
 
 def _column(body: Captured, name: str, across: FloatArray, ways: FloatArray) -> FloatArray:
-    """Return the rotation of a part of the trunk: its line is horizontal, and the next joint is at the usual lean."""
+    """Return the rotation (4,) of a part of the trunk in the captured bone's frame: X along the line `across` (hips or
+    shoulders), made horizontal, and the next joint at the usual lean of `LEANS_DEG`."""
     upright = middle(body.within(name, body.up)[body.standing])
     if name != "hips":
         # Not the vertical: who runs leans ahead all the time.
@@ -110,8 +112,8 @@ def _column(body: Captured, name: str, across: FloatArray, ways: FloatArray) -> 
 
 
 def _head(body: Captured, chest: FloatArray) -> FloatArray:
-    """Turn of the head: its eyes are level and look ahead, or it does so in a T-pose beside the motion, or most of
-    the time."""
+    """Return the rotation (4,) of the head in the captured bone's frame, so that its eyes are level and look ahead: by
+    the positions of the eyes, by a T-pose beside the motion, or by the usual posture in the motion."""
     if {"leftEye", "rightEye"} <= body.joints.keys():
         left, right = body.at("leftEye"), body.at("rightEye")
         level = _framed(body.mean("head", left - right), body.mean("head", 0.5 * (left + right) - body.at("head")))
@@ -183,7 +185,8 @@ def _along(body: Captured, side: str) -> FloatArray:
 
 
 def _palm(body: Captured, side: str, sign: float) -> FloatArray | None:
-    """Turn of a hand whose palm its knuckles or its thumb show: fingers along the arm, the palm down."""
+    """Return the rotation (4,) of a hand in the captured bone's frame, fingers along the arm and palm down, found from
+    knuckles or thumb; None if neither shows the palm. ``sign`` is 1 for the left hand, -1 for the right."""
     name, knuckles, along = f"{side}Hand", body.knuckles(side), _along(body, side)
     if len(knuckles) > 1:
         ahead = body.mean(name, knuckles[0] - knuckles[-1])
@@ -223,9 +226,8 @@ def _hand(body: Captured, side: str, sign: float, forearm: FloatArray) -> FloatA
 
 
 def _foot(body: Captured, side: str) -> FloatArray:
-    """Return the rotation of a foot: toes forward, sideways in agreement with the knee's hinge, sole about horizontal
-    when standing.
-    """
+    """Return the rotation (4,) of a foot in the captured bone's frame: toes forward, sideways in agreement with the
+    knee's hinge, sole about horizontal when standing."""
     name = f"{side}Foot"
     has_toes = f"{side}Toes" in body.joints
     toes = body.mean(name, body.at(f"{side}Toes") - body.at(name)) if has_toes else body.tips[name]
@@ -273,12 +275,13 @@ def _sole_up(body: Captured, name: str) -> FloatArray:
 
 
 def _framed(across: FloatArray, up: FloatArray) -> FloatArray:
-    """Return the rotation that takes a line to +X and approximately an up direction to +Y."""
+    """Return the rotation (4,) that takes the direction ``across`` to +X and ``up`` approximately to +Y."""
     return quaternion.conjugate(quaternion.from_frames(unit(across), _beside(up, across)))
 
 
 def _beside(vector: FloatArray, axis: FloatArray) -> FloatArray:
-    """Return the unit part of a vector orthogonal to an axis; any orthogonal direction if there is none."""
+    """Return the unit vector (3,) of the part of ``vector`` that is orthogonal to an axis; any orthogonal direction if
+    there is none."""
     axis = unit(axis)
     for candidate in (vector, Z, X):
         part = candidate - axis * (candidate @ axis)

@@ -127,7 +127,7 @@ def _above(parents: Sequence[int], bone: int) -> set[int]:
 
 
 def report(found: Sequence[Checked]) -> Message:
-    """Largest angle of each kind, for the user."""
+    """Return a message with the largest angle of each kind of exceeded joint limit."""
     most = dict.fromkeys(MOST_DEG, 0.0)
     for one in found:
         if one.most_deg == MOST_DEG[one.kind]:

@@ -96,7 +96,7 @@ def body_layer(motion: Motion, character: Character, feet: DancedFeet | None = N
 
 
 def _middle_m(motion: Motion, character: Character) -> FloatArray:
-    """(F, 3) the middle of the hip joints."""
+    """Middle (F, 3) of both hip joints in every frame, metres."""
     skeleton = character.skeleton
     offset = np.mean([skeleton.offsets_m[skeleton.index(f"{side}UpperLeg")] for side in SIDES], axis=0)
     turned = motion.rotations[:, skeleton.index("hips")].astype(np.float64)
@@ -127,7 +127,8 @@ def _fastest(channel: str) -> float:
 
 
 def _about_its_mean(values: FloatArray, fps: float, fastest: float) -> FloatArray:
-    """Return values after a band-pass filter, which removes motion that is too fast for a player, and slow motion."""
+    """Return values (F,) after a band-pass filter, which removes motion that is too fast for a player (``fastest`` per
+    second), and slow motion."""
     speeds = np.diff(values) * fps
     kept = np.concatenate(([0.0], np.cumsum(within(speeds, fastest, fastest)))) / fps
     smooth = gaussian_filter1d(kept, SMOOTH_S * fps, mode="nearest")
@@ -136,9 +137,8 @@ def _about_its_mean(values: FloatArray, fps: float, fastest: float) -> FloatArra
 
 
 def _held(values: FloatArray, most: float, fps: float) -> FloatArray:
-    """Return values scaled down phrase by phrase until they are usually within a bound, with extremes limited softly;
-    never scaled up.
-    """
+    """Return values (F,) scaled down phrase by phrase until they are usually within ``most``, with extremes limited
+    softly; never scaled up."""
     sizes = np.sqrt(gaussian_filter1d(np.square(values), PHRASE_S * fps, mode="nearest"))
     if not sizes.all():
         return values

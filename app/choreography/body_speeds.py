@@ -23,7 +23,7 @@ def part_speeds(clip: MotionClip) -> FloatArray:
 
 
 def angle(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Radians between rotations (..., 4)."""
+    """Return the angle in radians between rotations (..., 4)."""
     # By the distance of the unit quaternions, which is exact where it is small, as the cosine is not.
     dot = np.einsum("...i,...i->...", a, b)
     apart = np.linalg.norm(a - np.where(dot < 0.0, -1.0, 1.0)[..., None] * b, axis=-1)
@@ -31,6 +31,6 @@ def angle(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def runs(of: BoolArray) -> list[tuple[int, int]]:
-    """Return the half-open spans in which a condition is true."""
+    """Return the spans (start, stop) of frames in which a condition (F,) is true; ``stop`` is exclusive."""
     edges = np.flatnonzero(np.diff(of.astype(np.int8), prepend=0, append=0))
     return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))

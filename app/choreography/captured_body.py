@@ -44,7 +44,7 @@ THUMB: Final = ("Metacarpal", "Proximal", "Distal")
 
 @dataclass(frozen=True, eq=False)
 class CapturedBody:
-    """A body with its T-pose.
+    """A captured body in motion, with the rotations of its bones in a T-pose found for it.
 
     Attributes
     ----------
@@ -111,7 +111,8 @@ def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = No
 
 
 def _automatic(motion: _Motion) -> tuple[CapturedBody | None, JointMapping, Sequence[str], Sequence[str]]:
-    """Return the automatically found body, its bones or the likeliest ones, and the wrong and missing joints."""
+    """Return the body found in a motion without the user, its bones (or the likeliest ones if it fails), and the wrong
+    and the missing joints."""
     named, by_names = map_joints(motion.figure), _by_names(motion.figure)
     by_lengths = motion.by_lengths()
     ways = [(by_names, True), (motion.by_zero_pose(), True)] if named.profile else []
@@ -130,7 +131,8 @@ def _automatic(motion: _Motion) -> tuple[CapturedBody | None, JointMapping, Sequ
 def _by_hand(
     motion: _Motion, mapping: JointMapping, kept: Collection[str]
 ) -> tuple[CapturedBody | None, Sequence[str], Sequence[str]]:
-    """Return the body of bones with the user's corrections, and the wrong and missing joints."""
+    """Return the body made from bones with the user's corrections, and the wrong and the missing joints; ``kept`` are
+    the corrected joints."""
     if missing := _missing(mapping.bones):
         return None, (), missing
     body = motion.read(mapping, bool(mapping.profile), kept)
@@ -252,7 +254,8 @@ def _missing(bones: Mapping[str, int]) -> list[str]:
 
 
 def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[str, FloatArray]:
-    """Return the ends of feet without toes: their end sites, or the farthest attached point."""
+    """Return the tip (3,), metres in the rest pose, of each foot, by side: its end site or that bone below the ankle
+    which is farthest from it horizontally."""
     rest = rest_of(figure)
     tips = {}
     for side in ("left", "right"):
@@ -267,7 +270,7 @@ def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[s
 
 
 def _world(bvh: BvhClip) -> tuple[FloatArray, FloatArray]:
-    """Return positions (F, J, 3) and rotations (F, J, 4) of the file's joints in its own space."""
+    """Return the positions (F, J, 3) and rotations (F, J, 4) of the file's J joints in its own space."""
     rotations = np.array(bvh.rotations_xyzw, np.float64)
     positions = np.empty((*rotations.shape[:2], 3))
     for joint, parent in enumerate(bvh.parents):
@@ -290,9 +293,8 @@ def _up(positions: FloatArray, bones: Mapping[str, int]) -> str:
 
 
 def _segment_bones(parents: Sequence[int], bones: Mapping[str, int]) -> dict[str, int]:
-    """Return the bone of each segment; the chest is the bone that both arms are attached to, the spine the first
-    between it and the hips, regardless of names.
-    """
+    """Return the bone of each body segment by segment name. Regardless of names the chest is the bone that both arms
+    are attached to, and the spine the first bone between hips and chest."""
     hips = bones["hips"]
     carriers = _above(parents, bones["leftUpperArm"])
     right = set(_above(parents, bones["rightUpperArm"]))
@@ -314,7 +316,8 @@ def _above(parents: Sequence[int], bone: int) -> list[int]:
 
 
 def _thumb(bvh: BvhClip, bones: Mapping[str, int], side: str, places: FloatArray, rotations: FloatArray) -> FloatArray:
-    """Return the value for `Captured.thumbs`."""
+    """Return the vector (F, 3), cm in the world, from the wrist to the end of the thumb in every frame; zeros if there
+    are no thumb bones."""
     parts = [bones[name] for part in THUMB if (name := f"{side}Thumb{part}") in bones]
     if not parts:
         return np.zeros_like(places[:, 0])
@@ -325,7 +328,8 @@ def _thumb(bvh: BvhClip, bones: Mapping[str, int], side: str, places: FloatArray
 
 
 def _tip(bvh: BvhClip, name: str, bone: int, thumbs: Collection[int]) -> FloatArray:
-    """Return the value for `Captured.tips`."""
+    """Return the vector (3,), cm in the bone's own frame, from a bone to its tip: its longest child offset or end site;
+    for a hand the mean of the fingers without the thumb."""
     hand = name.endswith("Hand")
     nexts = [joint for joint, parent in enumerate(bvh.parents) if parent == bone and not (hand and joint in thumbs)]
     ways: FloatArray = np.array(
@@ -337,9 +341,8 @@ def _tip(bvh: BvhClip, name: str, bone: int, thumbs: Collection[int]) -> FloatAr
 
 
 def _hanging(bvh: BvhClip, places: FloatArray, rotations: FloatArray, bone: int) -> FloatArray:
-    """Return points (N, 3) at and below a joint in the mean of poses (P, J, 3) and (P, J, 4): relative to it in its
-    bone's axes.
-    """
+    """Return the points (N, 3) at and below a joint, relative to it in its bone's axes, in the mean of P poses:
+    positions (P, J, 3) and rotations (P, J, 4) of J joints."""
     below = {bone}
     for joint, parent in enumerate(bvh.parents):
         if parent in below:

@@ -41,7 +41,7 @@ certainly one.
 
 @dataclass(frozen=True, eq=False)
 class Captured:
-    """A motion in the world, Y up.
+    """A captured motion in the world, Y up, with the bones known as joints and body segments.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class Captured:
     thumbs: Mapping[str, FloatArray]
 
     def at(self, joint: str) -> FloatArray:
-        """Places (F, 3) of a joint."""
+        """Return the position (F, 3) of a joint in the world."""
         places: FloatArray = self.positions[:, self.joints[joint]]
         return places
 
@@ -138,7 +138,7 @@ class Captured:
 
     @cached_property
     def posed(self) -> IntArray:
-        """Frames of a T-pose that was put before or after the motion, which jumps from or to it."""
+        """Frames (K,) of a T-pose that was put before or after the motion, which jumps from or to it."""
         upright = [np.einsum("fi,fi->f", unit(self.top - self.start("hips")), self.up)]
         for side, sign in SIDES:
             arm = unit(self.at(f"{side}Hand") - self.at(f"{side}UpperArm"))

@@ -111,7 +111,7 @@ def remarks(done: CleanedClip) -> tuple[Message, ...]:
 
 
 def _places(damage: Sequence[Damage], done: CleanedClip) -> str:
-    """Times and parts, as "1.25-1.40 s (hips, leftHand)"."""
+    """Return times and body parts of damage as text, such as "1.25-1.40 s (hips, leftHand)"."""
     fps = done.clip.fps
 
     def place(one: Damage) -> str:

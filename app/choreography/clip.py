@@ -68,11 +68,11 @@ class MotionClip:
         return float((len(self) - 1) / self.fps)
 
     def span(self, start: int, stop: int) -> MotionClip:
-        """Frames ``start`` to ``stop`` (half-open)."""
+        """Return the frames ``start`` to before ``stop`` as a clip."""
         return MotionClip(self.shape, self.fps, self.hips_m[start:stop], self.rotations[start:stop])
 
     def mirrored(self) -> MotionClip:
-        """Return the mirrored motion."""
+        """Return the motion with left and right exchanged."""
         swapped = [
             SEGMENTS.index(name.replace("left", "right") if name.startswith("left") else name.replace("right", "left"))
             for name in SEGMENTS

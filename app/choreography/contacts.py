@@ -58,7 +58,8 @@ def foot_contacts(clip: MotionClip) -> BoolArray:
 
 
 def _hysteresis(begins: BoolArray, goes_on: BoolArray) -> BoolArray:
-    """Return the spans of ``goes_on`` that contain a frame of ``begins``."""
+    """Return a mask (F,) of those runs of ``goes_on`` that contain a frame of ``begins``, so that a contact begins
+    strictly and ends late."""
     spans, _ = label(goes_on)
     held = np.unique(spans[begins & goes_on])
     return np.asarray(np.isin(spans, held[held > 0]))

@@ -130,9 +130,8 @@ def angular_acceleration(clip: MotionClip) -> FloatArray:
 
 
 def _minimum(height: FloatArray, first: int, last: int, rest: int) -> tuple[int, int]:
-    """Return the end of the motion before a minimum and the start of the one after it: one frame, except for a long
-    rest.
-    """
+    """Return the last frame of the motion before a minimum of the height (F,) between two frames, and the first frame
+    of the motion after it. Both are the same, except for a rest longer than twice ``rest`` frames."""
     part = height[first : last + 1]
     lowest = first + np.flatnonzero(part == part.min())
     middle = int(lowest[len(lowest) // 2])

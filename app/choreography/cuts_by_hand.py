@@ -45,7 +45,7 @@ def check_cuts(cuts: Sequence[Cut], frames: int, motion: str) -> None:
 
 
 def bounds(cuts: Sequence[Cut]) -> tuple[int, ...]:
-    """Frames of all bounds, ascending."""
+    """Frames at which any of the cuts starts or ends, ascending, each once."""
     return tuple(sorted({frame for cut in cuts for frame in (cut.start, cut.end)}))
 
 
@@ -120,7 +120,8 @@ def automatic_accent(cuts: Cuts, accent: int, curve_rad_s2: FloatArray) -> Cuts:
 
 
 def extrema(curve_rad_s2: FloatArray) -> tuple[IntArray, IntArray]:
-    """Return the frames of all local minima and maxima including the ends; the first of equal ones."""
+    """Return the frames (K,) of all local minima and maxima of a curve including its ends; of equal neighbours the
+    first."""
     rises = np.diff(curve_rad_s2) > 0.0
     falls = np.diff(curve_rad_s2) < 0.0
     none = np.ones(1, np.bool_)

@@ -140,7 +140,8 @@ def damage(clip: MotionClip, tolerance: float = 1.0, *, captured: bool = True) -
 def _unknown(
     spans: Iterable[tuple[int, int, int]], found: Iterable[tuple[int, int, int]], frames: int
 ) -> Iterator[tuple[int, int, int]]:
-    """Yield the spans without damage of the same part within them and at their ends."""
+    """Yield those spans (start, stop, index of the body part) in which, and at whose ends, no damage of the same part
+    was ``found``."""
     edges = np.zeros((len(PARTS), frames + 1), np.int64)
     for start, stop, part in found:
         edges[part, start] += 1

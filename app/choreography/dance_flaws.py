@@ -60,7 +60,8 @@ def jerking_seams(clip: MotionClip, seams: Sequence[int], usual_rad_s: float) ->
 
 
 def jolts(clip: MotionClip, seams: Sequence[int]) -> tuple[Damage, ...]:
-    """Return the places of impossible motion in a dance, except at its seams."""
+    """Return the frames and body parts with impossible jumps in a dance, except at its ``seams`` (frames between
+    segments)."""
     apart = round(NEAR_S * float(clip.fps))
     return tuple(
         one
@@ -70,7 +71,7 @@ def jolts(clip: MotionClip, seams: Sequence[int]) -> tuple[Damage, ...]:
 
 
 def sliding_stands(clip: MotionClip, standing: Sequence[FootPlant]) -> tuple[FootPlant, ...]:
-    """Return the stands of a dance during which the foot slides."""
+    """Return the foot plants of a dance during which the foot slides faster than `SLIDES_M_S`."""
     tips = tips_m(clip)[..., [0, 2]]
     speeds = np.linalg.norm(np.diff(tips, axis=0), axis=-1) * float(clip.fps)
     return tuple(

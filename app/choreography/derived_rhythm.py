@@ -127,7 +127,7 @@ class _Moments:
         self.silence_s = self.times_s - np.concatenate([[-np.inf], self._sounded_s])[self._first]
 
     def melody(self, beat_s: FloatArray) -> IntArray:
-        """Return the symbol (M,) of the melody note that begins at each moment; -1 if none."""
+        """Return the symbol (M,) of the melody note that begins at each of M moments; -1 if none."""
         found = np.full(len(self.times_s), -1, np.int64)
         last_pitch: int | None = None
         for moment, (time_s, highest) in enumerate(zip(self.times_s, self._begun(np.maximum), strict=True)):
@@ -144,7 +144,7 @@ class _Moments:
         return found
 
     def bass(self, beat_s: FloatArray) -> BoolArray:
-        """(M,) whether a note of the bass begins."""
+        """Return a mask (M,) of the moments at which a note of the bass begins."""
         found = np.zeros(len(self.times_s), bool)
         for moment, (time_s, lowest) in enumerate(zip(self.times_s, self._begun(np.minimum), strict=True)):
             near_s = np.array([-1.0, 1.0]) * (0.5 * beat_s[moment] + 1e-6) + time_s
@@ -154,7 +154,7 @@ class _Moments:
         return found
 
     def accents(self, beat_s: FloatArray) -> BoolArray:
-        """Return whether each moment (M,) is an accent, with no greater one within half a beat."""
+        """Return a mask (M,) of the moments that are accents, with no greater one within half a beat."""
         salience = np.zeros(len(self.times_s))
         reach_s = AROUND_BEATS * beat_s
         start = np.searchsorted(self.times_s, self.times_s - reach_s)
@@ -172,11 +172,12 @@ class _Moments:
         return np.asarray((salience >= 1.0) & greatest)
 
     def _begun(self, which: np.ufunc) -> IntArray:
-        """Return the highest or lowest pitch (M,) that begins at each moment."""
+        """Return the highest or lowest pitch (M,) that begins at each of M moments, as ``which`` is maximum or
+        minimum."""
         return np.asarray(which.reduceat(self._pitches, self._first), np.int64)
 
     def _sounding(self, time_s: float) -> IntArray:
-        """Return the pitches of the notes that sound at a time."""
+        """Return the pitches (K,) of all notes that sound at a time."""
         # All that began before the first of these has ended.
         start = np.searchsorted(self._sounded_s, time_s, side="right")
         stop = np.searchsorted(self._starts_s, time_s, side="right")
@@ -184,7 +185,7 @@ class _Moments:
 
 
 def _beat_at(beats_s: FloatArray, times_s: FloatArray) -> FloatArray:
-    """Return the length (M,) of the beat at each time."""
+    """Return the length (M,) in seconds of the beat at each of M times."""
     if len(beats_s) < 2:
         return np.ones(len(times_s))
     lengths_s = np.diff(beats_s)

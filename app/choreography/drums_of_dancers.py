@@ -116,7 +116,7 @@ def take_shares(
 
 
 def beats_at(rhythm: Rhythm, times_s: FloatArray) -> IntArray:
-    """Return the index of the beat at each time."""
+    """Return for each time the index (N,) of the last beat at or before it, 0 before the first beat."""
     return np.clip(np.searchsorted(rhythm.beats_s, times_s + 1e-6, side="right") - 1, 0, len(rhythm.beats_s) - 1)
 
 

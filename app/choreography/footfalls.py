@@ -184,7 +184,8 @@ def _chosen(
 
 
 def _options(time_s: float, grid: AccentGrid, earliest_s: float, latest_s: float) -> list[tuple[float, float]]:
-    """Return the possible times of a landing with their value; the first is the time in the motion."""
+    """Return the possible times of a landing with the value of each: unchanged first, then the accents within reach, of
+    which beats count most."""
     found = [(time_s, 0.0)]
     reach_s = max(time_s - REACH_S, earliest_s), min(time_s + REACH_S, latest_s)
     for at in range(*np.searchsorted(grid.times_s, reach_s).tolist()):
@@ -201,7 +202,8 @@ def _along(
     options: Sequence[Sequence[tuple[float, float]]],
     bounds_s: Sequence[tuple[float, float]],
 ) -> list[tuple[float, float]]:
-    """Return the possible times of a landing together with the other foot's a moment before or after."""
+    """Return the possible times of a landing with their values if the other foot lands a moment before or after, so
+    that both keep their distance in time."""
     found = []
     for other in (at - 1, at + 1):
         if not 0 <= other < len(falls) or falls[other].foot == falls[at].foot:
@@ -217,7 +219,8 @@ def _along(
 def _possible(
     falls: Sequence[FootPlant], times: Sequence[float], one: int, other: int, earlier: FloatArray, later: FloatArray
 ) -> np.ndarray:
-    """Return whether (E, L) one landing can be at the first times and a later one at the second times."""
+    """Return a mask (E, L): True where the landing ``one`` can be at the time ``earlier[e]`` while the landing
+    ``other`` is at ``later[l]``, so that they keep their distance."""
     way_s = times[other] - times[one]
     least_s = APART_S if falls[one].foot != falls[other].foot else LEAST_STAND_S + LEAST_SWING_S
     gap_s = later[None, :] - earlier[:, None]

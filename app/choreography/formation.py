@@ -77,7 +77,8 @@ def roles(formation: Formation, dancers: int, manner: Manner, sources: int) -> t
 def dance_together(
     choreographer: Choreographer, rhythm: Rhythm, cast: tuple[Role, ...], fps: Fraction
 ) -> tuple[Dance, ...]:
-    """Return the dances of roles at their places with equal length. Equal arguments give identical results."""
+    """Choreograph a dance for every role of a cast, each at its place on stage; all last equally long. Equal arguments
+    give identical results."""
     rhythms = [delayed(rhythm, role.delay_beats) if role.delay_beats else rhythm for role in cast]
     end_s = max((float(one.beats_s[-1]) for one in rhythms if len(one.beats_s)), default=0.0) + ENDS_S
     return tuple(
@@ -87,7 +88,7 @@ def dance_together(
 
 
 def _at(dance: Dance, x_m: float) -> Dance:
-    """The dance at a place in the row."""
+    """Return the dance moved sideways by ``x_m`` metres, to its place in the row of dancers."""
     if x_m == 0.0:
         return dance
     move = np.array((x_m, 0.0, 0.0))

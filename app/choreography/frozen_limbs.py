@@ -88,7 +88,8 @@ def _bodies(speeds: FloatArray) -> Iterator[tuple[int, int]]:
 
 
 def _rests(clip: MotionClip, speeds: FloatArray, part: int) -> list[tuple[int, int]]:
-    """Return the spans of steps in which a segment is constant."""
+    """Return the spans (first, stop) of frame steps in which a body part of a clip does not move at all, as after lost
+    tracking; ``speeds`` (F - 1, parts) is radians per second."""
     found = []
     for most, least in ((EXACT, FROZEN), (NEARLY_RAD_S, max(FROZEN, round(NEARLY_S * float(clip.fps))))):
         still = np.asarray(speeds[:, part] <= most)

@@ -82,7 +82,8 @@ class _Plan:
 
 
 class _Motion(NamedTuple):
-    """Stitched motion within its stage, with captured stands of the feet, seams and speeds."""
+    """Motion of a plan stitched together on its stage: the clip, its way over the floor, captured floor contact of the
+    feet, seams between segments, and speeds."""
 
     clip: MotionClip
     moved_m: FloatArray
@@ -118,12 +119,12 @@ class Choreographer:
 
     @cached_property
     def _stands(self) -> list[tuple[FootPlant, ...]]:
-        """Return the stands of the feet in each clip."""
+        """For each clip of the library the spans in which a foot stands."""
         return [stands(*pair) for pair in zip(self.model.clips, self._stitcher.contacts, strict=True)]
 
     @cached_property
     def _falls_s(self) -> list[FloatArray]:
-        """Return the times of footfalls in each clip, ascending."""
+        """For each clip the times in seconds at which a foot lands, ascending."""
         return [
             np.array(sorted({stand.start / float(clip.fps) for stand in standing}), np.float64)
             for clip, standing in zip(self.model.clips, self._stands, strict=True)
@@ -135,18 +136,19 @@ class Choreographer:
 
     @cached_property
     def _arrivals(self) -> list[IntArray]:
-        """Return the frames of arrivals in each clip."""
+        """For each clip the frames (N,) at which a movement arrives: minima of the joints' mean speed."""
         return [arrival_frames(speed, fps) for speed, fps in zip(self._speeds, self._fps, strict=True)]
 
     @cached_property
     def _hits_s(self) -> FloatArray:
-        """Return the time (S,) in its clip of each segment's moment that is put on the beat."""
+        """Time (S,) in its clip of that moment of each of S segments which is put on the beat, in seconds."""
         slow = [smoothed(speed, fps) for speed, fps in zip(self._speeds, self._fps, strict=True)]
         return accents_s(self.model.segments, self._fps, slow, self._arrivals, self._falls_s)
 
     @cached_property
     def _idle(self) -> FloatArray:
-        """Return the result of `app.choreography.idling.idling_odds`."""
+        """Log odds (S,) against each segment because its dancer idles rather than dances (see
+        `app.choreography.idling.idling_odds`)."""
         return idling_odds(self.model.segments, self._speeds, self._fps)
 
     @cached_property
@@ -220,13 +222,15 @@ class Choreographer:
         return Dance(clip, first_s, plan.steps, speeds, seams, falls.standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:
-        """See `app.choreography.dance_flaws.usual_change_rad_s`: of the model's capture."""
+        """Usual change of motion in the model's captures, for a frame rate (see
+        `app.choreography.dance_flaws.usual_change_rad_s`)."""
         if fps not in self._usual_rad_s:
             self._usual_rad_s[fps] = usual_change_rad_s(self.model.clips, fps)
         return self._usual_rad_s[fps]
 
     def _usual_accelerations(self, fps: Fraction) -> UsualAccelerations:
-        """See `app.choreography.sudden_ends.usual_accelerations`: of the model's capture."""
+        """Usual accelerations in the model's captures, for a frame rate (see
+        `app.choreography.sudden_ends.usual_accelerations`)."""
         if fps not in self._usual_ends:
             self._usual_ends[fps] = usual_accelerations(self.model.clips, fps)
         return self._usual_ends[fps]
@@ -234,7 +238,8 @@ class Choreographer:
     def steps(
         self, rhythm: Rhythm, manner: Manner, *, constraints: Constraints | None = None, weights: Weights | None = None
     ) -> tuple[SegmentStep, ...]:
-        """Return the danced segments with their times."""
+        """Choose the segments of the motion library that are danced to a rhythm, and return them in order with their
+        times."""
         return self._planned(self.felt(rhythm), manner, constraints, weights).steps
 
     def felt(self, rhythm: Rhythm) -> Rhythm:
@@ -244,7 +249,8 @@ class Choreographer:
     def _planned(
         self, rhythm: Rhythm, manner: Manner, constraints: Constraints | None, weights: Weights | None
     ) -> _Plan:
-        """Return the danced segments with their times and time map."""
+        """Choose the segments for a rhythm, and fit them to its accents; the plan has the segments, their times, and
+        the map from performance to motion time."""
         candidates, grid, segments = self.candidates, grid_of(rhythm), self.model.segments
         initial = np.log(self.model.initial * self.model.states)[candidates.states]
         preferred = PREFERRED * np.array([one.clip == manner.source for one in segments], np.float64)
@@ -265,7 +271,8 @@ class Choreographer:
         return self._timed(chosen, grid, manner.source or 0, np.array([place in held for place, _ in chosen], bool))
 
     def _take_shares(self, rhythm: Rhythm, grid: AccentGrid) -> TakeShares:
-        """Return the result of `app.choreography.drums_of_dancers.take_shares`."""
+        """Return the share of each take of the library at the accents of the grid: takes whose drums were like those of
+        the rhythm get more (see `app.choreography.drums_of_dancers.take_shares`)."""
         takes = np.array([one.clip for one in self.model.segments], np.int64)
         lasting = self.candidates.before_s + self.candidates.after_s
         return take_shares(self.hearing.percussion.drums, rhythm, grid.times_s, takes, lasting)
@@ -277,7 +284,8 @@ class Choreographer:
         return np.asarray(0.5 * STANDING * (self._stitcher.feet_standing(frames) - 2.0))
 
     def _timed(self, chosen: Sequence[tuple[int, int]], grid: AccentGrid, body: int, held: BoolArray) -> _Plan:
-        """Segments at their first places, then with all arrivals of the body on beats; ``held`` ones stay."""
+        """Return the plan of the chosen (accent, segment) pairs: segments at their first times, then shifted so that
+        all arrivals of the body fall on beats; those in the mask ``held`` stay."""
         if not chosen:
             return _Plan((), None, np.zeros(0))
         candidates, segments = self.candidates, np.array([segment for _, segment in chosen])
@@ -321,9 +329,8 @@ class Choreographer:
     def _draft(
         self, plan: _Plan, body: int, times_s: FloatArray, grid: AccentGrid
     ) -> tuple[MotionClip, FloatArray, FloatArray]:
-        """Return the motion of a plan at `DRAFT_FPS` with feet on the beats, and the footfalls before and after this
-        adjustment.
-        """
+        """Return the motion of a plan at `DRAFT_FPS` with its feet moved to the beats, and the times (K,) of the
+        footfalls before and after that."""
         draft = self._motion(plan, body, DRAFT_FPS, times_s)
         standing = stands(draft.clip, draft.contacts, draft.moved_m)
         falls = self._on_beats(draft.clip, standing, float(times_s[0]), grid)
@@ -334,12 +341,14 @@ class Choreographer:
     def _on_beats(
         self, clip: MotionClip, standing: tuple[FootPlant, ...], first_s: float, grid: AccentGrid
     ) -> Footfalls:
-        """Return the result of `app.choreography.footfalls.on_beats`."""
+        """Return the foot plants of a clip moved to accents of the music (see `app.choreography.footfalls.on_beats`);
+        ``first_s`` is the time of the clip's first frame."""
         speeds_m_s = foot_speeds_m_s(clip) if len(clip) > 1 else None
         return on_beats(standing, len(clip), float(clip.fps), first_s, grid, self._step_s, speeds_m_s)
 
     def _arrivals_s(self, segments: IntArray, hits: FloatArray) -> FloatArray:
-        """Return the positions of arrivals along all motions: speed minima of the concatenated segments."""
+        """Return the times (K,) in seconds along all motions at which movements arrive: speed minima of the
+        concatenated segments."""
         ends = hits + self.candidates.after_s[segments]
         first = hits[0] - float(self.candidates.before_s[segments[0]])
         along = np.arange(first, ends[-1], 1.0 / FPS)
@@ -352,7 +361,7 @@ class Choreographer:
         return np.asarray(along[arrival_frames(speed, FPS)])
 
     def _falls_along(self, segments: IntArray, hits: FloatArray) -> FloatArray:
-        """Return the positions of footfalls along all motions of the concatenated segments."""
+        """Return the times (K,) in seconds along all motions at which feet land in the concatenated segments."""
         found = []
         for segment, hit, hit_s in zip(segments.tolist(), hits, self._hits_s[segments], strict=True):
             one = self.model.segments[segment]
@@ -362,7 +371,8 @@ class Choreographer:
         return np.concatenate(found)
 
     def _motion(self, plan: _Plan, body: int, fps: Fraction, times_s: FloatArray) -> _Motion:
-        """The frames of a plan on their stage."""
+        """Return the frames of a plan at ascending times: the segments stitched together for a body, and their way over
+        the stage."""
         assert plan.times is not None
         along, speeds = plan.times.at(times_s)
         segments = np.array([step.segment for step in plan.steps])

@@ -127,7 +127,7 @@ def _away_m(point: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray
 
 
 def _place_m(clip: MotionClip, world: JointTransforms, name: str) -> FloatArray:
-    """(F, 3) a joint, or the crown."""
+    """Position (F, 3) of a joint in the world by its name, or of the ``"crown"``, the top of the head."""
     if name != "crown":
         return world.positions_m[:, 1 + SEGMENTS.index(name)]
     head = 1 + SEGMENTS.index("head")

@@ -39,7 +39,7 @@ class HeardHits:
         return np.asarray(np.searchsorted(self.times_s, np.asarray(at_s) - SAME_S))
 
     def between(self, start_s: FloatArray | float, stop_s: FloatArray | float) -> FloatArray:
-        """Return the log odds (S,) of the hits in a span of each segment, or in one span."""
+        """Return the log odds (S,) of the hits between two times for S segments; the times may differ by segment."""
         first, stop = self.before(start_s), self.before(stop_s)
         segments = np.arange(self.summed.shape[1])
         return np.asarray(self.summed[stop, segments] - self.summed[first, segments])
@@ -63,9 +63,8 @@ class SoundOdds:
     drums: DancersDrums
 
     def of_hits(self, rhythm: Rhythm, *, any_dancer: bool) -> FloatArray:
-        """Return the log odds (H, S) of each hit, including those of dancers if the dancer is to be chosen by
-        sounds.
-        """
+        """Return the log odds (H, S) of S segments at each of H drum hits; with ``any_dancer`` also those of the
+        dancers whose drums are like the rhythm."""
         found = self.of_motions[:, rhythm.symbols].T
         if not any_dancer or len(rhythm.beats_s) < 2:
             return found
@@ -156,8 +155,7 @@ def _odds(
 
 
 def learned_symbols(model: ChoreographyModel) -> tuple[int, ...]:
-    """Return the percussion symbols that were counted with some state: those with a probability above the least of a
-    state, which results from smoothing only.
-    """
+    """Return the percussion symbols that occurred in training: those more probable for a motion than by smoothing
+    alone."""
     least = model.emission.min(axis=1, keepdims=True)
     return tuple(np.flatnonzero((model.emission > least * (1.0 + 1e-9)).any(axis=0)).tolist())

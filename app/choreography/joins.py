@@ -27,7 +27,7 @@ FADE_S: Final = 0.45
 
 
 class Clouds:
-    """Bodies about some frames for comparison.
+    """Points of bodies in given frames, by which frames are compared regardless of place and direction.
 
     Parameters
     ----------
@@ -60,9 +60,8 @@ _WEIGHTS /= _WEIGHTS.sum()
 
 
 def distances_m(before: Clouds, after: Clouds) -> FloatArray:
-    """Return the root mean square distance (N, M) in metres of the bodies' points, for the best alignment of each
-    pair.
-    """
+    """Return the root mean square distances (N, M) in metres between N and M bodies' points, each pair turned and moved
+    over the floor for the best match."""
     turned = np.abs((before.flat.conj() * _WEIGHTS) @ after.flat.T)
     flat = _square(np.abs(before.flat), np.abs(after.flat)) - 2.0 * turned
     high = _square(before.height, after.height) - 2.0 * (before.height * _WEIGHTS) @ after.height.T
@@ -75,7 +74,8 @@ def _square(before: FloatArray, after: FloatArray) -> FloatArray:
 
 
 def best_turn_rad(before: ComplexArray, after: ComplexArray) -> float:
-    """Return the rotation about +Y in radians that aligns one body with another, both as in `Clouds.flat` (P,)."""
+    """Return the rotation about +Y in radians that aligns one body with another; both are P points as in
+    `Clouds.flat`."""
     return float(np.angle((after.conj() * before) @ _WEIGHTS))
 
 

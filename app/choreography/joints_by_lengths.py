@@ -33,7 +33,8 @@ STRAIGHT: Final = 0.03
 
 @dataclass(frozen=True)
 class _Limb:
-    """A limb from the joint that it is attached to: joints to the end, and those that bound its two parts."""
+    """An arm or leg of unknown names: its ``root`` joint on the trunk, the ``path`` to its end, the three joints that
+    bound its two parts, and its length."""
 
     root: int
     path: tuple[int, ...]

@@ -202,13 +202,13 @@ def _cuts(pair: Pair, clip: MotionClip) -> tuple[Cut, ...]:
 
 
 def _unfit(pair: Pair) -> tuple[tuple[int, int], ...]:
-    """Return the frames at `FPS` not to learn from."""
+    """Return the spans (start, stop) of frames at `FPS` that the user excluded from learning."""
     rate = FPS / pair.motion.fps
     return tuple((math.floor(start * rate), math.ceil(stop * rate)) for start, stop in pair.unfit)
 
 
 def _fit(cuts: Sequence[Cut], unfit: Sequence[tuple[int, int]]) -> tuple[Cut, ...]:
-    """Return the cuts that do not touch unfit spans."""
+    """Return the cuts that do not overlap the spans of frames excluded by the user."""
     return tuple(cut for cut in cuts if all(cut.end <= start or stop <= cut.start for start, stop in unfit))
 
 
@@ -221,7 +221,7 @@ def _source(pair: Pair, clip: MotionClip) -> TrainingPair:
 
 
 def _sounding(pair: Pair, source: TrainingPair, segments: Sequence[MotionSegment]) -> list[MotionSegment]:
-    """Return the motions of a clip with the symbols during each."""
+    """Return the segments of a clip with the symbols of the drums that sound during each."""
     spans = [(one.start, one.end) for one in segments]
     sounds = _sounds(pair.rhythm, source, spans)
     _require_sounds(pair, sounds)
@@ -230,7 +230,7 @@ def _sounding(pair: Pair, source: TrainingPair, segments: Sequence[MotionSegment
 
 
 def _sounds(rhythm: Rhythm, source: TrainingPair, spans: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
-    """Return the symbols during spans of a clip's frames."""
+    """Return the symbols of the drum hits during each span of a clip's frames, in order."""
     bounds = np.array(spans, np.float64).reshape(-1, 2) / float(FPS)
     symbols = rhythm.symbols.tolist()
     within = np.searchsorted(rhythm.hits_s, bounds - source.offset_s).tolist()

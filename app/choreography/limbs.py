@@ -106,7 +106,8 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 
 def _softly(distance: FloatArray, longest: float) -> FloatArray:
-    """Return distances limited softly near full extension, so that the knee does not snap."""
+    """Return distances (F,) from hip to ankle that approach ``longest`` softly instead of exceeding it, so that the
+    knee does not snap."""
     band = SOFT_SHARE * longest
     over = np.maximum(distance - (longest - band), 0.0)
     return np.asarray(np.where(over > 0.0, longest - band * np.exp(-over / band), distance))

@@ -123,7 +123,8 @@ def _undone(clip: MotionClip, at: int, one: Damage, other: Damage) -> bool:
 
 
 def _united(lost: Sequence[Damage], clip: MotionClip) -> tuple[Damage, ...]:
-    """Return the damage with a margin, with overlapping spans joined."""
+    """Return damaged spans, widened by `MARGIN_S` at both ends; overlapping ones become one with the body parts of
+    both."""
     margin = round(MARGIN_S * float(clip.fps))
     found: list[Damage] = []
     for one in sorted(lost):
@@ -192,7 +193,7 @@ class _Body:
             _bridge(self._hips, one, self._clip)
 
     def clip(self) -> MotionClip:
-        """Return the present clip."""
+        """Return the clip with the damage repaired so far."""
         self._move(len(self._hips))
         return replace(self._clip, hips_m=self._hips.copy(), rotations=self._turns.copy())
 
@@ -205,7 +206,8 @@ class _Body:
         self._done = some.stop
 
     def _led(self, one: Damage) -> tuple[FloatArray, FloatArray]:
-        """Return the expected place and rotation of the hips at the first sound frame."""
+        """Return the hips' position (3,) and rotation (4,) expected at the first frame behind a damaged span, if they
+        had moved on as before."""
         hips, turns = self._hips, self._turns[:, 0]
         turn = _led(turns, one)
         missing = quaternion.multiply(turn, quaternion.conjugate(turns[one.stop]))
@@ -249,7 +251,8 @@ def _led(turns: FloatArray, one: Damage) -> FloatArray:
 
 
 def _bridge(values: FloatArray, one: Damage, clip: MotionClip) -> None:
-    """Fill in the frames between two in place: with their speeds, or directly if these differ much."""
+    """Fill in the values (F, ...) of the damaged frames in place by a cubic between the sound ones, which continues the
+    speeds at both ends if the span is short."""
     count = one.stop - one.start
     (first, start), (stop, last) = _steps(one, len(values))
     short = count / float(clip.fps) <= LONGEST_S or count <= 2

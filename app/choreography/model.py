@@ -62,7 +62,7 @@ class MotionSegment:
 
 @dataclass(frozen=True, eq=False)
 class ChoreographyModel:
-    """Contents of a ``.choreography`` file.
+    """A learned choreography, the contents of a ``.choreography`` file.
 
     Attributes
     ----------
@@ -88,5 +88,5 @@ class ChoreographyModel:
 
     @property
     def states(self) -> int:
-        """Number of basic motions."""
+        """Number of basic motions of the choreography."""
         return len(self.initial)

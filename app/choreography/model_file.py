@@ -51,7 +51,7 @@ class _Body(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class _Motion(msgspec.Struct, forbid_unknown_fields=True):
-    """Arrays as bytes, stored in JSON as base64."""
+    """A clip's motion in a choreography file: hips and rotations as bytes of arrays, which JSON stores as base64."""
 
     frames: int
     hips_m: bytes
@@ -104,7 +104,7 @@ def read_model(path: str | os.PathLike[str]) -> ChoreographyModel:
 
 
 def encode_model(model: ChoreographyModel) -> bytes:
-    """Return the bytes that `write_model` writes."""
+    """Return the contents of the ``.choreography`` file of a model."""
     fps = model.clips[0].fps
     content = _File(
         choreography_version=VERSION,

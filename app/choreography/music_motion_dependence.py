@@ -101,7 +101,7 @@ def verdict(found: Pairing) -> Message:
 
 
 def _earliest(groups: IntArray, places: FloatArray) -> FloatArray:
-    """(S,) the least place of each group."""
+    """Return for each element (S,) the least place of its group."""
     least = np.full(groups.max(initial=0) + 1, np.inf)
     np.minimum.at(least, groups, places)
     return np.asarray(least[groups])
@@ -138,15 +138,14 @@ class _Test:
         return used >= LEAST and min(map(len, (*self._parts, self._held_out))) > 0
 
     def bits(self, sounds: FloatArray) -> float:
-        """Return the bits per motion by which sounds (S, 47) predict the held-out motions."""
+        """Return the bits per motion by which the sounds (S, 47) during S motions predict those held out."""
         tried = self._told(*self._parts, sounds, TRUSTS)
         trust = TRUSTS[max(1, int(tried.argmax()))]
         return float(self._told(self._learned, self._held_out, sounds, (trust,))[0])
 
     def other_order(self, random: np.random.Generator) -> IntArray:
-        """Return for each motion (S,) the index of the motion whose music it gets, with sections of each source in
-        random order.
-        """
+        """Return for each of S motions the index (S,) of the motion whose music it gets, with sections of each source
+        in random order."""
         order = np.empty(len(self._states), np.int64)
         for clip in range(self._shape[0]):
             own = np.flatnonzero(self._clips == clip)
@@ -157,7 +156,7 @@ class _Test:
         return order
 
     def _told(self, learned: IntArray, asked: IntArray, sounds: FloatArray, trusts: tuple[float, ...]) -> FloatArray:
-        """Return the bits per motion (T,) by which sounds predict given motions, at each level of trust."""
+        """Return the bits per motion by which sounds predict given motions, at each of T levels of trust (T,)."""
         counts = np.zeros((*self._shape, len(SYMBOLS)))
         np.add.at(counts, (self._clips[learned], self._states[learned]), sounds[learned])
         of_all = counts.sum(axis=0) + 1.0 / len(SYMBOLS)

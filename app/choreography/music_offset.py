@@ -106,7 +106,8 @@ def speed_minima(speed: FloatArray, fps: float, smoothing_s: float) -> tuple[Int
 
 
 def _pulses(times_s: FloatArray, weights: FloatArray, length_s: float) -> FloatArray:
-    """A bump at each time on the grid from 0 to the length, about a mean of 0."""
+    """Return a grid (N,) from 0 to ``length_s`` in steps of `GRID_S` with a bump of each weight at its time, less its
+    mean."""
     pulses = np.zeros(round(length_s / GRID_S) + 1)
     np.add.at(pulses, np.clip(np.round(times_s / GRID_S).astype(np.int64), 0, len(pulses) - 1), weights)
     bumps = gaussian_filter1d(pulses, TOLERANCE_S / np.sqrt(2.0) / GRID_S, mode="constant")
@@ -115,7 +116,8 @@ def _pulses(times_s: FloatArray, weights: FloatArray, length_s: float) -> FloatA
 
 
 def _fit(motion: FloatArray, music: FloatArray) -> tuple[FloatArray, IntArray]:
-    """Return the correlation of the common part at each lag of the music, -1..1, and the lags in grid steps."""
+    """Return the correlation (K,), -1..1, of the overlapping parts of motion and music at each lag, and the lags (K,)
+    in grid steps."""
     lags = np.arange(-(len(music) - 1), len(motion))
     from scipy.signal import correlate  # heavy; only who learns a dance needs it
 

@@ -31,7 +31,7 @@ _DIRECTIONS: Final = 8
 
 
 def groups_of_copies(model: ChoreographyModel) -> IntArray:
-    """Return the group (S,) of each motion of a model, equal for copies of each other."""
+    """Return the group (S,) of each of a model's S motions, equal for copies of each other."""
     clips = np.array([one.clip for one in model.segments], np.int64)
     order = np.argsort(clips, kind="stable")
     groups = np.zeros(len(order), np.int64)
@@ -41,7 +41,7 @@ def groups_of_copies(model: ChoreographyModel) -> IntArray:
 
 
 def _groups(found: FloatArray, clips: IntArray) -> IntArray:
-    """(S,) groups of motions with features (S, D), in the order of their clips."""
+    """Return the group (S,) of each of S motions with D features (S, D), in the order of their clips."""
     count = len(found)
     # A point has three coordinates.
     most = COPIES * np.sqrt(found.shape[1] / 3.0)
@@ -58,7 +58,8 @@ def _groups(found: FloatArray, clips: IntArray) -> IntArray:
 
 
 def _on_end(pairs: IntArray, clips: IntArray) -> BoolArray:
-    """Return whether each pair is within `ON_END` consecutive pairs in both clips."""
+    """Return a mask of the pairs (P, 2) of segments that belong to at least `ON_END` consecutive pairs in both clips,
+    so that one is a copy of the other."""
     order = np.lexsort((pairs[:, 0], pairs[:, 1] - pairs[:, 0]))
     one, other = pairs[order].T
     breaks = (

@@ -45,7 +45,7 @@ class ReturningPlaces:
 
 
 def returns_of_bars(rhythm: Rhythm) -> FloatArray:
-    """Return `ReturningPlaces.worths` by bar (B, B); bars are between downbeats."""
+    """Return the values of `ReturningPlaces.worths` for each pair of B bars (B, B); bars are between downbeats."""
     alike = _along_passages(likeness_of_bars(rhythm))
     bars = len(alike)
     later = np.tril(np.ones((bars, bars), bool), -APART_BARS)
@@ -57,9 +57,8 @@ def returns_of_bars(rhythm: Rhythm) -> FloatArray:
 
 
 def likeness_of_bars(rhythm: Rhythm) -> FloatArray:
-    """Return the cosine similarities (B, B) of hits in bars by sound, position and strength; with a melody, the mean of
-    both.
-    """
+    """Return the cosine similarity (B, B) of the hits in each pair of B bars by sound, position and strength; with a
+    melody, the mean of both."""
     struck = _likeness(rhythm)
     return struck if rhythm.melody is None else 0.5 * (struck + likeness_of_bars(rhythm.melody))
 
@@ -101,7 +100,8 @@ def returning_places(rhythm: Rhythm, times_s: FloatArray) -> ReturningPlaces | N
 
 
 def _along_passages(alike: FloatArray) -> FloatArray:
-    """Return the mean similarity of each pair of bars and of those before and after both."""
+    """Return the similarity (bars, bars) of each pair of bars averaged with the pairs just before and after, so that
+    similar passages stand out."""
     bars = len(alike)
     total, weight = np.zeros_like(alike), np.zeros_like(alike)
     reach = round(3.0 * AROUND_BARS)

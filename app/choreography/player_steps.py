@@ -63,7 +63,8 @@ HEARD_S: Final = 2.0
 
 @dataclass(frozen=True)
 class _Touchdown:
-    """A landing of a dancer's foot: time, offset from its usual place (left, forward), and distance."""
+    """A landing of a dancer's foot (0: left): time, offset from its usual place in metres (left, forward), and length
+    of the step."""
 
     foot: int
     time_s: float
@@ -71,7 +72,7 @@ class _Touchdown:
     way_m: float
 
     def other(self) -> _Touchdown:
-        """The touchdown with the feet exchanged."""
+        """Return the same landing with left and right exchanged."""
         return _Touchdown(1 - self.foot, self.time_s, (-self.place_m[0], self.place_m[1]), self.way_m)
 
 
@@ -121,7 +122,8 @@ def _phrase(time_s: float, rhythm: Rhythm) -> int:
 
 
 def _places(rhythm: Rhythm) -> tuple[FloatArray, BoolArray]:
-    """Return the places of the beat for landings, and which of them are beats."""
+    """Return the seconds (N,) at which a step may land (beats and the halves between them), and a mask (N,) of those
+    that are beats."""
     beats_s = rhythm.beats_s
     if len(beats_s) < 3:
         return beats_s, np.ones(len(beats_s), bool)
@@ -137,7 +139,7 @@ def _places(rhythm: Rhythm) -> tuple[FloatArray, BoolArray]:
 
 
 def _heard(places_s: FloatArray, rhythm: Rhythm) -> BoolArray:
-    """Return at which places something sounds."""
+    """Return for each time (N,) whether a drum or note of the rhythm sounds within `HEARD_S` of it."""
     if not len(rhythm.hits_s):
         return np.zeros(len(places_s), bool)
     low, high = (np.searchsorted(rhythm.hits_s, places_s + way) for way in (-HEARD_S, HEARD_S))
@@ -203,7 +205,8 @@ def _stepped(
 
 
 def _nearest(time_s: float, places_s: FloatArray, strong: BoolArray) -> int:
-    """Return the index of the beat place for a landing."""
+    """Return the index of the place of the beat that suits a landing best; places between beats count as farther
+    away."""
     off_s = np.abs(places_s - time_s)
     beat_s = float(np.median(np.diff(places_s[strong])))
     return int((off_s + np.where(strong, 0.0, BETWEEN * beat_s)).argmin())
@@ -237,7 +240,8 @@ def _with_marks(
     rhythm: Rhythm,
     seed: int,
 ) -> list[_Row]:
-    """Return the steps with marks by heels and toes at some beat places without steps."""
+    """Return the steps of a player supplemented with taps of heels and toes at some of the places of the beat that have
+    no step."""
     rows, lands_s = list(stepped), np.array([row.lands_s for row in stepped])
     apart_s = float(np.median(np.diff(rhythm.beats_s)))
     last_phrase, foot = -1, 0

@@ -34,7 +34,7 @@ REQUIRED: Final = tuple(name for name in SEGMENTS if name not in ("spine", "ches
 
 @dataclass(frozen=True, eq=False)
 class RawSkeleton:
-    """A file's skeleton in one frame.
+    """Skeleton of a motion file in one frame, as shown to the user who maps its bones.
 
     Attributes
     ----------

@@ -99,7 +99,7 @@ class ReadMotion:
 
     @property
     def clip(self) -> MotionClip:
-        """The motion."""
+        """The motion that was read, with its damage mended."""
         return self.cleaned.clip
 
     @property
@@ -269,7 +269,8 @@ def _offsets(positions: FloatArray, rotations: FloatArray) -> FloatArray:
 
 
 def _end(name: str, ways: FloatArray) -> FloatArray:
-    """Return the farthest point (3,) of a last segment among those (N, 3) in the T-pose."""
+    """Return the farthest tip (3,) of a last segment among the points ``ways`` (N, 3) in the T-pose, for the crown,
+    hand or foot."""
     along = {"head": (0.0, 1.0, 0.0), "leftHand": (1.0, 0.0, 0.0), "rightHand": (-1.0, 0.0, 0.0)}
     reach = ways @ np.array(along.get(name, (0.0, 0.0, 1.0)))
     # A head reaches up over what sticks out of it (eyes); the others as far as the farthest.
@@ -332,7 +333,8 @@ def _floor(positions: FloatArray, rotations: FloatArray, ends: FloatArray) -> fl
 
 
 def _local(rotations: FloatArray) -> FloatArray:
-    """Return rotations relative to parent segments, every frame in the hemisphere of the previous one."""
+    """Return rotations (F, S, 4) relative to the parent segment of each of S segments, with signs chosen so that they
+    are continuous."""
     local = rotations.copy()
     for at, name in enumerate(SEGMENTS[1:], start=1):
         above = SEGMENTS.index(PARENT_OF[name])

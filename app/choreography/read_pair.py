@@ -27,7 +27,7 @@ MOST_CREDITS_BYTES: Final = 2**20
 
 @dataclass(frozen=True, eq=False)
 class ReadPair:
-    """A pair, with guesses about its motion file and its music."""
+    """A motion and its music as read for learning, with the notes about what was guessed in their files."""
 
     pair: Pair
     motion: ReadMotion

@@ -1,4 +1,4 @@
-"""A motion at another frame rate."""
+"""Resamples a captured motion at another frame rate."""
 
 from __future__ import annotations
 

@@ -158,7 +158,8 @@ def _collar(chest: FloatArray, upper: FloatArray, sign: float) -> FloatArray:
 
 
 def _socket_paths(skeleton: Skeleton, world: dict[int, FloatArray], hips_m: FloatArray) -> dict[Side, FloatArray]:
-    """(F, 3) the hip joint of each side."""
+    """Return the position (F, 3) of the hip joint by side, from world rotations (F, 4) by joint and hip positions (F,
+    3)."""
     hips = skeleton.index("hips")
     return {
         side: hips_m + quaternion.rotate(world[hips], skeleton.offsets_m[skeleton.index(f"{side}UpperLeg")])
@@ -233,7 +234,8 @@ def _leg(
     socket_m: FloatArray,
     ankle_m: FloatArray,
 ) -> dict[int, FloatArray]:
-    """Return the rotations of a leg by joint that bring the ankle to its place with the sole on or above the floor."""
+    """Return rotations (F, 4) of a leg's joints, by joint index, that put the ankle at ``ankle_m`` (F, 3) with the sole
+    on or above the floor; ``segments`` and ``places_m`` are the captured rotations and positions by bone name."""
     limb = leg(skeleton, side)
     target, foot = _over_the_floor(skeleton, side, segments[f"{side}Foot"], ankle_m)
     hip, knee, ankle = (places_m[f"{side}{name}"] for name in ("UpperLeg", "LowerLeg", "Foot"))

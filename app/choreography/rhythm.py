@@ -1,4 +1,4 @@
-"""The music for a dancer: beats and hits."""
+"""The music as a dancer receives it: times of beats, bars and drum hits."""
 
 from __future__ import annotations
 

@@ -218,7 +218,8 @@ def _varied(returns: ReturningPlaces, random: np.random.Generator) -> ReturningP
 def _danced_again(
     returns: ReturningPlaces, chosen: Sequence[tuple[int, int]], places: range, segments: int
 ) -> FloatArray:
-    """Return the similarity (P, S) of places to those where each segment was danced, minus that to others."""
+    """Return for P places of the music and S segments the similarity (P, S) of the place to those where the segment was
+    danced before, minus that to the others."""
     danced = np.full(returns.earlier.shape[0] + 1, -1, np.int64)
     for place, segment in chosen:
         danced[place] = segment
@@ -245,9 +246,8 @@ class _Turns:
     def favoured(
         self, grid: AccentGrid, chosen: Sequence[tuple[int, int]], first: int, again: FloatArray
     ) -> FloatArray:
-        """Return 1 for the segments (S,) of the favoured take from a place on; recurring music (``again`` from
-        `_danced_again`) favours the take that was danced to it.
-        """
+        """Return for each of S segments (S,) 1 if it belongs to the take that is favoured from the accent ``first`` on;
+        recurring music (``again`` from `_danced_again`) favours the take that was danced to it."""
         beats, takes = grid.beats, self._takes.takes
         # An accent is danced about its place; what was danced since the last phrase is taken off.
         for (place, segment), (following, _) in pairwise((*chosen[self._counted :], (first, -1))):
@@ -340,7 +340,7 @@ class _Search:
         return self._way_back(best + ends, came, first, stop)
 
     def latest(self, place: int) -> int:
-        """The last place within `MOST_BEATS`."""
+        """Index of the last accent at most `MOST_BEATS` beats after the accent ``place``."""
         return bisect_right(self._grid.beats, self._grid.beats[place] + MOST_BEATS + 1e-6) - 1
 
     def reaches(self, place: int, later: int) -> bool:
@@ -349,7 +349,8 @@ class _Search:
         return any(self._moves.possible(gap_s) for gap_s in gaps_s)
 
     def _way_back(self, best: FloatArray, came: IntArray, first: int, stop: int) -> list[tuple[int, int]]:
-        """Trace the sequence back from the best accent near the end."""
+        """Return the best sequence as (accent, segment) pairs, traced back from the best accent near the end; ``best``
+        are scores (accents, segments), ``came`` the predecessors."""
         reached = best.max(axis=1)
         # The phrase ends with an accent as late as one can be; a place or two later need not have one.
         last = max((row for row in range(stop - first) if reached[row] > NEVER / 2.0), default=-1)
@@ -370,7 +371,8 @@ class _Search:
         return way[::-1]
 
     def _allowed(self, place: int) -> FloatArray:
-        """Return 0 for the segments allowed at a place, minus infinity for the others."""
+        """Return the cost (S,) of S segments at an accent: 0 if the user's constraints allow them, a prohibitive value
+        if not."""
         constraints, states = self._constraints, self._candidates.states
         cost = np.zeros(len(states))
         if place in constraints.segments:
@@ -389,9 +391,8 @@ class _Search:
         return place in self._forbidden or place in self._constraints.pinned or place in self._constraints.segments
 
     def _struck(self, earlier: int, place: int) -> tuple[SingleArray | None, FloatArray | float]:
-        """Return the log odds of hits between two accents: (SHARES, S) until the change of segments, and (S,) in
-        total.
-        """
+        """Return the log odds of the hits between two accents for S segments: (SHARES, S) until the change of segments,
+        and (S,) in total."""
         first, stop = self._hits[earlier], self._hits[place]
         if first == stop:
             return None, 0.0

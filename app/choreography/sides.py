@@ -76,7 +76,8 @@ def _toes_ahead(body: Captured) -> float:
 
 
 def exchanged(joints: Mapping[str, int], names: Sequence[str] = ("",)) -> dict[str, int]:
-    """Return joints with left and right exchanged, only those whose names contain one of the given texts."""
+    """Return joints with the bones of left and right exchanged, only those whose names contain one of the given
+    texts."""
     other = {"left": "right", "right": "left"}
     found = {}
     for joint, bone in joints.items():

@@ -55,7 +55,8 @@ SINK_S: Final = 0.12
 
 @dataclass(frozen=True)
 class FootPlant:
-    """Frames ``start`` to ``stop`` (half-open) in which a foot (0: left) is planted with its tip at a place."""
+    """A span of frames, ``start`` to before ``stop``, in which a foot (0: left) is planted with its tip at one
+    point."""
 
     foot: int
     start: int
@@ -164,7 +165,8 @@ def planted(
 
 
 def _feet_at(tips: FloatArray, world: JointTransforms, shown: FloatArray) -> tuple[FloatArray, JointTransforms]:
-    """Return tips and rotations of the feet in the world at other, possibly fractional, frames."""
+    """Return tips (F, feet, 3) and joint transforms of the feet in the world, taken at other frames ``shown`` (F,
+    feet), which may be fractional."""
     frames = np.arange(len(tips))
     tips, rotations = tips.copy(), world.rotations.copy()
     for foot, name in enumerate(FEET):
@@ -249,9 +251,8 @@ def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> Flo
 
 
 def _edge(correction: FloatArray, frame: int, inwards: int) -> tuple[FloatArray, FloatArray]:
-    """Return value and slope per frame of a correction at the edge of a stand; ``inwards`` is the direction away from
-    the stand.
-    """
+    """Return value and slope per frame (3,) of a correction (F, 3) at the edge of a stand; ``inwards`` is the direction
+    away from the stand."""
     inside = frame + (1 if inwards > 0 else -1)
     inside = min(max(inside, 0), len(correction) - 1)
     slope = (correction[inside] - correction[frame]) * (1 if inwards > 0 else -1)

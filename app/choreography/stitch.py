@@ -81,7 +81,7 @@ class Stitcher:
         self.ends = Clouds(model.clips, [(one.clip, one.end) for one in model.segments])
 
     def feet_standing(self, frames: Sequence[int]) -> IntArray:
-        """Return the number (S,) of standing feet at a frame of each segment's clip."""
+        """Return the number (S,) of standing feet of each of S segments at a frame of its clip."""
         return np.array(
             [
                 self.contacts[one.clip][min(frame, len(self.contacts[one.clip]) - 1)].sum()
@@ -151,9 +151,8 @@ class Stitcher:
     def _captured(
         self, frames: Frames, runs: IntArray, body: int, fps: Fraction
     ) -> tuple[tuple[FloatArray, FloatArray], BoolArray]:
-        """Return hips and rotations of every frame, and of one more after each run, for a body; and the stands of
-        feet.
-        """
+        """Return hips (N, 3) and rotations (N, B, 4) of every frame for a body, with one more frame after each run for
+        the transition, and whether each foot stands."""
         last = runs[1:] - 1
         after_s = frames.source_s[last] + frames.speeds[last] / float(fps)
         source_s, which = (
@@ -182,7 +181,8 @@ class Stitcher:
     def _aligned(
         self, before: int, after: int, turn: float, moved: complex, own_height_m: float
     ) -> tuple[float, complex]:
-        """Return the rotation and move of a segment that align it with the end of the previous one."""
+        """Return the turn about the vertical in radians, and the move over the floor (complex, metres: forward + left ·
+        i), that join a segment to the end of the one before; ``turn`` and ``moved`` are those of the segment before."""
         own = best_turn_rad(self.ends.flat[before], self.starts.flat[after])
         scale = own_height_m / STATURE_M
         reached = complex(np.exp(1j * turn)) * self.ends.middle[before] * scale + moved
@@ -254,7 +254,8 @@ class _Output:
         return complex(self.hips[frame - 1, 2], self.hips[frame - 1, 0])
 
     def lately(self, frame: int) -> complex | None:
-        """Mean place of the hips over `LATELY_S`."""
+        """Mean position of the hips on the floor (complex, metres) over the last `LATELY_S`; None if there are too few
+        frames."""
         first = max(0, frame - round(LATELY_S * self._rate))
         if frame - first < 2:
             return None
@@ -288,7 +289,8 @@ def _steered(turn: float, moved: complex, out: _Output, frame: int, ahead: compl
 
 
 def _placed(hips: FloatArray, rotations: FloatArray, turn: float, moved: complex) -> tuple[FloatArray, FloatArray]:
-    """Turned about +Y and moved over the floor."""
+    """Turn hip positions (F, 3) and bone rotations (F, B, 4) about the vertical by ``turn`` radians, and move them over
+    the floor by ``moved`` (complex, metres: Z + X · i)."""
     flat = np.exp(1j * turn) * (hips[:, 2] + 1j * hips[:, 0]) + moved
     rotations = rotations.copy()
     rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle(_UP, turn), rotations[:, 0])

@@ -89,7 +89,7 @@ def without_twitches(clip: MotionClip, standing: Sequence[FootPlant], usual: Usu
 
 
 def _calmer(clip: MotionClip, planted: BoolArray, usual: UsualAccelerations) -> MotionClip:
-    """Return the motion with too sudden places corrected; the same object if there are none."""
+    """Return the motion with too sudden changes of speed smoothed; the same object if there are none."""
     world, rotations = clip.world(), clip.rotations.copy()
     nowhere = np.zeros(len(clip), bool)
     found = False

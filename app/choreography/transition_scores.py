@@ -57,7 +57,7 @@ def no_meets(segments: int) -> SegmentMeets:
 
 @dataclass(frozen=True, eq=False)
 class MoveTable:
-    """Scores of moves to each segment from some predecessors.
+    """Scores of moves to each of S segments from K predecessors.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class MoveTable:
 
     @cached_property
     def rows(self) -> IntArray:
-        """Flat place of the first column of each row."""
+        """Index of the first element of each row in the flattened table."""
         return np.asarray(np.arange(len(self.starts)) * self.starts.shape[1])
 
     def best(self, before: SingleArray, heard: SingleArray | None) -> tuple[IntArray, SingleArray]:
@@ -146,7 +146,8 @@ class SegmentMoves:
         return self._shortest_s <= gap_s <= self._longest_s
 
     def table(self, earlier: int, place: int, *, every: bool) -> MoveTable:
-        """Return the moves between two places; with ``every`` from all predecessors, if not all are allowed."""
+        """Return the scored moves of all segments between the accents ``earlier`` and ``place``; with ``every`` from
+        all predecessors, if not all are allowed."""
         key, beats = self._key(earlier, place)
         full = (key, beats, every)
         if full not in self._tables:
@@ -154,11 +155,13 @@ class SegmentMoves:
         return self._tables[full]
 
     def table_from(self, start: int, earlier: int, place: int) -> MoveTable:
-        """Return the moves from one segment, (S, 1)."""
+        """Return the possible moves from segment ``start`` to every other, shape (S, 1); ``earlier`` is the segment
+        before, ``place`` the accent."""
         return self._made(np.full((len(self._base), 1), start, np.intp), *self._key(earlier, place))
 
     def _key(self, earlier: int, place: int) -> tuple[int, _Beats]:
-        """Return the rounded time between places, and the times (in hundredths of it) and strengths of beats."""
+        """Return the logarithm of the seconds between two accents, rounded to a step of 2 %, and time (hundredths of
+        the way) and strength of each beat between them."""
         start_s = self._times_s[earlier]
         gap_s = self._times_s[place] - start_s
         beats = tuple(
@@ -169,7 +172,7 @@ class SegmentMoves:
         return round(50.0 * math.log(gap_s)), beats
 
     def _starts(self, key: int, every: bool) -> IntArray:
-        """Return the best predecessors (S, K) of each segment."""
+        """Return for each of S segments its K best predecessors (S, K) at a pace; all segments if ``every``."""
         count = len(self._base)
         if every or count <= MOST_STARTS:
             return np.broadcast_to(np.arange(count), (count, count))
@@ -191,7 +194,8 @@ class SegmentMoves:
         return MoveTable(scores.astype(np.float32), np.ascontiguousarray(starts), met + starts, met + ends, taken)
 
     def _met(self, starts: IntArray, lasts_s: FloatArray, gap_s: float, beats: _Beats) -> FloatArray:
-        """Return the value (S, K) of meetings with beats between accents, for even motion."""
+        """Return the value (S, K) of meeting beats between the accents if each of S segments follows its K predecessors
+        at an even pace."""
         meets = self._costs.meets
         total = np.zeros(starts.shape)
         if not meets.times_s.size:

@@ -79,7 +79,8 @@ def twitches(clip: MotionClip, found: Iterable[tuple[int, int, int]], tolerance:
 
 
 def _limb(end: str) -> tuple[int, ...]:
-    """Return the segments of a limb from its last one."""
+    """Return the three segments of the limb that ends in a hand or foot, as indices in `SEGMENTS`, from the trunk
+    outwards."""
     kind = "Leg" if end in FEET else "Arm"
     side = end.removesuffix("Foot").removesuffix("Hand")
     return tuple(SEGMENTS.index(name) for name in (f"{side}Upper{kind}", f"{side}Lower{kind}", end))
@@ -98,7 +99,8 @@ def _end_m(clip: MotionClip, world: JointTransforms, name: str, reach: float = 1
 
 
 def _far_spans(places: FloatArray, fps: float, most_s: float, far_m: float) -> Iterator[tuple[int, int]]:
-    """Yield the spans between sound frames of a track that is farther from the cubic than a bound."""
+    """Yield spans (start, stop) of frames in which a track of points is farther than ``far_m`` from the cubic between
+    the sound frames around it."""
     speeds = np.linalg.norm(np.diff(places, axis=0), axis=1) * fps
     for length in window_lengths(fps, most_s):
         count = len(speeds) - length - 1

@@ -88,7 +88,7 @@ class TimeMap:
         return along, speeds
 
     def when(self, along_s: FloatArray) -> FloatArray:
-        """Return the times at which moments of the motions are shown."""
+        """Return the performance time (N,) at which each moment of the original motion is shown."""
         times_s, along = self._samples
         return np.asarray(np.interp(along_s, along, times_s))
 

@@ -71,7 +71,7 @@ class DanceSteps:
 
     @cached_property
     def start_s(self) -> FloatArray:
-        """(N,) starts of the steps."""
+        """Start (N,) in seconds of each of N steps."""
         return np.array([step.start_s for step in self.steps])
 
     @cached_property
@@ -81,7 +81,7 @@ class DanceSteps:
 
     @property
     def model(self) -> ChoreographyModel:
-        """The choreography; only without an error."""
+        """The learned choreography of the dance; not available if the dance has an error."""
         assert self.choreographer is not None
         return self.choreographer.model
 
@@ -91,7 +91,7 @@ class DanceSteps:
         return number if number >= 0 and time_s < self.end_s[number] else None
 
     def barred(self, number: int) -> tuple[ForbidState, ...]:
-        """Return the forbidden states at the place of a step."""
+        """Return the user's bans of basic motions that apply to the step with an index."""
         tick = self.ticks[number]
         return tuple(item for item in self.forbidden if item.start_tick <= tick < item.end_tick)
 
@@ -158,7 +158,8 @@ def _figures(choreographer: Choreographer) -> FloatArray:
 
 
 def examples(model: ChoreographyModel, drawn: FloatArray) -> tuple[int | None, ...]:
-    """Return for each basic motion the segment whose figure is nearest to their mean; None if there is no segment."""
+    """Return for each basic motion its most typical segment, the one nearest to the mean of all its segments; None for
+    a motion without any."""
     found: list[int | None] = []
     for state in range(model.states):
         own = segments_of(model, state)
@@ -172,5 +173,5 @@ def examples(model: ChoreographyModel, drawn: FloatArray) -> tuple[int | None, .
 
 
 def segments_of(model: ChoreographyModel, state: int) -> Sequence[int]:
-    """Numbers of the segments of a basic motion."""
+    """Return the indices of the segments whose basic motion is ``state``."""
     return [at for at, one in enumerate(model.segments) if one.state == state]

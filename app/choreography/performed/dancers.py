@@ -127,9 +127,8 @@ class GeneratedDance:
         )
 
     def changed_s(self, before: object) -> FloatArray:
-        """Return the spans (K, 2) in seconds in which the motion differs from another dance's: everything, since one
-        change may alter all that follows.
-        """
+        """Return the spans (1, 2) in seconds in which the motion differs from another dance's: everything, since one
+        change may alter all that follows; none for the same object."""
         frame = self.time_frame
         return np.zeros((0, 2)) if self is before else np.array([[frame.first_frame_s, frame.end_s]])
 
@@ -146,7 +145,7 @@ class GeneratedDance:
         return result[first:]
 
     def starts_s(self, fps: Fraction) -> tuple[float, ...]:
-        """Return the start times of basic motions in seconds."""
+        """Return the seconds at which each basic motion of the dance begins."""
         return tuple(step.start_s for step in self.dance(fps).steps)
 
     @property
@@ -191,7 +190,7 @@ class GeneratedDance:
 
 
 class _Made(NamedTuple):
-    """A generated dance at a frame rate, and the motion of its dancer's character."""
+    """A dance generated at a frame rate, with the motion of its dancer's character."""
 
     fps: Fraction
     dance: Dance
@@ -280,9 +279,8 @@ def assignments_of(
 def not_held(
     corrections: Sequence[DanceCorrection], steps: Sequence[SegmentStep], grid: AccentGrid, tempo_map: TempoMap
 ) -> tuple[Problem, ...]:
-    """Return a problem for every correction that steps do not meet, because it refers to a missing motion or segment,
-    or contradicts others. The corrections stay.
-    """
+    """Return a problem for every correction by the user that the planned steps do not meet, because it refers to a
+    missing motion or segment, or contradicts another. The corrections stay."""
     there = {step.place: step for step in steps}
     pins = [item for item in corrections if not isinstance(item, ForbidState)]
     pinned = {place_of(item.tick, grid, tempo_map) for item in pins} if len(grid.times_s) else set[int]()
