@@ -88,7 +88,7 @@ _EXPECTED: Final = {
 
 
 class ViewerFile(msgspec.Struct, frozen=True):
-    """The answers of one viewer.
+    """The answers of one viewer of an evaluation, read from a file.
 
     Attributes
     ----------
@@ -105,12 +105,12 @@ class ViewerFile(msgspec.Struct, frozen=True):
 
     @property
     def viewer(self) -> str:
-        """The viewer's id."""
+        """The id of the viewer who gave the answers in the file."""
         return self.answers[0].viewer
 
     @property
     def evaluation(self) -> str:
-        """The evaluation's id."""
+        """The id of the evaluation to which the answers in the file belong."""
         return self.answers[0].evaluation
 
 
@@ -155,7 +155,7 @@ def decode_answers(content: bytes, path: Path) -> ViewerFile:
 
 
 def encode_answers(answers: Sequence[Answer]) -> bytes:
-    """Return a file as the page writes it."""
+    """Return a CSV file of answers, as the evaluation's web page writes it."""
     lines = [",".join(COLUMNS)]
     for answer in answers:
         values = msgspec.structs.asdict(answer) | {"seconds": f"{answer.seconds:.1f}"}

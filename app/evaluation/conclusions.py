@@ -38,7 +38,7 @@ def p_text(p: float) -> str:
 
 
 def said_of(question: Question) -> dict[str, Argument]:
-    """Return a question as arguments of a message."""
+    """Return the arguments that describe a question in messages: presentation, aspect and scale."""
     return {
         "presentation": f"results.presentation_{question.presentation}",
         "aspect": f"results.aspect_{question.aspect}",

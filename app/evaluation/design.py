@@ -46,7 +46,7 @@ def new_id() -> str:
 
 
 def codes(count: int, seed: int) -> tuple[str, ...]:
-    """Return codes ``c01`` and on in random order."""
+    """Return random but reproducible codes (``"c01"``, ``"c02"``, ...) that hide from viewers how a video was made."""
     width = max(2, len(str(count)))
     drawn = [f"c{number:0{width}d}" for number in range(1, count + 1)]
     random.Random(seed).shuffle(drawn)

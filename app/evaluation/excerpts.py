@@ -76,7 +76,7 @@ def _played_s(starts_s: FloatArray, ends_s: FloatArray, from_s: float, until_s: 
 
 
 def _notes_s(project: Project) -> tuple[FloatArray, FloatArray]:
-    """Return the start and end times of all players' notes in seconds."""
+    """Return start and end (N,) in seconds of the notes of all players."""
     notes = [note for player in project.players for note in project.part(player).notes]
     clock = project.score.tempo_map
     starts = np.array([note.onset_tick for note in notes], np.float64)

@@ -86,12 +86,12 @@ class _Head(msgspec.Struct):
 
 
 def encoded_key(key: EvaluationKey) -> bytes:
-    """Return the key as indented JSON."""
+    """Return the key of an evaluation as indented JSON."""
     return msgspec.json.format(msgspec.json.encode(key), indent=1) + b"\n"
 
 
 def write_key(key: EvaluationKey, path: Path) -> None:
-    """Write a key atomically. Raises FileError."""
+    """Write the key that assigns codes to variants of an evaluation, atomically. Raises FileError."""
     with atomic_write(path) as stream:
         stream.write(encoded_key(key))
 

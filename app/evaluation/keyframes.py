@@ -85,7 +85,7 @@ class PlayerKeyframes:
 
     @property
     def covered_s(self) -> tuple[float, float]:
-        """Span of the performance in seconds that the file shows."""
+        """Span of the performance in seconds that the motion file covers."""
         return self.start_s, self.start_s + len(self.hips_m) / self.fps
 
     def require_covered(self, excerpt: Excerpt) -> None:
@@ -152,7 +152,8 @@ class Keyframes:
             one.require_covered(excerpt)
 
     def posed(self, player_id: str, time_s: float, pose: Pose) -> Pose:
-        """See `app.performance.chunks.Posed`."""
+        """Return a player's pose at a time from the motion file that is compared, or ``pose`` if it lacks the
+        player."""
         found = self.players.get(player_id)
         return pose if found is None else found.posed(time_s, pose)
 
@@ -207,7 +208,8 @@ def read_keyframes(
 
 
 def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
-    """Return the motion file of each player that has exactly one in the folder."""
+    """Return the path of each player's motion file in a folder, by player id; those without exactly one are left
+    out."""
     try:
         there = {path.name.casefold(): path for path in sorted(folder.iterdir())}
     except OSError as error:
@@ -244,7 +246,7 @@ def _read(path: Path) -> BvhClip:
 
 
 def _on_skeleton(clip: BvhClip, path: Path, performer: Performer) -> tuple[FloatArray, FloatArray]:
-    """Return rotations (F, J, 4) and hips (F, 3) in metres of a character's joints."""
+    """Return rotations (F, J, 4) of a character's J joints and hip positions (F, 3) in metres, from a motion file."""
     skeleton = performer.character.skeleton
     place = {name: joint for joint, name in enumerate(clip.names)}
     below = [joint for joint in range(len(skeleton.names)) if _hangs_on_hips(skeleton, joint)]

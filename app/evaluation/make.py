@@ -123,7 +123,8 @@ def make_evaluation(
 def _files(
     clips: Path, variants: Sequence[Variant], drawn: Sequence[EvaluationClip], scenes: Sequence[ClipScene]
 ) -> dict[Variant, dict[Path, ClipScene]]:
-    """Return the files of every variant; one of them is also the practice clip."""
+    """Return the video files by variant, each with the scene to film; the practice clip is filmed as one of the
+    generated ones."""
     files = {
         variant: {clips / f"{clip.code}.mp4": scenes[clip.excerpt - 1] for clip in drawn if clip.variant == variant}
         for variant in variants
@@ -141,7 +142,7 @@ def _draw(
     wording: Callable[[Message], str],
     report: Report,
 ) -> tuple[LeftOut, ...]:
-    """Write the clips of all variants, and return the performers that could not be drawn."""
+    """Draw and write the video clips of all variants, and return the performers that could not be drawn."""
     left_out = dict[str, LeftOut]()
     for number, (variant, own) in enumerate(files.items()):
 
@@ -192,7 +193,8 @@ def _videos(
 def _keyframes(
     performance: Performance, request: EvaluationRequest, variants: Sequence[Variant]
 ) -> dict[Variant, Keyframes]:
-    """Return other animation given as motion files; empty if there is none or it is a video."""
+    """Read the animation that the user gave as a motion file, to compare it with ours; empty if there is none, or it is
+    a video."""
     path = Path(restored(request.keyframes))
     if "keyframes" not in variants or not holds_motion(path):
         return {}
@@ -245,7 +247,7 @@ def _spans(performance: Performance, request: EvaluationRequest, videos: dict[Va
 def _clips(
     project: Project, request: EvaluationRequest, variants: Sequence[Variant], scenes: Sequence[ClipScene]
 ) -> list[EvaluationClip]:
-    """Return the clips with their codes, excerpt by excerpt."""
+    """Return the clips of an evaluation, each one excerpt in one variant with a random code, in order of excerpts."""
     names = {performer.id: performer.name for performer in project.performers}
     player = names[request.player_ids[0]] if len(request.player_ids) == 1 else ""
     places = [(number, scene, variant) for number, scene in enumerate(scenes, start=1) for variant in variants]

@@ -164,7 +164,7 @@ def motions_of(performance: Performance) -> dict[str, Motion]:
 
 
 def measure_player(performance: Performance, performer: Performer, motion: Motion) -> VariantPlayerMeasures:
-    """Measure a motion against its player's notes."""
+    """Measure how well a motion plays the notes of its player, and how smoothly it moves."""
     plan = performance.plan(performer.player)
     fps = float(motion.fps)
     times_s = motion.first_frame_s + np.arange(motion.frames) / fps
@@ -256,14 +256,20 @@ def _contact(notes: Sequence[FingeringEvent], breaks: Sequence[Break]) -> float 
 
 
 def write_measures(variants: Sequence[VariantMeasures], path: Path) -> None:
-    """Write measures atomically. Raises FileError."""
+    """Write the measures of all variants to a JSON file, atomically. Raises FileError if it cannot be written."""
     content = msgspec.json.encode(_File("suisou-measures", VERSION, tuple(variants)))
     with atomic_write(path) as stream:
         stream.write(msgspec.json.format(content, indent=1) + b"\n")
 
 
 def read_measures(path: Path) -> tuple[VariantMeasures, ...]:
-    """Read measures. Raises FileError."""
+    """Read the measures of every variant from a JSON file of an evaluation.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read, is no file of measures, or of a newer version.
+    """
     found = decode_json(read_file(path, _MOST_BYTES), _File, str(path), "results.not_measures")
     if found.version > VERSION:
         raise FileError("evaluate.newer_key", file=str(path))

@@ -88,8 +88,8 @@ def measure_lag(
 def _lags(
     fingerings: Sequence[FingeringEvent], control: Control, values: FloatArray, times_s: FloatArray
 ) -> Iterator[tuple[int, float]]:
-    """Yield the index of every judged note for which the control moves, and its lag in seconds; infinite if it never
-    arrives.
+    """Yield for every judged note that moves the control its index, and the lag in seconds of the control behind the
+    onset; infinite if it never arrives.
 
     Arrivals are assigned in the order of the notes, each once, so that a late trill note is not taken for the next one.
     """

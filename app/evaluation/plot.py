@@ -23,7 +23,7 @@ _INK: Final[dict[Presentation, str]] = {"single": "#1b6ca8", "pair": "#c2571a"}
 
 
 def plot(results: EvaluationResults, language: str) -> str:
-    """Return the plot as an SVG document."""
+    """Return a diagram of the evaluation's results as an SVG document, with texts in a language."""
     questions = {score.question for score in results.scores}
     aspects = [aspect for aspect in ASPECTS if any(question.aspect == aspect for question in questions)]
     scales = [scale for scale in SCALES if any(question.scale == scale for question in questions)]

@@ -25,14 +25,14 @@ Report: TypeAlias = Callable[[float, Message], None]
 
 
 class EvaluationJob(msgspec.Struct, frozen=True):
-    """Input of the process that makes an evaluation."""
+    """Input of the separate process that makes the clips of an evaluation."""
 
     project: bytes
     beside: str
     request: EvaluationRequest
 
     def opened(self) -> Project:
-        """Return the project to perform."""
+        """Return the project whose performance the evaluation uses."""
         return decode(self.project, Path(self.beside) / _BESIDE)
 
 

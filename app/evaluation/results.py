@@ -40,7 +40,8 @@ class Question(msgspec.Struct, frozen=True):
 
 
 class VariantScore(msgspec.Struct, frozen=True):
-    """Viewers' judgements of a variant; ``over_viewers`` is None if no viewer could judge it."""
+    """Viewers' judgements of one variant for one question: numbers of answers and of those not judged; ``over_viewers``
+    is None if no viewer could judge it."""
 
     question: Question
     variant: Variant
@@ -76,7 +77,8 @@ class Contrast(msgspec.Struct, frozen=True):
 
 
 class Agreement(msgspec.Struct, frozen=True):
-    """Krippendorff's alpha of viewers on the same clips (ordinal); None if it is undefined."""
+    """Agreement of the viewers on the same clips for one question: Krippendorff's alpha (ordinal); None if it is
+    undefined."""
 
     question: Question
     clips: int
@@ -250,7 +252,7 @@ def _scores(
 
 
 def _means(ratings: Sequence[_Rating]) -> dict[str, float]:
-    """Return the mean of each viewer."""
+    """Return the mean rating by viewer."""
     values: dict[str, list[int]] = defaultdict(list)
     for rating in ratings:
         values[rating.viewer].append(rating.value)

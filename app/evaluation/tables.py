@@ -21,7 +21,7 @@ QUESTION: Final = ("presentation", "aspect", "scale")
 
 
 class ResultTable(msgspec.Struct, frozen=True):
-    """A table of results: title, columns and notes."""
+    """A table of evaluation results: title and note, the heads of columns, and rows of text."""
 
     title: str
     note: str
@@ -38,7 +38,7 @@ def tables(results: EvaluationResults, measures: Sequence[VariantMeasures], lang
 
 
 def variant_name(variant: Variant, language: str) -> str:
-    """Return the name of a variant."""
+    """Return the name of a variant in a language."""
     return text(Message(f"results.variant_{variant}"), language)
 
 

@@ -55,7 +55,7 @@ class ArmDepth(msgspec.Struct, frozen=True):
 
 
 def arm_depth(joints: JointPlayback) -> ArmDepth:
-    """Measure the arms of a file."""
+    """Measure the greatest depth of the forearms in trunk and clothes in an exported file."""
     playback = joints.playback
     trunk = [surface for mesh in playback.scene.meshes for surface in _surfaces(joints, mesh)]
     worst = ArmDepth()
@@ -83,7 +83,7 @@ class _TrunkSurface:
         self.bound_m = self._surface.skin.positions_m
 
     def normals(self, places_m: FloatArray) -> FloatArray:
-        """Outward normals (V, 3) of the vertices at given positions."""
+        """Return the outward normals (V, 3) of the V vertices at given positions."""
         a, b, c = (places_m[self._triangles[:, corner]] for corner in range(3))
         across = np.cross(b - a, c - a)
         sums = np.zeros_like(places_m)
@@ -92,7 +92,8 @@ class _TrunkSurface:
         return np.asarray(sums / np.maximum(np.linalg.norm(sums, axis=1, keepdims=True), 1e-12))
 
     def depth_m(self, points_m: FloatArray, world: FloatArray, frame: int) -> float:
-        """Greatest depth in metres of points (P, 3) at a frame, with bone transforms (1, J, 4, 4)."""
+        """Return the greatest depth in metres of P points (P, 3) in the trunk at a frame, with bone transforms (1, J,
+        4, 4) of J bones."""
         places_m = self._surface.positions_m(world, frame, frame + 1)[0]
         low, high = places_m.min(axis=0), places_m.max(axis=0)
         points_m = points_m[((points_m > low) & (points_m < high)).all(axis=1)]
@@ -118,9 +119,8 @@ def _surfaces(joints: JointPlayback, mesh: SkinnedMesh) -> Iterator[_TrunkSurfac
 
 
 def _share(joints: JointPlayback, mesh: SkinnedMesh, names: Collection[str]) -> FloatArray:
-    """Share (V,) of every vertex's weight held by the bones of some joints; other bones count with their parent
-    joint.
-    """
+    """Return the share (V,) of the weight of each of V vertices that bones of the named joints hold; other bones count
+    with their parent joint."""
     parents, holds = joints.playback.parents, list[bool]()
     for bone, parent in enumerate(parents):
         own = joints.joint_names.get(bone)

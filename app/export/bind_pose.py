@@ -26,7 +26,7 @@ _DOWN_RAD: Final[Mapping[RestPose, float]] = {"t": 0.0, "a": np.pi / 4.0}
 
 
 def bind_transforms(character: Character, target: TargetSkeleton) -> AnyFloatArray:
-    """Transforms ``world_from_bone`` (B, 4, 4) of the bones in the modelled pose, centimetres.
+    """Return the transforms ``world_from_bone`` (B, 4, 4) of B bones in the modelled pose, centimetres.
 
     A bone of a joint is at that joint; other bones are relative to their parents.
     """
@@ -34,7 +34,7 @@ def bind_transforms(character: Character, target: TargetSkeleton) -> AnyFloatArr
 
 
 def rest_transforms(character: Character, target: TargetSkeleton) -> AnyFloatArray:
-    """Return the bone transforms in the target's rest pose, in the form of `bind_transforms`."""
+    """Return the transforms of the bones in the target's rest pose, in the same form as `bind_transforms`."""
     if target.rest_pose == "model":
         return bind_transforms(character, target)
     return _of_bones(character, target, _posed(character, _DOWN_RAD[target.rest_pose]))
@@ -97,9 +97,8 @@ def _twisted(character: Character, target: TargetSkeleton, world_from_joint: Any
 
 
 def bound_meshes(character: Character, target: TargetSkeleton) -> tuple[Mesh, ...]:
-    """Meshes of a character in the target's rest pose, bound to its bones; a joint without a bone is merged with its
-    parent.
-    """
+    """Return the meshes of a character in the target's rest pose, bound to its bones; a joint without a bone is merged
+    with its parent."""
     bone_of_joint = np.zeros(len(character.skeleton.names), np.int32)
     for joint, parent in enumerate(character.skeleton.parents):
         above = int(bone_of_joint[parent]) if parent >= 0 else 0
@@ -153,7 +152,7 @@ def _along(target: TargetSkeleton, bone: int) -> float:
 
 
 def _moved(mesh: Mesh, moved: AnyFloatArray) -> Mesh:
-    """Deform a mesh by its bones' transforms (B, 4, 4), metres, and bind it there."""
+    """Return a mesh deformed by the transforms (B, 4, 4) of B bones, metres, and bound there."""
     blended = np.einsum("vk,vkij->vij", mesh.weights.astype(np.float64), moved[mesh.joints])
     turned = blended[:, :3, :3]
     positions_m = np.einsum("vij,vj->vi", turned, mesh.positions_m) + blended[:, :3, 3]

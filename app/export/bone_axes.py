@@ -50,7 +50,7 @@ def bone_axes(target: TargetSkeleton, skeleton: Skeleton) -> tuple[FloatArray | 
 
 
 def _in_bone(axes: JointAxes, turns: tuple[Turn, ...], joint_from_bone: FloatArray) -> FloatArray:
-    """Axes of a joint in the space of its bone, in the given order."""
+    """Axes (N, 3) of a joint for the given turns, in that order, in the frame of its bone."""
     rows = np.array([getattr(axes, turn) for turn in turns], np.float64)
     turned: FloatArray = quaternion.rotate(quaternion.conjugate(joint_from_bone), rows)
     return turned

@@ -82,7 +82,7 @@ def scene_bvh(
 
 
 def _frames(scene: Scene, t_pose: AnyFloatArray | None) -> FloatArray:
-    """World rotations (B, 4) of the bones in the pose in which the file's angles are 0."""
+    """Return the world rotations (B, 4) of B bones in the pose in which the file's angles are 0."""
     rests = [bone.rotation_xyzw for bone in scene.bones]
     local = np.asarray(rests if t_pose is None else t_pose, np.float64)
     _, frames = world_placements([bone.parent for bone in scene.bones], np.zeros((len(local), 3)), local)
@@ -97,7 +97,7 @@ def _first(scene: Scene, clip: Clip) -> int:
 
 
 def _below(scene: Scene, first: int) -> list[int]:
-    """A bone and all its descendants, parents first."""
+    """Return the indices of a bone and all its descendants, parents first."""
     chosen = {first}
     for index, bone in enumerate(scene.bones):
         if bone.parent in chosen:
@@ -106,7 +106,8 @@ def _below(scene: Scene, first: int) -> list[int]:
 
 
 def _without_props(scene: Scene, clip: Clip, bones: list[int], first: int) -> list[int]:
-    """Remove bones without children that translate, such as props."""
+    """Return ``bones`` without those that have no children and move relative to their parent, such as props; the bone
+    ``first`` stays."""
     parents = {bone.parent for bone in scene.bones}
     return [bone for bone in bones if bone == first or bone in parents or bone not in clip.translations_cm]
 
@@ -124,9 +125,8 @@ def _world(scene: Scene, clip: Clip, bone: int) -> tuple[FloatArray, FloatArray]
 
 
 def _end_sites_cm(scene: Scene, chosen: list[int]) -> dict[int, FloatArray]:
-    """Return end points of bones without children, in the bone's frame: along the bone's direction as far as its
-    surface reaches.
-    """
+    """Return by bone index the end point (3,) of each chosen bone without children, in centimetres in the bone's frame:
+    along its direction as far as its skin reaches."""
     parents = [bone.parent for bone in scene.bones]
     world_from_rest = world_transforms(
         tuple(parents),
@@ -168,9 +168,8 @@ SPINE = ("spine", "chest", "upperChest")
 
 
 def joint_names(table: BoneNames) -> dict[str, str]:
-    """Bone name for every joint in a table; the first one if there are several. Of the bones between hips and neck the
-    lowest ones are matched.
-    """
+    """Return a bone name for every joint in a table of names; the first one if there are several. Of the bones between
+    hips and neck the lowest ones are matched."""
     result = {joint: names[0] for joint, names in table.middle.items()}
     result |= {joint: names[0] for joint, names in zip(SPINE, table.spine, strict=False)}
     for side, words in (("left", table.left), ("right", table.right)):

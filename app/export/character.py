@@ -108,7 +108,8 @@ def _shaped(character: Character, eyes: str) -> Character:
 
 
 def _bones(target: TargetSkeleton, character: Character, mesh: SkinnedMesh) -> tuple[Bone, ...]:
-    """The bones at rest."""
+    """Return the bones of an exported character in the rest pose that the target skeleton requests, positions in
+    centimetres relative to the parent."""
     offsets_cm, rotations = target.offsets_m * CENTIMETRES, target.rest
     if target.choice == "ue5" or target.rest_pose != "model":
         # Where the mesh was bound: Unreal takes that pose for the rest pose, and three.js mixes the two.
@@ -129,7 +130,8 @@ def character_clip(
     morph_weights: Mapping[str, SingleArray],
     held: Sequence[Trajectory] = (),
 ) -> Clip:
-    """Clip of the bones and the face."""
+    """Return the animation clip of an exported character: motion of the bones in the target's axes, and the weights
+    (F,) of the face's morphs by name."""
     if target.normalised:  # there is nothing to work out
         bones = BoneMotion(motion.rotations, {target.hips: motion.hips_m.astype(np.float64)})
     else:
@@ -145,7 +147,8 @@ def character_clip(
 
 
 def _own_meshes(figure: Figure, target: TargetSkeleton, name: str) -> tuple[SkinnedMesh, ...]:
-    """Meshes of a figure, bound at the rest pose of its bones."""
+    """Meshes of the user's figure for export, bound to its bones in the rest pose of the target; ``name`` prefixes
+    their names."""
     binds = matrices(*world_placements(target.parents, target.offsets_m * CENTIMETRES, target.rest))
     added = len(target.names) - len(target.added) - len(figure.bone_names)
     names = mesh_names([f"{name}_{mesh.name or 'mesh'}" for mesh in figure.meshes], target.names)

@@ -26,7 +26,8 @@ from app.rig.sole import SIDES, foot_tip_m
 
 
 def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, standing: BoolArray) -> DancerMeasures:
-    """Measure a dancer's file that was read back."""
+    """Measure in an exported file that was read back how far standing feet slide, bones change their length, and feet
+    are below the floor; ``standing`` (F, 2) is the planned floor contact of left and right foot."""
     assert scene.clip is not None
     playback = ScenePlayback(scene, scene.clip)
     joints = JointPlayback(playback, target, character)

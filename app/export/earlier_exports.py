@@ -43,7 +43,7 @@ class _EarlierMetre(msgspec.Struct, frozen=True):
 
 
 class _EarlierPerformance(msgspec.Struct, frozen=True):
-    """The part of a ``performance.json`` that identifies a piece."""
+    """Fields of a ``performance.json`` of an earlier export, by which it is recognised as one of the same piece."""
 
     players: tuple[_Named, ...]
     ticks_per_quarter: int

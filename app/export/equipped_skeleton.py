@@ -40,7 +40,8 @@ _KEPT: Final = {
 
 @dataclass
 class _Growing:
-    """A target skeleton with bones being added; positions and rotations in world space, at rest and in the T-pose."""
+    """A target skeleton while bones are added to it; positions and rotations in world space, at rest and in the
+    T-pose."""
 
     target: TargetSkeleton
     names: list[str] = field(default_factory=list)
@@ -65,7 +66,8 @@ class _Growing:
     def add(
         self, name: str, parent: int, position: FloatArray, turn: FloatArray, in_t: FloatArray, own: FloatArray
     ) -> int:
-        """Add a bone at a place in world space, and return its index."""
+        """Add a bone to the skeleton being built at a position (3,) and rotation (4,) in world space (``in_t``: in the
+        T-pose), and return its index."""
         self.names += numbered([name], self.names)
         self.parents.append(parent)
         self.rest.append((position, turn))
@@ -74,7 +76,7 @@ class _Growing:
         return len(self.names) - 1
 
     def grown(self) -> TargetSkeleton:
-        """The target with the added bones."""
+        """Return the target skeleton with all bones that were added."""
         target, before = self.target, len(self.target.names)
         positions, turned = (np.stack(part) for part in zip(*self.rest, strict=True))
         offsets, rest = local_placements(self.parents, positions, turned)
@@ -134,7 +136,7 @@ def equipped(target: TargetSkeleton, character: Character, rig: Rig) -> TargetSk
 
 
 def _add_twists(growing: _Growing, skeleton: Skeleton) -> None:
-    """Add a twist bone half-way along each upper and lower arm."""
+    """Add a bone half-way along each upper and lower arm, which receives a part of the arm's twist."""
     target, joints = growing.target, rest_positions(skeleton)
     for base_name, end_name in LIMBS.items():
         if "Arm" not in base_name:

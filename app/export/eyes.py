@@ -108,7 +108,8 @@ def _turned_mesh(character: Character, mesh: Mesh) -> Mesh:
 
 
 def _added(morph: Morph | None, name: str, vertices: np.ndarray, moved: FloatArray, count: int) -> Morph:
-    """Extend a morph by the movement of some vertices."""
+    """Return a morph of ``count`` vertices that moves ``vertices`` by ``moved`` (metres) in addition to ``morph``; None
+    begins a new one."""
     if morph is None:
         return Morph(name, vertices.astype(np.int32), moved.astype(np.float32), None)
     deltas_m = np.zeros((count, 3))

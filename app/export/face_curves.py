@@ -70,12 +70,14 @@ def part_of(shape: str) -> FacePart | None:
 
 
 def written_weights(weights: Mapping[str, SingleArray], parts: tuple[FacePart, ...]) -> dict[str, SingleArray]:
-    """Weights of ARKit shapes restricted to some parts of the face; other shapes are kept."""
+    """Keep only the weights of those ARKit shapes that belong to the given parts of the face; other shapes are kept
+    too."""
     return {shape: values for shape, values in weights.items() if part_of(shape) in (None, *parts)}
 
 
 def curve_names(names: CurveNames) -> Mapping[str, Mapping[str, float]]:
-    """Curve names for each ARKit shape, each with its share of the shape's weight."""
+    """Names of animation curves for each ARKit shape, each with the share 0..1 of the shape's weight that it
+    receives."""
     if names == "arkit":
         return {shape: {shape: 1.0} for shape in ARKIT_MORPHS}
     if names == "audio2face":
@@ -108,7 +110,8 @@ _SMALLEST_SHARE: Final = 1e-9
 
 
 def _shares_of_shapes(table: Mapping[str, Mapping[str, float]]) -> dict[str, dict[str, float]]:
-    """Share of each shape's vertex offsets for the target of each curve: the pseudo-inverse of the table."""
+    """Return the share of each ARKit shape's vertex offsets that forms the target of each curve, by curve and shape:
+    the pseudo-inverse of the table."""
     curves = list(dict.fromkeys(curve for shares in table.values() for curve in shares))
     weights = np.array([[shares.get(curve, 0.0) for shares in table.values()] for curve in curves])
     inverse = np.linalg.pinv(weights)
@@ -127,7 +130,7 @@ def _renamed(mesh: SkinnedMesh, shares: Mapping[str, Mapping[str, float]]) -> Sk
 
 
 def _summed(name: str, parts: Sequence[tuple[MorphTarget, float]]) -> MorphTarget:
-    """Sum of morph targets, each with a factor."""
+    """Return a morph target that moves each vertex by the sum of given targets, each multiplied by its factor."""
     if len(parts) == 1:
         morph, share = parts[0]
         normals = None if morph.normal_deltas is None else morph.normal_deltas * share

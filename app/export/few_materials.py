@@ -73,7 +73,7 @@ def _is_once(use: TextureUse | None) -> bool:
 
 @lru_cache(maxsize=32)
 def _details(materials: tuple[Material, ...]) -> _Sheet:
-    """One material of opaque surfaces, their colours in its picture."""
+    """Return one material for all opaque surfaces, whose picture holds their colours."""
     pictures = [None if one.textures.color is None else one.textures.color.texture for one in materials]
     places, size = _packed([(SPOT_PX, SPOT_PX) if one is None else size_px(one) for one in pictures])
     colors: list[tuple[Texture | tuple[int, int, int], Place]] = []
@@ -134,7 +134,8 @@ def _cards(materials: tuple[Material, ...]) -> _Sheet:
 
 
 def _packed(sizes: Sequence[tuple[int, int]]) -> tuple[list[Place], tuple[int, int]]:
-    """Places of pictures in rows, the highest first, and the size of all, a power of two each way."""
+    """Return the places of pictures packed in rows, the highest first, and the size of the whole, a power of two each
+    way."""
     order = sorted(range(len(sizes)), key=lambda index: (-sizes[index][1], -sizes[index][0], index))
     best: tuple[list[Place], tuple[int, int]] | None = None
     width = _power(max(width for width, _ in sizes))
@@ -164,7 +165,8 @@ def _shares(
     places: Sequence[Place],
     size: tuple[int, int],
 ) -> dict[Material, tuple[float, float, float, float]]:
-    """Left, top, width and height of places in shares of the whole; a spot is its middle alone."""
+    """Return left, top, width and height of each material's place in the shared picture, as shares 0..1; a material
+    without picture becomes a point (width and height 0)."""
     found = {}
     for material, picture, (left, top, width, height) in zip(materials, pictures, places, strict=True):
         if picture is None:

@@ -85,7 +85,8 @@ def supports_of_musician(request: ExportRequest, musician: CastMusician) -> Supp
 
 
 def dancer_scene(request: ExportRequest, cast: CastDancing, motion: Motion, kind: FileFormat | None = None) -> Scene:
-    """The scene of a dancer's character; `kind` as in `musician_scene`."""
+    """Return the scene of a dancer's character with its motion; ``kind`` as in `musician_scene` is the file format it
+    is for."""
     name, character = figure_stems(request.performance)[cast.dancer.id]["character"], cast.character
     if kind is not None and kind.humanoid:
         return _animation_scene(request, character, motion, name, cast.target_in(kind))

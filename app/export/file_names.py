@@ -80,7 +80,7 @@ def sound_name(source: str) -> str:
 
 
 def stage_names(performance: Performance, formats: frozenset[Format], source: str) -> dict[Format, str]:
-    """Names of the stage's files, after the piece's, different from all figures' files."""
+    """Return the file name of the stage by format, after the piece's name and different from the figures' files."""
     figures = [stem for stems in figure_stems(performance).values() for stem in stems.values()]
     *_, stem = file_stems([*figures, f"{Path(source).stem}_stage"])
     return {kind.id: f"{stem}{kind.suffix}" for kind in requested(formats) if kind.stage}

@@ -26,7 +26,7 @@ _BESIDE: Final[tuple[FileContent, ...]] = ("instrument", "props")
 
 @dataclass(frozen=True, eq=False)
 class WriteOptions:
-    """Options of some file formats.
+    """Options for writing a file, of which each format uses those that it supports.
 
     Attributes
     ----------
@@ -121,7 +121,7 @@ class FileFormat:
     refuse: Callable[[], None] = lambda: None
 
     def key(self, held: FileContent) -> str:
-        """The key of a file in a report: ``character_fbx``."""
+        """Return the key of a file in a report, such as ``character_fbx``, from what the file holds and the format."""
         return f"{held}_{self.id}"
 
 
@@ -282,7 +282,7 @@ def files_of(formats: Collection[Format], reads: bool = False) -> tuple[tuple[Fi
 
 
 def requested(formats: Collection[Format]) -> tuple[FileFormat, ...]:
-    """Table rows of some formats."""
+    """Return the rows of `FILE_FORMATS` for the requested formats, in the table's order."""
     return tuple(row for id, row in FILE_FORMATS.items() if id in formats)
 
 

@@ -58,9 +58,8 @@ class Walk:
         self._torso = np.empty((2, frames))
 
     def read(self, first: int, last: int, chosen: BoolArray) -> list[SingleArray]:
-        """Read the frames ``first`` .. ``last - 1``; returns ``world_from_joint`` (N, J, 3, 4) of the joints that move
-        each hand, at the ``chosen`` frames (F,).
-        """
+        """Read the frames ``first`` .. ``last - 1``; returns for each hand ``world_from_joint`` (n, J, 3, 4) of the J
+        joints that move it, at the n of these frames that ``chosen`` (F,) selects."""
         at = np.flatnonzero(chosen[first:last]) + first
         # In memory (N, 3, J, 4), as depths are computed.
         found = [np.empty((len(at), 3, len(rows), 4), np.float32) for rows in self._carriers]
@@ -104,7 +103,7 @@ class Walk:
 
 
 def _skins(joints: JointPlayback, character: Character, names: Set[str]) -> dict[str, Skin]:
-    """Landmarks of the character with these names, on the file's meshes."""
+    """Return the vertices and weights of the named landmarks in the meshes of the exported file, by landmark."""
     meshes: dict[int, tuple[SkinnedMesh, dict[str, IntArray]]] = {}
     for name in sorted(names & character.landmarks.keys()):
         mesh, vertices = joints.surface(character.landmarks[name])

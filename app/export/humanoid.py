@@ -142,7 +142,10 @@ def gaze(character: Character, motion: Motion) -> FloatArray:
 
 
 def vrm_expressions(character: Character) -> Mapping[str, Mapping[str, float]]:
-    """Expressions other than ARKit's names, as weights of ARKit shapes.
+    """Expressions of VRM's presets as weights of ARKit shapes, by preset.
+
+    A shape for which the character's VRM file has an expression of ARKit's name, in any spelling, is used only for that
+    one, so that nothing moves the face twice.
 
     VRM's presets; but a shape for which the character's VRM file has an expression of ARKit's name, in any spelling, is
     used only for that one, so that nothing moves the face twice.

@@ -57,7 +57,7 @@ def _with_few(mesh: SkinnedMesh, playback: ScenePlayback) -> SkinnedMesh:
 
 
 def _shaped_mm(mesh: SkinnedMesh, playback: ScenePlayback) -> FloatArray:
-    """Return the largest distance by which morphs of a clip move each vertex (V,)."""
+    """Return the largest distance in millimetres by which morphs of a clip move each of V vertices (V,)."""
     result = np.zeros(len(mesh.vertices_cm))
     for morph in mesh.morphs:
         most = np.abs(playback.clip.morph_weights.get(morph.name, np.zeros(1))).max()
@@ -66,7 +66,7 @@ def _shaped_mm(mesh: SkinnedMesh, playback: ScenePlayback) -> FloatArray:
 
 
 class _Skinned:
-    """Vertices (V,) held by more than four bones (V, K), strongest first."""
+    """The V vertices held by more than four bones (K bones at most), strongest first, and the search for fewer."""
 
     def __init__(
         self, mesh: SkinnedMesh, vertices: IntArray, joints: AnyIntArray, weights: FloatArray, playback: ScenePlayback
@@ -82,15 +82,15 @@ class _Skinned:
         self._own_cm = np.einsum("vkab,vb->vka", bone_from_bind, np.pad(places_cm, ((0, 0), (0, 1)), constant_values=1))
 
     def _world(self, first: int, last: int) -> FloatArray:
-        """World transforms (B, 3, 4, f), centimetres, of the bones that hold these vertices, at some frames."""
+        """Return the world transforms (B, 3, 4, f), centimetres, of the B bones that hold the vertices, in the frames
+        from ``first`` to before ``last``."""
         world = self._bones.world(first, last)[self._rows]
         world[:, :, 3] /= METRES
         return world
 
     def fewer(self) -> tuple[FloatArray, BoolArray]:
-        """Weights (V, K) with at most four non-zero ones, and a mask of vertices for which they are accurate at all
-        frames.
-        """
+        """Return weights (V, K) of V vertices on K bones with at most four non-zero ones, and a mask of the vertices
+        for which they are accurate at all frames."""
         assert self._playback.clip is not None
         frames = self._playback.clip.frames
         places = np.unique(np.linspace(0, frames - 1, _POSES).astype(int)).tolist()
@@ -108,7 +108,8 @@ class _Skinned:
         return best, worst + self._off_shaped_mm(best) <= FEW_MM
 
     def _fitted(self, carried: FloatArray, chosen: tuple[int, ...]) -> FloatArray:
-        """Least-squares weights (V, K) on some bones for the vertices' positions."""
+        """Return the weights (V, K) of the bones ``chosen`` that move each of V vertices most nearly as before (least
+        squares)."""
         first, *others = chosen
         # The weights' sum is 1: those of the others say that of the first.
         ways = carried[:, :, others] - carried[:, :, [first]]
@@ -127,7 +128,8 @@ class _Skinned:
         return result
 
     def _off_mm(self, world: FloatArray, weights: FloatArray) -> AnyFloatArray:
-        """Return the largest deviation of vertices (V,) with some weights over some frames."""
+        """Return the largest deviation (V,) of V vertices in millimetres with other weights, over the frames of
+        ``world``."""
         points = np.zeros((len(weights), len(world), 4))
         changed = (weights - self._weights)[..., None] * self._own_cm
         np.add.at(points, (np.arange(len(weights))[:, None], self._carriers), changed)
@@ -135,6 +137,7 @@ class _Skinned:
         return np.asarray(10.0 * np.sqrt(np.einsum("vaf,vaf->vf", off_cm, off_cm).max(axis=-1)))
 
     def _off_shaped_mm(self, weights: FloatArray) -> FloatArray:
-        """Return the additional deviation of vertices (V,) possible because bones also rotate morph displacements."""
+        """Return the additional deviation (V,) of V vertices in millimetres that is possible because bones also rotate
+        the displacements by morphs."""
         off: FloatArray = np.abs(weights - self._weights).sum(axis=1) * self._shaped_mm
         return off

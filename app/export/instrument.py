@@ -58,7 +58,8 @@ def instrument_scene(
 
 
 def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple[Bone, ...]:
-    """One bone per node, named after its control if there is one."""
+    """Return one bone for each node of an instrument's model, named after the moving part there, else after the
+    node."""
     by_node = {part.node: part.name for part in instrument.moving_parts}
     unturned = np.array([0.0, 0.0, 0.0, 1.0])
     root_m = model.node_positions_m[0]
@@ -77,7 +78,8 @@ def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple
 def instrument_clip(
     instrument: InstrumentMap, model: InstrumentModel, motion: Motion, name: str, path: Trajectory | None = None
 ) -> Clip:
-    """Return the clip of an instrument's place and moving parts."""
+    """Return the clip of an instrument's moving parts, and of its own place, from ``motion`` unless ``path`` is
+    given."""
     rotations = np.zeros((motion.frames, len(model.node_names), 4))
     rotations[..., 3] = 1.0
     path = instrument_path(motion) if path is None else path

@@ -20,7 +20,8 @@ _AXES = ("flexion", "sideways", "twist")
 
 
 class JointMeasure(msgspec.Struct, frozen=True):
-    """The joint closest to its limit, or furthest beyond it."""
+    """The joint closest to its limit of motion, or furthest beyond it: value and bound, and the number of frames
+    beyond."""
 
     joint: str
     value: float
@@ -67,7 +68,7 @@ def _limits(joints: JointPlayback, body: Body, profile: SkeletonProfile) -> Mapp
 
 
 def _ranges_deg(limits: Iterable[JointLimits]) -> FloatArray:
-    """Smallest and largest angles (2, 3, J) in degrees."""
+    """Return the smallest and the largest angles (2, 3, J) in degrees: flexion, sideways and twist of J joints."""
     rows = [(one.flexion_deg, one.sideways_deg, one.twist_deg) for one in limits]
     return np.array(rows).reshape(-1, len(_AXES), 2).T
 

@@ -48,7 +48,7 @@ class JointPlayback:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of all joints."""
+        """Names of the character's joints, in the order of their indices."""
         return self._character.skeleton.names
 
     @cached_property
@@ -65,12 +65,14 @@ class JointPlayback:
 
     @cached_property
     def rigid(self) -> BoolArray:
-        """Mask (B,) of bones whose length must be constant: all except roots, the hips and bones with constraints."""
+        """Mask (B,) of those of B bones whose length must be constant: all except roots, the hips and bones with
+        constraints."""
         parents = self.playback.parents
         return np.array([parent >= 0 and bone not in self._moved for bone, parent in enumerate(parents)])
 
     def rotations(self, first: int, last: int) -> FloatArray:
-        """``parent_from_joint`` (n, J, 4) of all joints at frames ``first`` .. ``last - 1``."""
+        """Return the rotations ``parent_from_joint`` (n, J, 4) of all J joints at the n frames ``first`` .. ``last -
+        1``."""
         if self._target.choice == "suisou" and self.playback.bone_names == self.names:
             return self.playback.rotations(first, last)
         return self._joint_rotations(slice(first, last))
@@ -86,7 +88,7 @@ class JointPlayback:
         return np.minimum(np.max(shown, axis=0), 1.0) if shown else np.zeros(frames)
 
     def surface(self, landmark: Landmark) -> tuple[SkinnedMesh, IntArray]:
-        """The mesh of the file with a landmark, and the landmark's vertices in it.
+        """Return the mesh of the exported file that contains a landmark, and the landmark's vertices in it (K,).
 
         A file on the character's own skeleton has separate meshes, any other has them joined in order.
         """

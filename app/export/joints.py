@@ -1,4 +1,4 @@
-"""Computes world transforms, joint angles and angular accelerations."""
+"""Computes world transforms, joint angles and angular accelerations of exported skeletons."""
 
 from __future__ import annotations
 
@@ -147,6 +147,7 @@ def angular_accelerations(turns: FloatArray, fps: float) -> FloatArray:
 
 
 def _angle_per_sine(sine: FloatArray, cosine: FloatArray) -> FloatArray:
-    """Ratio of a rotation's angle to the sine of its half, from sine and cosine; 2 for no rotation."""
+    """Return the ratio of a rotation's angle to the sine of its half, from sine and cosine of the half angle; 2 for no
+    rotation."""
     small = sine < _SMALL
     return np.where(small, 2.0, 2.0 * np.arctan2(sine, cosine) / np.where(small, 1.0, sine))

@@ -58,7 +58,7 @@ class SkinnedMarks:
     morphs: tuple[str, ...] = ()
 
     def hang_on(self, parents: Sequence[int]) -> BoolArray:
-        """Return whether a bone's rotation moves a point, as mask (K, B)."""
+        """Return a mask (K, B): whether the rotation of each of B bones moves each of K points."""
         above = np.eye(len(parents), dtype=bool)
         for bone, parent in enumerate(parents):
             if parent >= 0:
@@ -147,7 +147,8 @@ def part_marks(playback: ScenePlayback) -> SkinnedMarks:
 
 
 def _add_mean(gathered: _Gathered, skin: Skin) -> None:
-    """Add the mean of some vertices."""
+    """Add to ``gathered`` the mean of a landmark's vertices, as points carried by each joint and shifts by each
+    morph."""
     share_of_vertex = skin.weights / len(skin.positions_m)
     placed = np.c_[skin.positions_m, np.ones(len(skin.positions_m))]
     points = np.einsum("vj,jik,vk->ji", share_of_vertex, skin.joint_from_mesh, placed, optimize=True)
@@ -186,8 +187,8 @@ class BoneLink:
 def rigid_links(
     marks: SkinnedMarks, parents: Sequence[int], moving: AnyIntArray, turns: AnyFloatArray, places_m: AnyFloatArray
 ) -> tuple[list[BoneLink], dict[int, BoneMarks]]:
-    """Links of the moving bones, and the points they hold; points of bones that are static relative to their parents
-    count with these.
+    """Return the links of N moving bones, and by bone the points on the skin they hold; points of bones that do not
+    move relative to their parents count with these.
 
     Parameters
     ----------

@@ -89,7 +89,8 @@ class KeyedMotion:
         return result
 
     def scaled(self) -> list[tuple[AnyIntArray, SingleArray]]:
-        """Rows of bones with their values (n, F, D) divided by the tolerances; translating bones are separate."""
+        """Return groups of the moving bones: their rows, and their values (n, F, D) divided by the tolerances, so that
+        1 is the permitted error; bones that translate form groups of their own."""
         turns = np.concatenate([2.0 * self.rotations, np.radians(self.angles)], axis=2)
         over, within = (_CURVED_CHAIN, _CURVED_BOX) if self.curved else (_CHAIN, _BOX)
         changes = _changes(turns) / _BOX
@@ -160,7 +161,8 @@ class KeyedMotion:
         return result
 
     def meant(self, frames: AnyIntArray) -> KeyedPoses:
-        """Exact motion at some frames."""
+        """Return the exact rotations, places and morph weights at the given frames (K,), to which reduced keys are
+        compared."""
         places_m = {row: values[frames] for row, values in self.places_m.items()}
         return KeyedPoses(self.rotations[:, frames].astype(np.float64), places_m, self.weights[:, frames])
 
@@ -172,7 +174,8 @@ class KeyedMotion:
         return KeyedPoses(turned, places_m, self._face_weights[:, frames])
 
     def draw(self, kept: BoolArray, rows: AnyIntArray) -> None:
-        """Fit the cubics of some bones through their keys in (N, F); does nothing for linear keys."""
+        """Fit cubic curves through the keys ``kept`` (N, F) of the bones ``rows`` among N; does nothing for linear
+        keys."""
         if not self.curved:
             return
         if not self._drawn:
@@ -195,7 +198,8 @@ class KeyedMotion:
 
 
 class KeyedPoses(NamedTuple):
-    """Rotations (N, f, 4) and positions (f, 3) by row of the moving bones, and weights (M, f) of the points' morphs."""
+    """Poses of N moving bones in f frames: rotations (N, f, 4), positions (f, 3) by row of those bones that move, and
+    weights (M, f) of M morphs."""
 
     turned: AnyFloatArray
     places_m: Mapping[int, AnyFloatArray]
@@ -203,7 +207,7 @@ class KeyedPoses(NamedTuple):
 
 
 def together(shown: Sequence[KeyedPoses]) -> KeyedPoses:
-    """Concatenate poses along their frames."""
+    """Concatenate poses of the same bones and morphs along their frames."""
     return KeyedPoses(
         np.concatenate([one.turned for one in shown], axis=1),
         {row: np.concatenate([one.places_m[row] for one in shown]) for row in shown[0].places_m},
@@ -219,9 +223,8 @@ def _applied(turns: AnyFloatArray, vectors: AnyFloatArray) -> AnyFloatArray:
 
 
 def _changes(values: AnyFloatArray) -> AnyFloatArray:
-    """Return a relative estimate of the number of keys that curves (N, F, D) need: the mean square root of their second
-    differences.
-    """
+    """Return a relative estimate (N,) of the number of keys that N curves (N, F, D) of D components need: the mean
+    square root of their second differences."""
     if values.shape[1] < 3:
         return np.zeros(len(values))
     seconds = np.diff(values, 2, axis=1)

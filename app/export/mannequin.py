@@ -34,9 +34,8 @@ TABLE: Final = ROOT / "mannequin.toml"
 
 
 class _Bone(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A bone of the mannequin: at a joint, at a position ``along`` the way between two joints, or attached to another
-    bone.
-    """
+    """A bone of Unreal's mannequin as in our table: at a joint, at a position ``along`` the way between two joints, or
+    attached to another bone."""
 
     name: str
     parent: str = ""
@@ -54,7 +53,8 @@ class _Bone(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Contents of the table: bones before, of, and after the two sides, added bones, and named axes X and Z."""
+    """Contents of our table of the mannequin: bones before, of, and after the two sides, added bones, and named axes X
+    and Z."""
 
     trunk: tuple[_Bone, ...]
     sides: tuple[_Bone, ...]
@@ -186,7 +186,7 @@ def _with_added(
 
 
 def _places(skeleton: Skeleton, joint_of_bone: tuple[int, ...], tied: Mapping[int, int]) -> FloatArray:
-    """World positions (B, 3) of the bones in the T-pose."""
+    """World positions (B, 3) in metres of the mannequin's B bones in the T-pose of our skeleton."""
     joints = rest_positions(skeleton)
     places = np.zeros((len(_BONES), 3))
     for index, bone in enumerate(_BONES):
@@ -204,7 +204,7 @@ def _places(skeleton: Skeleton, joint_of_bone: tuple[int, ...], tied: Mapping[in
 
 
 def _axes_of(bone: _Bone) -> tuple[FloatArray, FloatArray]:
-    """Conventional X and Z axes of a bone."""
+    """Return the conventional X and Z axis (3,) of a bone of Unreal's mannequin in our world axes."""
     x, z = np.array(_TABLE.axes[bone.axes])[:, [0, 2, 1]]  # Unreal's Y is our Z.
     return x, z
 
@@ -216,7 +216,7 @@ def _axes(bone: _Bone) -> FloatArray:
 
 
 def _conventional(places: FloatArray, tied: Mapping[int, int]) -> FloatArray:
-    """World rotations (B, 4) of the bones in the T-pose with conventional axes."""
+    """Return the world rotations (B, 4) of B bones in the T-pose with the mannequin's conventional axes."""
     names = tuple(MANNEQUIN)
     turned = np.tile(quaternion.IDENTITY, (len(_BONES), 1))
     for index, bone in enumerate(_BONES):
@@ -232,7 +232,8 @@ def _conventional(places: FloatArray, tied: Mapping[int, int]) -> FloatArray:
 
 
 def _way(bone: _Bone, places: FloatArray, names: tuple[str, ...]) -> FloatArray | None:
-    """Direction of a bone: to the next one of its chain; for the last one the previous bone's direction."""
+    """Return the direction (3,) in which a bone of the mannequin points, world axes at rest: towards the next bone of
+    its chain, or, for the last one, as the bone before. None for pelvis and head."""
     index = names.index(bone.name)
     chain = [
         child

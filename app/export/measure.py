@@ -61,7 +61,8 @@ _CHUNK = 4096
 
 
 class BreathMeasure(msgspec.Struct, frozen=True):
-    """Number of planned breaths and of visible ones."""
+    """Numbers of planned breaths, and of those visible in an exported file: by the open jaw, by the trunk, or by
+    either."""
 
     planned: int
     jaw_open: int
@@ -70,7 +71,7 @@ class BreathMeasure(msgspec.Struct, frozen=True):
 
 
 class PlayerMeasures(msgspec.Struct, frozen=True):
-    """Measurements of one player's files, by section.
+    """Measurements of one player's exported files, by section.
 
     ``hovering``: distance of unused fingers from their nearest keys and holes. ``guides``: distance of rigid parts from
     their intended contact; reported without a bound. ``arms``: depth of a forearm in trunk and clothes.
@@ -202,7 +203,8 @@ class PlayerJudge:
         }
 
     def _touches(self, traces: Traces, notes: NoteFrames, held: ScenePlayback) -> dict[str, Any]:
-        """Measures of touching fingers, hovering fingers and controls."""
+        """Measure for one player the distances of fingers on keys, of fingers that hover, and the errors of keys and
+        slides; returns fields of `PlayerMeasures` by name."""
         instrument = self.performer.instrument
         values = _control_values(instrument, held) | hole_values(instrument, traces)
         closing = notes.within(map(tuple, bell_closing(self.plan.mutes, instrument.stopped).spans_s.tolist()))
@@ -235,9 +237,8 @@ def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]
 
 
 def _depths_m(walk: Walk, sounding: BoolArray, beside: Callable[[], None], progress: Progress) -> FloatArray:
-    """Depths in the sounding frames, computed in chunks while ``beside`` runs; lower bounds except for the deepest
-    ones, which are reported.
-    """
+    """Depth (K,) in metres of the skin in the instrument in the frames in which notes sound, computed in chunks; lower
+    bounds except for the deepest frames. ``beside`` is called meanwhile."""
     frames = len(sounding)
     played = np.flatnonzero(sounding)
     depth_m = np.zeros(len(played))
@@ -268,7 +269,8 @@ def _depths_m(walk: Walk, sounding: BoolArray, beside: Callable[[], None], progr
 def slid_m(
     sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body, danced: DancedFeet = NOT_DANCED
 ) -> FloatArray:
-    """Return the distance of a sole from where it was last put down, in the frames in which it stands."""
+    """Return the distance in metres (K,) of a sole from where it was last put down, in the K frames in which it
+    stands."""
     foot: Foot = "left" if name.startswith("left") else "right"
     steps = [event for event in plan.gestures if event.kind == "step" and foot_of(event) == foot]
     put = np.zeros(len(times_s), np.int64)

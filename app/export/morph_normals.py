@@ -66,7 +66,7 @@ class _Surface:
         return _with(morph, vertices[deltas.any(axis=1)], deltas[deltas.any(axis=1)])
 
     def _sums(self, triangles: IntArray, places_m: FloatArray) -> FloatArray:
-        """Unit normals (C, 3) of corners from the surrounding triangles; zeros elsewhere."""
+        """Return the unit normals (C, 3) of C corners from the surrounding triangles; zeros elsewhere."""
         at = places_m[triangles]
         face = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])
         face /= np.maximum(np.linalg.norm(face, axis=1, keepdims=True), 1e-20)
@@ -83,7 +83,7 @@ class _Surface:
 
 
 def _with(morph: Morph, vertices: IntArray, normals: FloatArray) -> Morph:
-    """Add some normal changes to a morph."""
+    """Return a morph that also changes the normals (K, 3) of the given vertices."""
     every = np.union1d(morph.vertices, vertices).astype(np.int32)
     deltas_m, normal_deltas = np.zeros((len(every), 3), np.float32), np.zeros((len(every), 3), np.float32)
     deltas_m[np.searchsorted(every, morph.vertices)] = morph.deltas_m

@@ -97,7 +97,8 @@ def own_weights(morphs: Mapping[str, SingleArray], own: OwnSkeleton) -> dict[str
 
 
 def _twists(own: OwnSkeleton, skeleton: Skeleton, joint_of_bone: list[int]) -> dict[int, Twist]:
-    """Twist bones of the figure's limbs; the position along the limb is the share of the twist."""
+    """Return the twist bones of the figure's limbs by bone index; the position along the limb is the share of the
+    twist."""
     figure = own.figure
     positions, _ = world_placements(figure.parents, figure.translations_m, own.t_pose)
     found = {}

@@ -32,10 +32,10 @@ _COMPRESSION: Final = 3
 
 
 class PictureWriter(Protocol):
-    """Receives pictures one after the other."""
+    """Writer that receives the pictures of a film or sequence one after the other."""
 
     def write(self, picture: Picture) -> None:
-        """Add a picture."""
+        """Add a picture behind those already written."""
 
 
 class FrameWriter:
@@ -45,7 +45,7 @@ class FrameWriter:
         self._folder, self._number = folder, first
 
     def write(self, picture: Picture) -> None:
-        """Write the next picture."""
+        """Write the next picture as a numbered PNG file."""
         with (self._folder / frame_name(self._number)).open("wb") as stream:
             _write_png(stream, picture)
         self._number += 1
@@ -138,7 +138,8 @@ def sheet_into(path: Path, size: tuple[int, int], columns: int, captions: Sequen
 
 
 def sheet_size(size: tuple[int, int], caption_px: int, columns: int, count: int) -> tuple[int, int]:
-    """Width and height of a contact sheet in pixels."""
+    """Return width and height, pixels, of a contact sheet of ``count`` pictures of a size, each with a caption of
+    ``caption_px`` below."""
     rows = -(-count // columns)
     return GAP_PX + columns * (size[0] + GAP_PX), GAP_PX + rows * (size[1] + caption_px + GAP_PX)
 

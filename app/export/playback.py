@@ -26,25 +26,27 @@ class ScenePlayback:
 
     @cached_property
     def bone_names(self) -> tuple[str, ...]:
-        """Names of the bones."""
+        """Names of the scene's bones, in the order of their indices."""
         return tuple(bone.name for bone in self.scene.bones)
 
     @cached_property
     def parents(self) -> tuple[int, ...]:
-        """Index of each bone's parent, -1 for the root."""
+        """Index of each bone's parent bone, -1 for the root."""
         return tuple(bone.parent for bone in self.scene.bones)
 
     @cached_property
     def rest_m(self) -> FloatArray:
-        """Rest translations (J, 3)."""
+        """Translations (J, 3) of J bones at rest relative to their parents, metres."""
         return np.stack([np.asarray(bone.translation_cm, np.float64) for bone in self.scene.bones]) * METRES
 
     def rotations(self, first: int, last: int) -> FloatArray:
-        """Local rotations (n, J, 4) of frames ``first`` .. ``last - 1``."""
+        """Return the rotations (n, J, 4) of J bones relative to their parents at the n frames ``first`` .. ``last -
+        1``."""
         return quaternion.normalize(self.clip.rotations_xyzw[first:last])
 
     def translations_m(self, first: int, last: int) -> FloatArray:
-        """Local translations (n, J, 3) of frames ``first`` .. ``last - 1``."""
+        """Return the translations (n, J, 3) of J bones relative to their parents at the n frames ``first`` .. ``last -
+        1``, metres."""
         result = np.tile(self.rest_m, (last - first, 1, 1))
         for bone, translation_cm in self.clip.translations_cm.items():
             result[:, bone] = translation_cm[first:last].astype(np.float64) * METRES
@@ -62,14 +64,14 @@ class ScenePlayback:
 
     @cached_property
     def still(self) -> BoolArray:
-        """Mask (J,) of the bones that never move relative to their parents."""
+        """Mask (J,) of those of J bones that never move relative to their parents."""
         rotations = self.clip.rotations_xyzw
         still: BoolArray = (rotations == rotations[:1]).all(axis=(0, 2))
         still[[*self.clip.translations_cm]] = False
         return still
 
     def world(self, first: int, last: int) -> FloatArray:
-        """World transforms (n, J, 4, 4) of frames ``first`` .. ``last - 1``."""
+        """Return the world transforms (n, J, 4, 4) of J bones at the n frames ``first`` .. ``last - 1``."""
         result = np.zeros((last - first, len(self.parents), 4, 4))
         result[:, :, :3] = PlaybackBones(self, range(len(self.parents))).world(first, last).transpose(3, 0, 1, 2)
         result[..., 3, 3] = 1.0
@@ -116,12 +118,13 @@ class Surface:
         )
 
     def positions_m(self, world: FloatArray, first: int, last: int) -> FloatArray:
-        """Deformed positions (n, V, 3) in metres; ``world`` is `ScenePlayback.world` of the same frames."""
+        """Return the deformed positions (n, V, 3) of V vertices at n frames, metres; ``world`` is `ScenePlayback.world`
+        of the same frames."""
         return self.skin.deformed(world, self._playback.morphs(first, last))
 
 
 class PlaybackBones:
-    """Some bones of a playback with all their ancestors.
+    """World transforms of chosen bones of a playback, with all their ancestors.
 
     Parameters
     ----------
@@ -149,13 +152,12 @@ class PlaybackBones:
         self._place(self._still, 0, 1, self._still_rows)
 
     def rows(self, bones: Iterable[int]) -> list[int]:
-        """Rows of bones in `world`."""
+        """Return the rows of the given bones in `world`."""
         return [self.row_of[bone] for bone in bones]
 
     def room(self, frames: int) -> tuple[FloatArray, FloatArray]:
-        """Buffers for `world` for a number of frames, for reuse, since allocating them takes longer than filling
-        them.
-        """
+        """Return buffers that `world` fills for a number of frames; reused, since allocating them takes longer than
+        filling them."""
         return np.empty((len(self.row_of), 3, 4, frames)), np.empty((len(self._moving), 3, 4, frames))
 
     def world(self, first: int, last: int, room: tuple[FloatArray, FloatArray] | None = None) -> FloatArray:
@@ -173,7 +175,7 @@ class PlaybackBones:
         return result
 
     def _place(self, bones: Sequence[int], first: int, last: int, rows: FloatArray) -> None:
-        """Fill rows (B, 3, 4, n) with the local transforms of bones."""
+        """Fill ``rows`` (B, 3, 4, n) with the transforms of B bones relative to their parents in n frames."""
         clip = self._playback.clip
         turns = clip.rotations_xyzw[first:last, bones].astype(np.float64, copy=False)
         matrix_rows(turns.transpose(2, 1, 0), rows[:, :, :3].transpose(1, 2, 0, 3))
@@ -215,9 +217,8 @@ class Middles:
                 self._shapes += [(index, row, shapes) for row, shapes in zip(rows, added, strict=True)]
 
     def places_m(self, world: FloatArray, morphs: Mapping[str, AnyFloatArray]) -> FloatArray:
-        """Positions (K, 3, n) in metres; ``world`` is `PlaybackBones.world` of some frames, ``morphs`` the weights (n,)
-        there.
-        """
+        """Return positions (K, 3, n) of K landmarks in n frames, metres; ``world`` is `PlaybackBones.world` of the
+        frames, ``morphs`` the weights (n,) there."""
         result = np.zeros((len(self.names), 3, world.shape[-1]))
         for index, row, point_m in self._points:
             result[index] += point_m @ world[row]

@@ -106,9 +106,8 @@ def export_player(
 
 @dataclass(frozen=True)
 class _Written:
-    """Intermediate result for one instrument of a musician: keys, problems, the character's scene, and the files read
-    back for measuring.
-    """
+    """Result of writing one instrument of a musician: keys, problems, meshes of the character, and the files read back
+    for measuring."""
 
     keys: KeyCount
     figure: Scene | None
@@ -125,9 +124,8 @@ def _write(
     cores: int,
     figure: Scene | None,
 ) -> _Written:
-    """Write the instrument of one of a musician's players, and the character for the first one; ``figure`` is the scene
-    of an already written character.
-    """
+    """Write the files of one instrument of a musician, and the character's with the first one; ``meshes`` are those of
+    an already written character."""
     performance, first = request.performance, performer is musician.performers[0]
     rows, reads = files_of(request.formats), files_of(request.formats, reads=True)
     files = file_names(performance, request.formats)
@@ -203,7 +201,8 @@ def _counted(scenes: Mapping[tuple[FileContent, bool], Scene]) -> Iterable[Scene
 
 
 def _work(formats: frozenset[Format]) -> float:
-    """Relative amount of work for one instrument of a musician."""
+    """Return the work of exporting one instrument of a musician in the given formats, relative to other instruments,
+    for the progress bar."""
     measures = _MEASURES_WORK if files_of(formats, reads=True) else 0.0
     return _MOTION_WORK + sum(row.work / len(row.holds) for row, _ in files_of(formats)) + measures
 
@@ -250,7 +249,7 @@ def _reported(
     keys: KeyCount,
     measured: PlayerMeasurement | None,
 ) -> DoubleReport:
-    """Report on one instrument of a musician."""
+    """Return the export report about one of the instruments that a musician plays: its files, keys and measures."""
     player, span, performance = performer.player, request.span, request.performance
     plan = performance.plan(player)
     files = file_names(performance, request.formats, request.with_props)[player.id]

@@ -89,7 +89,8 @@ def _with_end(keys: Keys, frames: int) -> Keys:
 
 
 def _weight_keys(clip: Clip, marks: SkinnedMarks, most_m: float) -> tuple[dict[str, AnyIntArray], AnyIntArray]:
-    """Key frames of each morph, and of all morphs together."""
+    """Return the frames of the keys that each morph needs, by name, and the frames at which any morph has one;
+    ``most_m`` is the permitted error of the skin in metres."""
     names = list(clip.morph_weights)
     if not names:
         return {}, np.zeros(1, np.intp)
@@ -198,7 +199,7 @@ def _worst(excess: AnyFloatArray, all_frames: bool) -> list[int]:
 
 
 def _lengths(vectors: AnyFloatArray) -> AnyFloatArray:
-    """Lengths of vectors (..., D)."""
+    """Return the lengths of vectors along the last axis."""
     return np.asarray(np.sqrt(np.einsum("...i,...i->...", vectors, vectors)))
 
 

@@ -84,9 +84,8 @@ class SkeletonReport(msgspec.Struct, frozen=True):
 
 
 class MutedSpan(msgspec.Struct, frozen=True):
-    """A muted passage in seconds of the piece: with a mute, which files do not show, or ``stopped`` by the hand, which
-    they do.
-    """
+    """A muted passage in seconds of the piece: with a mute, which animation files do not show, or ``stopped`` by the
+    hand, which they do."""
 
     kind: MuteKind
     start_s: float
@@ -94,9 +93,8 @@ class MutedSpan(msgspec.Struct, frozen=True):
 
 
 class DoubleReport(msgspec.Struct, frozen=True):
-    """Report on a player's second instrument, which is measured with the player's character; while unused it is next to
-    the player.
-    """
+    """Report on a further instrument of a musician, which is measured with the musician's character; while unused it
+    lies beside the player."""
 
     name: str
     part: str
@@ -114,7 +112,7 @@ class DoubleReport(msgspec.Struct, frozen=True):
 
 
 class PlayerReport(msgspec.Struct, frozen=True):
-    """Files of one player with their measures."""
+    """Report on the exported files of one player: names, settings, files by format, numbers of keys and measures."""
 
     name: str
     part: str
@@ -260,7 +258,7 @@ def _check_finite(value: object) -> None:
 
 
 def failures(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
-    """Names of the measures that violate their bounds."""
+    """Return the names of those measures in a player's report that exceed their bounds; empty if all are met."""
     measures = player.measures
     if measures is None:
         return ()

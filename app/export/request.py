@@ -139,18 +139,18 @@ class CastMusician:
 
     @property
     def player(self) -> Player:
-        """The player of the first instrument."""
+        """The player of the musician's first instrument, whose name and character are exported."""
         return self.performers[0].player
 
     @property
     def character(self) -> Character:
-        """The musician's body, dressed."""
+        """The musician's body in the chosen outfit, with few materials if requested."""
         worn = self.performers[0].dressed
         return with_few_materials(worn) if self.few_materials else worn
 
     @property
     def target(self) -> TargetSkeleton:
-        """Skeleton of the character's files."""
+        """The skeleton on which the character's files are written."""
         return self.checked.target
 
     def target_in(self, kind: FileFormat) -> TargetSkeleton:
@@ -165,7 +165,7 @@ class CastMusician:
 
 @dataclass(frozen=True, eq=False)
 class CastDancing:
-    """A dancer to export."""
+    """A dancer with everything that an export needs: the dance and the checked target skeleton."""
 
     dancer: Dancer
     dancing: Dancing
@@ -174,13 +174,13 @@ class CastDancing:
 
     @property
     def character(self) -> Character:
-        """The dancer's body, dressed."""
+        """The dancer's body in the chosen outfit, with few materials if requested."""
         worn = dressed_character(self.dancer)
         return with_few_materials(worn) if self.few_materials else worn
 
     @property
     def target(self) -> TargetSkeleton:
-        """Skeleton of the character's files."""
+        """The skeleton on which the character's files are written."""
         return self.checked.target
 
     def target_in(self, kind: FileFormat) -> TargetSkeleton:
@@ -190,7 +190,7 @@ class CastDancing:
 
 @dataclass(frozen=True, eq=False)
 class ExportCast:
-    """Cast of an export: the exported performers, and the excluded ones with reasons."""
+    """Cast of an export: the performers that can be exported, and the excluded ones with reasons."""
 
     musicians: tuple[CastMusician, ...]
     dancers: tuple[CastDancing, ...]

@@ -89,7 +89,8 @@ def write_cast(
     progress: Progress = lambda share, label: None,
     shown_in: Callable[[Message], str] | None = None,
 ) -> WordedReports:
-    """Write the export of a request's cast, as in `export`."""
+    """Write the files of everyone in a cast, of the stage and the sound, and return the reports in words; ``wording``
+    renders messages in the language of the reports."""
     dancers: list[DancerReport] = []
     everyone = len(cast.ids)
     stage_files = stage_names(request.performance, request.formats, request.source) if request.stage else {}
@@ -143,7 +144,7 @@ def write_cast(
 
 
 def _compared(players: Mapping[str, ExportedPlayer]) -> tuple[PlayerReport, ...]:
-    """The players' reports with correlations between players' motion added."""
+    """Return the players' reports with the correlations between the motions of their trunks added."""
     torsos = {id: np.array(one.torso_rad) for id, one in players.items() if one.torso_rad is not None}
     reports = {id: one.report for id, one in players.items()}
     if len(torsos) >= 2:

@@ -86,9 +86,8 @@ def with_own_names(scene: Scene, known: dict[str, Material]) -> Scene:
 def _figures(
     request: ExportRequest, cast: ExportCast, reported: Progress
 ) -> Iterator[tuple[tuple[StageFigure, ...], Scene]]:
-    """Yield all characters and instruments with their places, for a file of the requested format; merged into one
-    skeleton where instruments are attached.
-    """
+    """Yield for each file of the stage all characters and instruments with their places, and the scene; merged into one
+    skeleton where instruments are attached."""
     performance, span = request.performance, request.span
     take, everyone = file_stem(Path(request.source).stem), len(cast.ids)
 

@@ -31,7 +31,7 @@ def supports_scene(
     creator: str,
     place: NodePlace | None = None,
 ) -> Scene:
-    """The scene of straps and chair.
+    """Return the scene of a musician's straps and chair with their motion.
 
     Parameters
     ----------

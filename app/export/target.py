@@ -58,7 +58,7 @@ class Twist:
 
 @dataclass(frozen=True, eq=False)
 class TargetSkeleton:
-    """A skeleton to write on.
+    """The skeleton on which a character is exported: its bones, and their relation to the character's joints.
 
     Attributes
     ----------
@@ -122,7 +122,7 @@ class TargetSkeleton:
 
     @cached_property
     def bone_of_joint(self) -> Mapping[int, int]:
-        """The bone of each joint that has one; the first of several at one place."""
+        """Index of the bone for each joint that has one, by joint; the first if several bones lie at one joint."""
         found: dict[int, int] = {}
         for bone, joint in enumerate(self.joint_of_bone):
             if joint >= 0:
@@ -159,7 +159,7 @@ class TargetSkeleton:
 
 
 def matrices(positions: FloatArray, turned: FloatArray) -> FloatArray:
-    """Transforms (B, 4, 4) from positions and rotations."""
+    """Return transforms (B, 4, 4) from positions (B, 3) and rotations (B, 4)."""
     result = np.zeros((len(positions), 4, 4))
     result[:, :3, :3] = quaternion.to_matrix(turned)
     result[:, :3, 3] = positions
@@ -186,7 +186,7 @@ def trajectory_at_origin(frames: int) -> Trajectory:
 
 
 def placed_trajectory(path: Trajectory, place: NodePlace | None) -> Trajectory:
-    """Transform a trajectory by a place; None: unchanged."""
+    """Return a trajectory moved and turned into a place of the stage; unchanged if that is None."""
     if place is None:
         return path
     positions_m = quaternion.rotate(place.rotation_xyzw, path.positions_m) + METRES * place.translation_cm
@@ -247,9 +247,8 @@ _Placed: TypeAlias = tuple[FloatArray, FloatArray]
 def _bones(
     target: TargetSkeleton, skeleton: Skeleton, motion: Motion, held: Sequence[Trajectory], span: slice
 ) -> list[tuple[int, FloatArray, FloatArray]]:
-    """Yield every bone's index with its rotation (n, 4) and translation (n, 3) relative to its parent, at the frames of
-    a span.
-    """
+    """Return each bone's index with its rotation (n, 4) and translation (n, 3) relative to its parent, at the n frames
+    of a span."""
     turns = quaternion.normalize(motion.rotations[span])
     joints = forward(skeleton, turns, motion.hips_m[span].astype(np.float64))
     frames = len(turns)

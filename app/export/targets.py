@@ -37,7 +37,7 @@ class CheckedTarget:
 
     @property
     def messages(self) -> tuple[Message, ...]:
-        """Messages about the skeleton, most severe first."""
+        """Messages about differences from the requested skeleton, most severe first."""
         return (*reported(self.differences), *self.target.messages)
 
 

@@ -233,7 +233,7 @@ def _second_name(file: Path, name: Path) -> None:
 
 
 def _prune(folder: Path, root: Path) -> None:
-    """Delete folders that have become empty."""
+    """Delete the folder and those above it, up to ``root``, if they have become empty."""
     while folder != root:
         try:
             folder.rmdir()

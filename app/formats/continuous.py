@@ -1,4 +1,4 @@
-"""Makes quaternion sequences continuous."""
+"""Chooses the signs of quaternions so that sequences of rotations are continuous."""
 
 from __future__ import annotations
 

@@ -25,9 +25,8 @@ _PASSES = 8
 
 @cache
 def _basis(length: int) -> tuple[FloatArray, FloatArray]:
-    """Effects (L + 1, 2) of both slopes, relative to the straight line, and their least squares inverse (2, L + 1);
-    slopes are changes over the whole span.
-    """
+    """Return the effects (length + 1, 2) of both slopes of a cubic relative to the straight line, and their least
+    squares inverse (2, length + 1); slopes are changes over the whole span."""
     share = np.arange(length + 1) / length
     effects = np.stack([share**3 - 2.0 * share**2 + share, share**3 - share**2], axis=1)
     if length == 1:
@@ -36,7 +35,8 @@ def _basis(length: int) -> tuple[FloatArray, FloatArray]:
 
 
 def span_slopes(values: AnyFloatArray, keys: AnyIntArray) -> FloatArray:
-    """Slopes (K - 1, 2, D) per frame at the start and end of each span between keys (K,) of a curve (F, D)."""
+    """Return the slopes (K - 1, 2, D) per frame at the start and end of each span between the K keys (K,) of a curve
+    (F, D) of D components."""
     lanes = np.zeros(len(keys) - 1, np.intp)
     result = np.empty((len(keys) - 1, 2, values.shape[1]))
     curve = np.asarray(values)[None]
@@ -46,7 +46,8 @@ def span_slopes(values: AnyFloatArray, keys: AnyIntArray) -> FloatArray:
 
 
 def curved_values(values: AnyFloatArray, kept: BoolArray) -> FloatArray:
-    """Values (L, F, D) of cubics between the kept frames (L, F) of curves; constant after the last key."""
+    """Return the values (L, F, D) of L curves with D components in F frames: cubics between the kept frames (L, F),
+    constant after the last key."""
     frames = np.arange(values.shape[1])
     last = np.where(kept, frames, 0).max(axis=1)
     rows = np.arange(len(values))[:, None]
@@ -108,7 +109,7 @@ def cubic_keys(values: AnyFloatArray) -> BoolArray:
 
 
 def _halved(values: AnyFloatArray) -> BoolArray:
-    """Mask (L, F) of keys between which all spans are accurate enough."""
+    """Return a mask (L, F) of keys of L curves, found by halving, between which all spans are accurate enough."""
     lanes, frames, _ = values.shape
     borders = np.unique([*range(0, frames, _FIRST), frames - 1])
     kept = np.zeros((lanes, frames), bool)
@@ -160,7 +161,7 @@ def _with_one_of_two(values: AnyFloatArray, kept: BoolArray, first: int) -> int:
 
 
 def _far(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, lengths: AnyIntArray) -> BoolArray:
-    """Return a mask of the spans (S,) that deviate by more than 1."""
+    """Return a mask (S,) of those of S spans that deviate by more than 1 (the tolerance)."""
     result = np.zeros(len(lanes), bool)
     for length, some in _by_length(lengths):
         step = max(1, _AT_ONCE // ((length + 1) * values.shape[2]))
@@ -174,7 +175,8 @@ def _far(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, lengths
 def _fitted(
     values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, length: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Values (S, length + 1, D) of fitted cubics for spans of one length, and their slopes (S, 2, D) per frame."""
+    """Fit cubics to spans of ``length`` frames. Returns the values (S, length + 1, D) of S spans with D components, and
+    the slopes (S, 2, D) at their ends, per frame."""
     effects, squares = _basis(length)
     own = values[lanes[:, None], starts[:, None] + np.arange(length + 1)]
     change = own[:, -1:] - own[:, :1]
@@ -191,7 +193,7 @@ def _spans(kept: BoolArray) -> tuple[IntArray, IntArray, IntArray]:
 
 
 def _by_length(lengths: AnyIntArray) -> Iterator[tuple[int, IntArray]]:
-    """Yield the indices of the spans of each length."""
+    """Yield each length in ``lengths`` once, with the indices (K,) of the spans that have it."""
     order = np.argsort(lengths, kind="stable")
     found, starts = np.unique(lengths[order], return_index=True)
     yield from zip(found.tolist(), np.split(order, starts[1:]), strict=False)

@@ -111,7 +111,7 @@ def matrices(rotations_xyzw: AnyFloatArray) -> FloatArray:
 
 
 def _angles(q: FloatArray, order: str) -> FloatArray:
-    """Principal angles in radians (3, J, F) of quaternions (4, J, F)."""
+    """Return the principal angles in radians (3, J, F) of quaternions (4, J, F) of J joints in F frames."""
     parts = [_part_angles(q[..., :_BLOCK], order)]
     for start in range(_BLOCK, q.shape[-1], _BLOCK):
         parts.append(_part_angles(q[..., start : start + _BLOCK], order, parts[-1][0, :, -1]))
@@ -119,7 +119,8 @@ def _angles(q: FloatArray, order: str) -> FloatArray:
 
 
 def _part_angles(q: FloatArray, order: str, before: FloatArray | None = None) -> FloatArray:
-    """Principal angles of some frames; ``before`` has the first angles (J,) of the previous frame."""
+    """Return the principal Euler angles of rotations; ``before`` has the first angles (J,) of J joints in the previous
+    frame, to which they are continuous."""
     i, j, k = ("XYZ".index(axis) for axis in order)
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
     w = q[3]
@@ -153,7 +154,8 @@ def _part_angles(q: FloatArray, order: str, before: FloatArray | None = None) ->
 
 
 def _unrolled(angles: FloatArray) -> FloatArray:
-    """Angles in degrees without jumps along the last axis, from principal radians (3, J, F)."""
+    """Return angles in degrees without jumps along the frames, from principal angles in radians (3, J, F) of J
+    joints."""
     turns = angles * (0.5 / np.pi)
     step = np.diff(turns, axis=-1)
     smooth = ((step > -_SMOOTH_TURNS) & (step < _SMOOTH_TURNS)).all(axis=(0, 2))
@@ -164,7 +166,8 @@ def _unrolled(angles: FloatArray) -> FloatArray:
 
 
 def _without_jumps(turns: FloatArray, step: FloatArray) -> FloatArray:
-    """Turns (3, J, F) without jumps, given their differences between frames. Overwrites both arrays."""
+    """Return turns (3, J, F) of J joints without jumps, given their differences between frames. Overwrites both
+    arrays."""
     same = np.abs(step - np.rint(step)).sum(axis=0)
     # The other triple of a rotation is (first + half a turn, half a turn - middle, third + half a turn). The distance
     # between two triples is the same if both are exchanged, so only the places where to change over matter.

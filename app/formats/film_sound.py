@@ -139,7 +139,8 @@ def film_sound(
 def _decoded(
     path: str, rate_hz: int, check: Callable[[float], None], stop_requested: StopRequested
 ) -> tuple[bytearray, _Timing, int]:
-    """Decode all blocks of sound; returns the samples, their timing, and ffmpeg's exit status."""
+    """Decode the sound of a film with ffmpeg. Returns samples (16 bits, stereo), their timing, and ffmpeg's exit
+    status."""
     # ffmpeg would take a gap of more than thirty hours for a mistake and leave it out.
     exact = ("-dts_error_threshold", "1e12")
     heard = ("-map", "0:a:0", "-af", "ashowinfo", "-ac", "2", "-ar", str(rate_hz))
@@ -165,7 +166,8 @@ def _decoded(
 
 
 def _placed(sound: Samples, stretches: list[tuple[float, float]], rate_hz: int) -> tuple[Samples, int]:
-    """Place stretches of sound at their times; overlapping samples are dropped and counted."""
+    """Place stretches of decoded sound at their times in the film; overlapping samples are dropped. Returns the sound
+    and the number of samples dropped."""
     begins = [min(round(sound_s * rate_hz), len(sound)) for sound_s, _ in stretches]
     parts: list[Samples] = []
     length = heard = 0

@@ -14,7 +14,7 @@ _SCALE = 10**DECIMALS
 
 
 def _words(form: str) -> npt.NDArray[np.uint32]:
-    """Four-byte words for 0 to 999; padding bytes are removed from the text later."""
+    """Return the four-byte texts of the numbers 0 to 999 as words; padding bytes are removed from the text later."""
     rows = [list((form % n).lstrip().rjust(4, "\0").encode()) for n in range(1000)]
     return np.array(rows, dtype=np.uint8).view("<u4")[:, 0]
 

@@ -78,9 +78,8 @@ class ImageReader:
 
 
 def decoded(texture: Texture, most_px: int) -> Pixels | None:
-    """Decode a texture to RGBA (H, W, 4), scaled down so that no side exceeds ``most_px``; None if it cannot be
-    read.
-    """
+    """Decode a texture to RGBA (height, width, 4), scaled down so that no side exceeds ``most_px``; None if it cannot
+    be read."""
     image = _smaller(texture.content, most_px)
     return None if image is None else np.asarray(image.convert("RGBA"))
 
@@ -210,9 +209,8 @@ def tinted(texture: Texture, factor: tuple[float, float, float], solid: bool) ->
 
 @lru_cache(maxsize=128)
 def scaled_channel(texture: Texture, band: str, role: str, factor: float) -> Texture:
-    """One channel (``R``, ``G`` or ``B``) of a texture as grey image, multiplied by a factor; the texture itself if it
-    cannot be read.
-    """
+    """Return one channel (``R``, ``G`` or ``B``) of a texture as a grey image, multiplied by a factor; the texture
+    itself if it cannot be read. ``role`` is the use of the new texture."""
     image = _smaller(texture.content, MOST_SIDE_PX)
     if image is None:
         return texture

@@ -68,7 +68,8 @@ def channel_degrees(
 def channel_quaternions(
     degrees: AnyFloatArray, orders: Sequence[str], rests_xyzw: AnyFloatArray | None = None
 ) -> FloatArray:
-    """Inverse of `channel_degrees`: unit quaternions (J, F, 4) from angles (J, F, 3) about X, Y and Z."""
+    """Return unit quaternions (J, F, 4) of J joints from angles (J, F, 3) in degrees about X, Y and Z; the inverse of
+    `channel_degrees`."""
     result = np.empty((*degrees.shape[:-1], 4))
     for order, chosen in _by_order(orders):
         turned = quaternions(degrees[chosen][..., [AXES.index(axis) for axis in order]], order)
@@ -79,11 +80,12 @@ def channel_quaternions(
 
 
 def _by_order(orders: Sequence[str]) -> list[tuple[str, list[int]]]:
-    """Indices of the joints for each rotation order."""
+    """Return each rotation order with the indices of the joints that use it."""
     return [(order, [joint for joint, own in enumerate(orders) if own == order]) for order in dict.fromkeys(orders)]
 
 
 def _left_products(rotations_xyzw: FloatArray) -> FloatArray:
-    """Matrices (J, 4, 4) that left-multiply quaternions by the normalised rotations (J, 4)."""
+    """Return the matrices (J, 4, 4) that multiply quaternions from the left by the normalised rotations (J, 4) of J
+    joints."""
     x, y, z, w = (rotations_xyzw / np.linalg.norm(rotations_xyzw, axis=-1, keepdims=True)).T
     return np.array([[w, -z, y, x], [z, w, -x, y], [-y, x, w, z], [-x, -y, -z, w]]).transpose(2, 0, 1)

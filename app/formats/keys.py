@@ -49,12 +49,14 @@ class Keys:
     curved: bool = False
 
     def beside(self, other: Keys) -> Keys:
-        """Append the keys of further bones without morphs."""
+        """Return the keys of a skeleton extended by the keys of further bones without morphs, such as an attached
+        instrument's."""
         pose = None if self.pose is None or other.pose is None else np.union1d(self.pose, other.pose)
         return replace(self, bones=self.bones + other.bones, pose=pose)
 
     def check(self, bones: int, frames: int, morphs: Mapping[str, object]) -> None:
-        """Raise ValueError unless these keys fit a clip."""
+        """Raise ValueError unless the keys fit a clip of so many bones and frames and these morphs: ascending frames,
+        frame 0 first."""
         if len(self.bones) != bones or self.morphs.keys() != morphs.keys():
             raise ValueError("keys of other bones or morphs than the clip's")
         lists = [*self.bones, *self.morphs.values(), self.face, *([] if self.pose is None else [self.pose])]
@@ -81,7 +83,8 @@ class KeySpans:
 
     @classmethod
     def of(cls, kept: BoolArray) -> KeySpans:
-        """Spans between the frames (L, F) that have keys; the first frame must have one."""
+        """Return the spans between the keys of L curves, given as a mask (L, F) of F frames; the first frame must have
+        a key."""
         frames = np.arange(kept.shape[1], dtype=np.int32)
         before = np.maximum.accumulate(np.where(kept, frames, 0), axis=1)
         last = before[:, -1:]
@@ -91,21 +94,21 @@ class KeySpans:
         return cls(before, after, np.where(after > before, share, np.float32(0.0)))
 
     def at(self, frames: AnyIntArray) -> KeySpans:
-        """Spans of some of the frames."""
+        """Return the spans at only the given frames (K,)."""
         return KeySpans(self.before[:, frames], self.after[:, frames], self.share[:, frames])
 
     def row(self, row: int) -> KeySpans:
-        """Spans of one curve."""
+        """Return the spans between keys of the curve ``row`` alone, with the curve axis kept."""
         return KeySpans(self.before[row, None], self.after[row, None], self.share[row, None])
 
     def straight(self, values: AnyFloatArray) -> FloatArray:
-        """Values (L, F, D) at these frames, linearly interpolated from the keys."""
+        """Return the values (L, F, D) of L curves with D components, linearly interpolated between the keys."""
         rows = np.arange(len(values))[:, None]
         first, last = values[rows, self.before], values[rows, self.after]
         return np.asarray(first + (last - first) * self.share[..., None], np.float64)
 
     def turned(self, rotations: AnyFloatArray) -> FloatArray:
-        """Unit quaternions (L, F, 4) at these frames, interpolated from the keys."""
+        """Return the unit quaternions (L, F, 4) of L curves, interpolated between the keys by the shorter way."""
         rows = np.arange(len(rotations))[:, None]
         return slerp(rotations[rows, self.before], rotations[rows, self.after], self.share[..., None])
 
@@ -159,7 +162,8 @@ def straight_keys(values: AnyFloatArray) -> BoolArray:
 
 
 def _walked(rows: AnyFloatArray, lanes: int, borders: AnyIntArray) -> BoolArray:
-    """Mask (L, F) of keys as in `straight_keys`, including every border; ``rows`` is (D, L * F)."""
+    """Return a mask (L, F) of keys of L curves as in `straight_keys`, including every border; ``rows`` (D, L * F) are
+    the values."""
     frames = rows.shape[1] // lanes
     kept = np.zeros(lanes * frames, bool)
     starts = (np.arange(lanes)[:, None] * frames + borders[:-1]).ravel()
@@ -191,7 +195,8 @@ def _walked(rows: AnyFloatArray, lanes: int, borders: AnyIntArray) -> BoolArray:
 
 
 def _without_needless(rows: AnyFloatArray, kept: BoolArray, borders: AnyIntArray) -> BoolArray:
-    """Remove keys at some frames that straight lines do not need.
+    """Return ``kept`` (curves, frames) without those keys at ``borders`` frames that a straight line through the
+    neighbouring keys makes unnecessary.
 
     Every second remaining one is tried at a time, so that each is between two keys that stay.
     """

@@ -93,7 +93,8 @@ def lower_levels(mesh: SkinnedMesh, count: int) -> tuple[SkinnedMesh, ...]:
 
 
 def _triangles(mesh: SkinnedMesh) -> IntArray:
-    """Faces as fans of triangles, those of one face together."""
+    """Return the triangles (T, 3) of a mesh as vertex indices; larger faces become fans, whose triangles are adjacent
+    rows."""
     faces = np.asarray(mesh.faces, dtype=np.int64)
     fan = [faces[:, [0, corner, corner + 1]] for corner in range(1, faces.shape[1] - 1)]
     return np.stack(fan, axis=1).reshape(-1, 3)
@@ -144,7 +145,8 @@ def _parts(mesh: SkinnedMesh, vertices_cm: AnyFloatArray, triangles: IntArray, m
 
 
 def _collapsed(vertices_cm: AnyFloatArray, triangles: IntArray, target_count: int, is_sewn: bool) -> IntArray:
-    """The vertex that each vertex becomes: of those that became one, the nearest to the best place."""
+    """Reduce a mesh to about ``target_count`` triangles, and return for each old vertex the index (V,) of the remaining
+    vertex it is merged into."""
     from fast_simplification import simplify
 
     with _ONE_AT_A_TIME:
@@ -199,7 +201,8 @@ def _level(mesh: SkinnedMesh, number: int, triangles: IntArray, materials: IntAr
 
 
 def _morphs(morphs: Sequence[MorphTarget], row: AnyIntArray) -> tuple[MorphTarget, ...]:
-    """Morphs of the vertices that are left; all of them, so that every level has the same."""
+    """Return the morphs reduced to the vertices that a level of detail keeps: ``row`` (V,) is each vertex's new row or
+    -1. A morph without vertices stays, so that every level has the same morphs."""
     found = []
     for morph in morphs:
         rows = row[morph.vertex_indices]

@@ -47,7 +47,13 @@ class PackedArrays:
 
 
 def read_arrays(path: Path) -> PackedArrays:
-    """Read an array file. Raises FileError if it is invalid."""
+    """Read a file of packed arrays (`app.formats.packed_arrays`).
+
+    Raises
+    ------
+    FileError
+        The file cannot be read, or is damaged.
+    """
     content = read_file(path, MOST_FILE_BYTES)
     start = len(MAGIC) + 4
     length = int.from_bytes(content[len(MAGIC) : start], "little")

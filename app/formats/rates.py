@@ -1,4 +1,4 @@
-"""Frame rates as fractions."""
+"""Frame rates as exact fractions, such as 30000/1001."""
 
 from __future__ import annotations
 

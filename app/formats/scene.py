@@ -92,7 +92,7 @@ class Material:
 
     @property
     def alpha_mode(self) -> AlphaMode:
-        """The effective alpha mode."""
+        """The alpha mode in effect: the given one, else blending if the base colour is transparent."""
         return self.alpha or ("blend" if self.base_color[3] < 1.0 else "opaque")
 
 
@@ -170,7 +170,7 @@ class Clip:
 
     @property
     def kind(self) -> tuple[str, Fraction, int]:
-        """Name, rate and length, equal for all clips of a file."""
+        """Name, rate and number of frames, which must be equal for all clips of a file."""
         return self.name, self.fps, self.frames
 
 
@@ -183,7 +183,7 @@ class NodePlace:
 
     @property
     def matrix(self) -> FloatArray:
-        """``world_from_node``, shape (4, 4)."""
+        """Transform ``world_from_node`` (4, 4) of the place."""
         result = np.eye(4)
         result[:3, :3] = matrices(np.asarray(self.rotation_xyzw, dtype=np.float64))
         result[:3, 3] = self.translation_cm

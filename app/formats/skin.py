@@ -9,7 +9,7 @@ from app.formats.scene import SkinnedMesh
 
 
 def influences(mesh: SkinnedMesh) -> tuple[IntArray, FloatArray]:
-    """Bone indices and weights (V, K) of every vertex, strongest first.
+    """Return bone indices and weights (V, K) of V vertices with at most K bones each, strongest first.
 
     Each bone occurs once per vertex and weights sum to 1; unused slots have bone 0 and weight 0. A vertex without
     weights follows the root. K is as small as possible.

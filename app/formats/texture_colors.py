@@ -32,7 +32,7 @@ def sampled(use: TextureUse, uvs: AnyFloatArray) -> FloatArray | None:
 
 
 def linear(srgb: FloatArray) -> FloatArray:
-    """Convert sRGB values to linear ones (IEC 61966-2-1)."""
+    """Convert sRGB values 0..1 of any shape to linear ones (IEC 61966-2-1)."""
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
 
 

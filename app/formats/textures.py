@@ -91,7 +91,7 @@ class MaterialTextures:
 
     @property
     def uses(self) -> tuple[TextureUse, ...]:
-        """All textures of the material."""
+        """All textures that the material has: colour, normal, metal and roughness, occlusion."""
         found = (self.color, self.normal, self.metallic_roughness, self.occlusion)
         return tuple(use for use in found if use is not None)
 

@@ -142,7 +142,7 @@ def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None, files: Texture
 
 
 class _Writer:
-    """Adds one scene to a stage."""
+    """Adds one scene with skeleton, meshes and animation to a USD stage."""
 
     def __init__(self, scene: Scene, layer: Any, stage: Any, materials: UsdMaterials) -> None:
         self._scene = scene
@@ -151,7 +151,7 @@ class _Writer:
         self._materials = materials
 
     def write(self, root_path: str) -> None:
-        """Add the scene's SkelRoot."""
+        """Add the scene's skeleton, meshes and animation to the USD stage below ``root_path``."""
         from pxr import Gf, Kind, Usd, UsdSkel
 
         scene, clip = self._scene, self._scene.clip
@@ -341,7 +341,7 @@ def _add_sound(stage: Any, path: str, clip: Clip, sound: UsdSound) -> None:
 
 
 def _identifiers(names: Iterable[str], taken: Iterable[str] = ()) -> tuple[str, ...]:
-    """Valid and unique prim names, also different from ``taken`` ignoring case."""
+    """Return valid and unique USD prim names for the given ones, also different from ``taken`` ignoring case."""
     from pxr import Sdf, Tf
 
     valid = (name if Sdf.Path.IsValidIdentifier(name) else Tf.MakeValidIdentifier(name) for name in names)

@@ -65,7 +65,7 @@ def _scene(stage: Any) -> Scene:
 
 
 def _columns(matrices: Any) -> FloatArray:
-    """Convert USD's matrices for row vectors to matrices for column vectors."""
+    """Convert USD's matrices (N, 4, 4) for row vectors to matrices for column vectors."""
     return np.array(matrices, np.float64).reshape(-1, 4, 4).transpose(0, 2, 1)
 
 
@@ -112,7 +112,7 @@ def _targets(binding: Any) -> list[Any]:
 
 
 def _clip(stage: Any, motion: Any) -> Clip:
-    """The values at every frame; between keys as USD interpolates them."""
+    """Return the clip of a USD skeleton's animation sampled at every frame; between keys as USD interpolates them."""
     frames = round(stage.GetEndTimeCode() - stage.GetStartTimeCode()) + 1
     names = motion.GetBlendShapesAttr().Get() or ()
     weights = _at_frames(motion.GetBlendShapeWeightsAttr(), frames) if names else np.zeros((frames, 0))

@@ -60,7 +60,7 @@ class Shelf(Generic[V]):
 
 @dataclass(frozen=True)
 class Read(Generic[V]):
-    """Result of reading a user's file: a value and its files, or an error."""
+    """Result of reading one of the user's files: the value and the files it depends on, or the errors."""
 
     value: V | None
     files: tuple[Path, ...] = ()

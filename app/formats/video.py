@@ -50,7 +50,8 @@ class VideoFacts:
     has_sound: bool
 
     def fitted(self, most_width: int, most_height: int) -> tuple[int, int]:
-        """Largest even size with the same proportions that fits, never larger than the video."""
+        """Return the largest even width and height with the video's proportions that fit, never larger than the
+        video."""
         share = min(most_width / self.width, most_height / self.height, 1.0)
         width, height = (max(round(share * length / 2.0) * 2, 2) for length in (self.width, self.height))
         return width, height

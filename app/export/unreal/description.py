@@ -70,7 +70,7 @@ class UnrealFigure(msgspec.Struct, frozen=True):
 
 
 class Double(msgspec.Struct, frozen=True):
-    """Another instrument that a player changes to; while unused it is next to the player."""
+    """A further instrument of a musician in the description for Unreal; while unused it lies beside the player."""
 
     name: str
     part: str
@@ -79,7 +79,7 @@ class Double(msgspec.Struct, frozen=True):
 
 
 class Cast(msgspec.Struct, frozen=True):
-    """A player with the instruments."""
+    """A musician in the description for Unreal, with all instruments."""
 
     name: str
     part: str
@@ -93,7 +93,8 @@ class Cast(msgspec.Struct, frozen=True):
 
 
 class CastDancer(msgspec.Struct, frozen=True):
-    """A dancer. The place is that at the start of the dance; the animation moves on from there."""
+    """A dancer in the description for Unreal. The place is that at the start of the dance; the animation moves on from
+    there."""
 
     name: str
     choreography: str
@@ -104,7 +105,7 @@ class CastDancer(msgspec.Struct, frozen=True):
 
 
 class UnrealSound(msgspec.Struct, frozen=True):
-    """Sound of the piece in Unreal. ``offset_s`` is the animation time at which the file begins."""
+    """Sound of the piece in the description for Unreal. ``offset_s`` is the animation time at which the file begins."""
 
     file: str
     asset: str
@@ -117,7 +118,7 @@ class UnrealSound(msgspec.Struct, frozen=True):
 
 
 class Tempo(msgspec.Struct, frozen=True):
-    """A tempo from a tick on."""
+    """A tempo in the description for Unreal: tick and seconds at which it begins, and quarter notes per minute."""
 
     tick: int
     s: float
@@ -125,7 +126,7 @@ class Tempo(msgspec.Struct, frozen=True):
 
 
 class UnrealMetre(msgspec.Struct, frozen=True):
-    """A time signature from a tick on."""
+    """A time signature in the description for Unreal: tick and seconds at which it begins."""
 
     tick: int
     s: float
@@ -143,7 +144,7 @@ class UnrealBar(msgspec.Struct, frozen=True):
 
 
 class UnrealMarker(msgspec.Struct, frozen=True):
-    """A rehearsal marker within the animation, with its bar. ``frame`` is the nearest frame."""
+    """A rehearsal mark in the description for Unreal, with its bar. ``frame`` is the nearest frame of the animation."""
 
     text: str
     bar: int
@@ -162,9 +163,8 @@ class Cue(msgspec.Struct, frozen=True):
 
 
 class LeftOutFigures(msgspec.Struct, frozen=True):
-    """A requested player or dancer that could not be exported, with the reason. ``assets`` are those of earlier
-    exports, which are kept, as is the body that is shown.
-    """
+    """A requested player or dancer that could not be exported, in the description for Unreal, with the reason.
+    ``assets`` are those of earlier exports, which are kept."""
 
     name: str
     reason: str
@@ -318,7 +318,8 @@ def _figure(place: FigurePlace, contents: Mapping[str, FileContents], socket: st
 
 
 def _actor_place(one: Player | Dancer, target: TargetSkeleton) -> UnrealPlace:
-    """Return the place of the actor: the origin if the root bone is placed on the stage."""
+    """Return the place of a performer's actor in Unreal: the origin if the animation's root bone is placed on the stage
+    instead."""
     return place_of(one.stage) if target.place is None else UnrealPlace(0.0, 0.0, 0.0, 0.0)
 
 
@@ -342,7 +343,7 @@ class _Time:
         return round(s - self.span.first_frame_s, 6)
 
     def frame(self, s: float) -> int:
-        """The nearest frame to a performance time."""
+        """Return the frame of the animation nearest to a second of the performance."""
         return math.floor(s * self.span.fps.numerator / self.span.fps.denominator + 0.5)
 
     def shows(self, frame: int) -> bool:
@@ -389,7 +390,7 @@ def _cues(performance: Performance, musicians: Iterable[Player], time: _Time) ->
 
 
 def place_of(stage: StagePosition) -> UnrealPlace:
-    """A performer's place in Unreal's coordinates."""
+    """Convert a performer's place on stage to Unreal's coordinates (centimetres and degrees)."""
     turn_deg = math.degrees(math.remainder(stage.turn_rad, math.tau))
     return UnrealPlace(
         x_cm=round(100.0 * stage.x_m, 3) + 0.0,
@@ -400,5 +401,5 @@ def place_of(stage: StagePosition) -> UnrealPlace:
 
 
 def encode_description(description: Description) -> bytes:
-    """Encode as indented JSON, UTF-8."""
+    """Return the description of an Unreal import as indented JSON in UTF-8."""
     return msgspec.json.format(msgspec.json.encode(description), indent=1) + b"\n"

@@ -91,9 +91,8 @@ class Layout:
         return f"{CONTENT}/{self.piece}"
 
     def files(self, performer_ids: tuple[str, ...], left_out: tuple[str, ...] = ()) -> tuple[PurePosixPath, ...]:
-        """Sorted paths of all files that an export of some performers writes, relative to the piece's sources; excludes
-        the instruments of those left out.
-        """
+        """Return the sorted paths of all files that an export of the given performers writes, relative to the piece's
+        sources; the instruments of those left out are excluded."""
         own = (PurePosixPath(name) for name in (DESCRIPTION, REPORT, MANIFEST))
         without = {self.instruments[one].file for one in left_out if one in self.instruments}
         places = (place.file for performer_id in performer_ids for place in self.figures(performer_id))
@@ -101,7 +100,7 @@ class Layout:
         return tuple(sorted([*figures, self.sound_file, *own]))
 
     def figures(self, performer_id: str) -> tuple[FigurePlace, ...]:
-        """The character of a performer and, for a player, the instruments."""
+        """Return the places of a performer's files: the character and, for a player, the instruments."""
         own = (places[performer_id] for places in (self.characters, self.instruments) if performer_id in places)
         return (*own, *(self.instruments[double] for double in self.doubles.get(performer_id, ())))
 

@@ -30,7 +30,7 @@ class OwnFile(msgspec.Struct, frozen=True):
 
 
 class Manifest(msgspec.Struct, frozen=True):
-    """Files that this program wrote into a folder, by relative path. The manifest itself also counts."""
+    """List of the files that this program wrote into a folder, by relative path, the manifest included."""
 
     schema: int
     made_by: str
@@ -58,13 +58,13 @@ class Changes:
 
 
 def own_text(data: bytes) -> OwnFile:
-    """Manifest entry for a text."""
+    """Return the manifest's size and SHA-256 of a text, with line ends made uniform."""
     text = data.replace(b"\r\n", b"\n")
     return OwnFile(len(text), hashlib.sha256(text).hexdigest())
 
 
 def own_file(path: Path) -> OwnFile:
-    """Manifest entry for a file."""
+    """Return the manifest's size and SHA-256 of a file; line ends of text files are made uniform first."""
     if path.suffix.lower() in _TEXTS:
         return own_text(read_file(path, MOST_BYTES))
     with open_file(path) as stream:
@@ -144,6 +144,6 @@ def read_manifest(folder: Path) -> dict[PurePosixPath, OwnFile]:
 
 
 def encode_manifest(files: Mapping[str, OwnFile], creator: str) -> bytes:
-    """The manifest of some files as indented JSON."""
+    """Return the manifest of the plug-in's own files as indented JSON: size and checksum by path."""
     manifest = Manifest(SCHEMA, creator, dict(sorted(files.items())))
     return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"

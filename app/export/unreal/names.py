@@ -45,7 +45,7 @@ def asset_name(text: str, otherwise: str) -> str:
 
 
 def _spelt(text: str) -> tuple[str, bool]:
-    """The text in ASCII, and whether nothing was lost."""
+    """Return a name spelt in ASCII, and whether nothing was lost."""
     spelt: list[str] = []
     whole, double = True, False
     for character in unicodedata.normalize("NFKC", text):

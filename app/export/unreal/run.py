@@ -256,7 +256,8 @@ def _vouch(
     content: dict[PurePosixPath, bytes],
     staying: dict[PurePosixPath, OwnFile],
 ) -> None:
-    """Write the remaining files of a folder and its manifest, which also lists the files that stay."""
+    """Write the remaining files of a folder of the Unreal project and its manifest, which also lists the files that
+    stay."""
     place = change.new / folder
     for path, data in content.items():
         (place / path).parent.mkdir(parents=True, exist_ok=True)
@@ -319,7 +320,7 @@ def _figures(
 def _sound(
     request: ExportRequest, layout: Layout, sources: Path, stop_requested: StopRequested, progress: Progress
 ) -> UnrealSound:
-    """Write the sound from the first frame to the last."""
+    """Write the sound of the exported span as a wave file, and return its description."""
     project, span = request.performance.project, request.span
     file = sources / layout.sound_file
     file.parent.mkdir(parents=True, exist_ok=True)
@@ -350,7 +351,8 @@ def _checked(
     stop_requested: StopRequested,
     progress: Progress,
 ) -> dict[str, tuple[str, ...]]:
-    """Read every written file and compare it with its expected contents; returns the bones of each."""
+    """Read every written file, compare it with its expected contents, and return the bone names of each by file path.
+    Raises FileError where they differ."""
     check_wave(sources / sound.file, RATE_HZ, sound.channels, round(sound.duration_s * RATE_HZ))
     bones: dict[str, tuple[str, ...]] = {}
     figures = tuple(_figures_written(cast, layout))

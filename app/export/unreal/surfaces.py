@@ -33,7 +33,8 @@ class UnrealTexture(msgspec.Struct, frozen=True):
 
 
 class UnrealMap(msgspec.Struct, frozen=True):
-    """A texture of a material, by its asset; image coordinates are ``scale * uv + offset``, v down."""
+    """A texture as used by a material in Unreal: its asset and its place on the surface; image coordinates are ``scale
+    * uv + offset``, v down."""
 
     texture: str
     scale: tuple[float, float]
@@ -89,12 +90,12 @@ class Surfaces:
 
     @property
     def textures(self) -> tuple[UnrealTexture, ...]:
-        """The textures in order."""
+        """All textures of the export, sorted by asset path."""
         return tuple(self._textures[asset] for asset in sorted(self._textures))
 
     @property
     def materials(self) -> tuple[UnrealMaterial, ...]:
-        """The materials in order."""
+        """All materials of the export, sorted by asset path."""
         return tuple(sorted(self._materials.values(), key=lambda one: one.asset))
 
     @property

@@ -1,1 +1,1 @@
-"""BVH (Biovision hierarchy) files."""
+"""Reading and writing of BVH (Biovision hierarchy) motion files."""

@@ -92,7 +92,8 @@ class _Skeleton:
         return [joint for joint, parent in enumerate(self.parents) if parent < 0]
 
     def figure(self, first: int) -> _Skeleton:
-        """The skeleton with this root joint."""
+        """Return the part of the file that is the skeleton with the root joint ``first``, with joints counted from
+        0."""
         stop = next((root for root in self.roots if root > first), len(self.names))
         found, own = _Skeleton(self.file), slice(first, stop)
         found.names, found.offsets, found.channels = self.names[own], self.offsets[own], self.channels[own]

@@ -36,7 +36,7 @@ class ByteCache(Generic[K, V]):
             return self._kept[key][0]
 
     def keep(self, key: K, value: V, size: int) -> None:
-        """Store a value with its size in bytes."""
+        """Store a value with its size in bytes; too large ones are not kept, and the oldest give way."""
         if size > self._largest_bytes:
             return
         with self._lock:

@@ -30,20 +30,20 @@ LINEAR = 0x4
 
 
 def rotation_curves(bones: Sequence[Bone], clip: Clip) -> FloatArray:
-    """Angles (B, 3, F) in degrees about X, Y and Z to be written, in each bone's rotation order and relative to its
-    rest.
-    """
+    """Return the angles (B, 3, F) of B bones in F frames to be written, degrees about X, Y and Z in each bone's
+    rotation order and relative to its rest."""
     angles = channel_degrees(clip.rotations_xyzw, *_resting(bones))
     return angles if clip.keys is None else steady(angles, STEADY_DEG).astype(np.float64, copy=False)
 
 
 def curve_rotations(bones: Sequence[Bone], degrees: AnyFloatArray) -> FloatArray:
-    """Rotations (B, F, 4) of bones from curve values (B, F, 3) as in `rotation_curves`."""
+    """Return the rotations (B, F, 4) of B bones in F frames from the degrees (B, F, 3) of their curves, the reverse of
+    `rotation_curves`."""
     return channel_quaternions(degrees, *_resting(bones))
 
 
 def _resting(bones: Sequence[Bone]) -> tuple[tuple[str, ...], FloatArray]:
-    """Rotation orders and rest rotations (B, 4) of bones."""
+    """Return rotation orders and rest rotations (B, 4) of B bones."""
     return tuple(bone.order for bone in bones), np.array([bone.rotation_xyzw for bone in bones], np.float64)
 
 
@@ -54,7 +54,7 @@ def place_curves(clip: Clip, bone: int) -> AnyFloatArray:
 
 
 def _cubic(slopes: FloatArray) -> tuple[Element, ...]:
-    """Elements of cubic keys (K), with slopes per second at the start and end of each span (K - 1, 2)."""
+    """Return the FBX elements of K cubic keys, with slopes per second at the start and end of each span (K - 1, 2)."""
     data = np.tile(_KEY_DATA, (len(slopes) + 1, 1))
     data[:-1, :2] = slopes
     flags = np.full(len(data), CUBIC | OWN_SLOPES, np.int32)
@@ -120,9 +120,8 @@ class FbxLayerCurves:
         frames: AnyIntArray | None,
         slopes_fps: float = 0.0,
     ) -> None:
-        """Animate one property; `values` has a row of frames per channel. Keys are at the given frames or all; cubic if
-        a frame rate is given, else linear.
-        """
+        """Animate one FBX property; ``values`` (channels, F) has a row for each channel. Keys are at the given frames
+        or all; cubic if a frame rate ``slopes_fps`` is given, else linear."""
         defaults = [
             property_row(f"d|{channel}", "Number", "", "A", float(row[0]))
             for channel, row in zip(channels, values, strict=True)
@@ -143,7 +142,8 @@ class FbxLayerCurves:
             self._assembly.connect(curve, node, f"d|{channel}")
 
     def _times(self, frames: AnyIntArray | None) -> tuple[tuple[Element, ...], tuple[Element, ...]]:
-        """Elements before and after the values of a curve with keys at some frames or all."""
+        """Return the FBX elements before and after the values of a curve, which hold the times of its keys (all frames
+        if None)."""
         known = b"" if frames is None else frames.tobytes()
         if known not in self._at:
             key_ticks = self._ticks if frames is None else self._ticks[frames]
@@ -159,7 +159,8 @@ class FbxLayerCurves:
         return self._at[known]
 
     def _keys(self, row: SingleArray) -> PackedArray:
-        """Add the keys of one channel's curve.
+        """Return a channel's values (F,) as a packed FBX array; constant curves are compressed and shared, for moving
+        ones compression is not worth the time.
 
         Constant curves compress to nothing; for moving ones compression is not worth the time.
         """

@@ -94,7 +94,8 @@ class _Reader:
         return FileError(f"fbx.{what}", file=self._file, offset=offset)
 
     def block(self, position: int, end: int, depth: int) -> tuple[tuple[Element, ...], int]:
-        """Decode records up to the closing null record; returns them and the offset after it."""
+        """Decode the child records of a block up to its closing null record. Returns the records and the offset after
+        them. Raises FileError if nested too deeply."""
         if depth > _DEEPEST:
             raise self._error("too_deep", position)
         elements: list[Element] = []

@@ -81,7 +81,7 @@ class FbxCluster:
 
 @dataclass(frozen=True, eq=False)
 class FbxMorph:
-    """Blend shape at full weight: indices of moved points, and their offsets."""
+    """Blend shape of an FBX mesh at full weight: indices of moved points, and their offsets."""
 
     name: str
     points: IntArray
@@ -131,7 +131,7 @@ class FbxMaterial:
 
 @dataclass(frozen=True, eq=False)
 class FbxMesh:
-    """A polygon mesh.
+    """A polygon mesh as read from an FBX file.
 
     Attributes
     ----------

@@ -216,7 +216,7 @@ def _skin(skin: Any, written: _Written) -> list[dict[str, Any]]:
 
 
 def _morph(deformer: Any, channel: Any, written: _Written) -> list[dict[str, Any]]:
-    """Describe the last shape of a channel, the one at full weight."""
+    """Describe the last shape of an FBX morph channel, the one at full weight; empty if it has none."""
     frames = _every(_keep(channel).keyframes)
     if not frames:
         return []
@@ -272,7 +272,8 @@ def _nodes(scene: Any, written: _Written) -> list[dict[str, Any]]:
 
 
 def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
-    """Read nodes and meshes from a file's bytes, in metres, right-handed, Y up."""
+    """Read nodes and meshes from the bytes of an FBX file, in metres, right-handed, Y up; returns a JSON description
+    and its arrays by name."""
     scene = _load(data, animated=False)
     written = _Written(FREE_NUMBERS + NUMBERS_PER_BYTE * len(data))
     nodes = _nodes(scene, written)
@@ -281,9 +282,8 @@ def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
 
 
 def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
-    """Read from a file's bytes the nodes, bind transforms, and local transforms in all frames of the longest
-    animation.
-    """
+    """Read from the bytes of an FBX file the nodes, bind transforms, and local transforms in all frames of the longest
+    animation; returns a JSON description and its arrays by name."""
     scene = _load(data, animated=True)
     written = _Written(FREE_MOTION_NUMBERS + NUMBERS_PER_BYTE * len(data))
     nodes = _nodes(scene, written)

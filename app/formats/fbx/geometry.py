@@ -14,7 +14,7 @@ from app.formats.scene import MorphTarget, SkinnedMesh
 
 
 def geometry(mesh: SkinnedMesh) -> tuple[Element, ...]:
-    """Children of a Geometry record of class Mesh."""
+    """Return the child records of an FBX geometry: vertices, polygons, normals, UVs and materials of a mesh."""
     faces = np.array(mesh.faces, dtype=np.int32)
     faces[:, -1] = -faces[:, -1] - 1  # a negative index ends a polygon
     layers = [_normal_layer(mesh), _smoothing_layer(mesh)]

@@ -72,22 +72,24 @@ class ObjectGraph:
         return values
 
     def floats(self, element: Element, name: str, width: int) -> FloatArray:
-        """Array of doubles in rows of ``width``; read-only."""
+        """Return the float array ``name`` below an FBX record as rows (N, width); read-only."""
         return self.stored(element, name, width).astype(np.float64, copy=False)
 
     def stored(self, element: Element, name: str, width: int) -> AnyFloatArray:
-        """Array of numbers in rows of ``width``, in the file's precision."""
+        """Return the numbers ``name`` below an FBX record as rows (N, width), in the precision of the file. Raises
+        FileError for incomplete rows."""
         values: AnyFloatArray = self._array(element, name, "f")  # type: ignore[assignment]
         if len(values) % width or not np.isfinite(values).all():
             raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not made of finite {width}s")
         return values.reshape(-1, width)
 
     def integers(self, element: Element, name: str) -> IntArray:
-        """Array of integers; read-only."""
+        """Return the integer array ``name`` below an FBX record, shape (N,); read-only."""
         return self._array(element, name, "i").astype(np.int64, copy=False)
 
     def matrix(self, element: Element, name: str) -> FloatArray:
-        """A 4 x 4 matrix for column vectors."""
+        """Return the sixteen numbers ``name`` below an FBX record as a matrix (4, 4) for column vectors. Raises
+        FileError for another count."""
         values = self.floats(element, name, 16)
         if len(values) != 1:
             raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not a matrix")
@@ -101,7 +103,7 @@ class ObjectGraph:
 
 
 def properties_of(element: Element) -> dict[str, tuple[Property, ...]]:
-    """Values of a record's Properties70 block, by name."""
+    """Return the values of an FBX record's "Properties70" block, by the name of the property."""
     block = element.child("Properties70")
     rows = [row.properties for row in (block.children or () if block is not None else ())]
     return {row[0]: row[4:] for row in rows if len(row) >= 4 and isinstance(row[0], str)}

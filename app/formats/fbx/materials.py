@@ -69,7 +69,7 @@ def roughness_of(shininess: float) -> float:
 
 
 def read_material(material: FbxObject) -> Material:
-    """The surface of a material's object."""
+    """Return the material that an FBX material object describes."""
     properties = {name: numbers(values) for name, values in properties_of(material.element).items()}
     red, green, blue = (*properties.get("DiffuseColor", []), 0.0, 0.0, 0.0)[:3]
 

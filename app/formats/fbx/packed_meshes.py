@@ -74,13 +74,13 @@ def _digest(mesh: SkinnedMesh) -> bytes:
 
 
 def _packed(record: Element) -> Element:
-    """Encode the arrays of a record."""
+    """Return an FBX record with its arrays, and those of its children, encoded."""
     properties = tuple(pack_array(value) if isinstance(value, np.ndarray) else value for value in record.properties)
     children = None if record.children is None else tuple(map(_packed, record.children))
     return Element(record.name, properties, children)
 
 
 def _size(record: Element) -> int:
-    """Total bytes of a record's arrays."""
+    """Return the total size in bytes of the encoded arrays of an FBX record and its children."""
     own = sum(len(value.encoded) for value in record.properties if isinstance(value, PackedArray))
     return own + sum(map(_size, record.children or ()))

@@ -64,7 +64,7 @@ def decode_scene(data: bytes, file: str) -> Scene:
 
 
 def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
-    """Decode the bytes of a file with several scenes, as `read_scenes`."""
+    """Decode an FBX file with several scenes from its bytes; ``file`` names it in errors (see `read_scenes`)."""
     root = read_elements(data, file)
     graph = ObjectGraph(root, file)
     creator = root.child("Creator")
@@ -86,7 +86,7 @@ def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
 
 
 def _figure(graph: ObjectGraph, node: FbxObject | None, take: FbxTake | None, creator: str) -> Scene:
-    """Scene below a node, or below the file's root if there is no node."""
+    """Return the scene below a node of the FBX file, or the whole file's if ``node`` is None."""
     bones, turns_from, bone_of_model = _bones(graph, node)
     place, node_from_world, models = None, np.eye(4, dtype=np.float64), graph.of_kind("Model", "Mesh")
     if node is not None:
@@ -123,9 +123,8 @@ def _figure(graph: ObjectGraph, node: FbxObject | None, take: FbxTake | None, cr
 
 
 def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...], FloatArray, dict[int, int]]:
-    """Bones below a node, parents first; the rest rotations (B, 4) of their angles; and the bone index of each
-    model.
-    """
+    """Return the bones below a node, parents first; the B pre-rotations (B, 4) from which their angles count; and the
+    bone index of each model."""
     top = 0 if node is None else node.id
     models = graph.of_kind("Model", "LimbNode")
     is_bone = {model.id for model in models}
@@ -167,7 +166,7 @@ def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...]
 
 
 def _turning(graph: ObjectGraph, model: FbxObject) -> tuple[str, FloatArray]:
-    """Rotation order of a bone, and the Euler angles of its pre-rotation."""
+    """Return the order of a bone's Euler angles, such as ``"xyz"``, and its pre-rotation (3,) in degrees."""
     properties = properties_of(model.element)
     values = {name: numbers(properties.get(name, ())) for name in ("RotationActive", *_OF_BONES)}
     if not any(values["RotationActive"]):
@@ -181,9 +180,8 @@ def _turning(graph: ObjectGraph, model: FbxObject) -> tuple[str, FloatArray]:
 
 
 def _placement(graph: ObjectGraph, model: FbxObject, without: Iterable[str] = ()) -> tuple[FloatArray, FloatArray]:
-    """Local translation and Euler angles of a model that has no other transform and none of the properties
-    ``without``.
-    """
+    """Local translation (3,) in centimetres and Euler angles (3,) in degrees of an FBX model. Raises FileError if it
+    has any other transform or one of the properties ``without``."""
     properties = properties_of(model.element)
     for name in (*_NOT_SUPPORTED, *without):
         if any(numbers(properties.get(name, ()))):
@@ -375,7 +373,8 @@ def _clip(
 def _turn(
     rotations: FloatArray, turning: list[tuple[int, list[FbxCurve]]], orders: Sequence[str], turns_from: FloatArray
 ) -> None:
-    """Set the rotations (4, B, F) of bones from the curves of their angles, block by block."""
+    """Set rotations (4, B, F), x y z w of B bones in F frames, from the curves of the bones' angles; ``orders`` are the
+    orders of angles, ``turns_from`` the pre-rotations."""
     frames = rotations.shape[-1]
     resting = [row for row in turning if all(curve.rests for curve in row[1])]
     moving = [row for row in turning if not all(curve.rests for curve in row[1])]

@@ -13,17 +13,17 @@ from app.formats.levels_of_detail import LEAST_HEIGHTS
 
 
 def integer(name: str, value: int) -> Element:
-    """A record with one 32-bit integer."""
+    """Return an FBX record ``name`` that holds one 32-bit integer."""
     return Element(name, (np.int32(value),))
 
 
 def property_row(name: str, kind: str, label: str, flags: str, *values: Property) -> Element:
-    """A row of a Properties70 block."""
+    """Return a record of a property in FBX's block "Properties70": name, type, label, flags and values."""
     return Element("P", (name, kind, label, flags, *values))
 
 
 def property_block(*rows: Element) -> Element:
-    """A Properties70 block."""
+    """Return FBX's record "Properties70", which holds rows of properties."""
     return Element("Properties70", (), rows)
 
 
@@ -85,7 +85,7 @@ def global_settings(rate: Fraction | None, last_tick: int) -> Element:
 
 
 def documents(document_id: int, take: str) -> Element:
-    """The single document, the scene."""
+    """Return FBX's record of documents with the single one that every file needs, the scene."""
     document = Element(
         "Document",
         (np.int64(document_id), "Scene", "Scene"),

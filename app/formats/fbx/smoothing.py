@@ -50,7 +50,8 @@ def _numbered(values: AnyFloatArray) -> IntArray:
 
 
 def _neighbours(ends: IntArray, number: IntArray) -> IntArray:
-    """Pairs (P, 2) of faces that share an edge, from the indices (T, N) of their corners."""
+    """Return the pairs (P, 2) of faces that share an edge, from the corners (T, N) of T faces with N corners each;
+    ``number`` identifies equal points."""
     edges = np.sort(np.stack([ends.ravel(), np.roll(ends, -1, axis=1).ravel()], axis=1), axis=1)
     order = np.lexsort(edges.T)
     edges, number = edges[order], number[order]

@@ -28,9 +28,8 @@ _ANIMATED = {
 
 
 class FbxCurve(NamedTuple):
-    """Frames and values of a curve's keys, as stored in the file; for cubic keys also slopes (K - 1, 2) per frame at
-    the start and end of each span, None for linear keys.
-    """
+    """Keys of a curve as stored in an FBX file: frames (K,) and values (K,) of K keys; for cubic keys also slopes (K -
+    1, 2) per frame at both ends of each span, None for linear keys."""
 
     frames: IntArray
     values: AnyFloatArray
@@ -42,7 +41,8 @@ class FbxCurve(NamedTuple):
         return self.slopes is None and bool((self.values == self.values[0]).all())
 
     def at(self, frames: int) -> FloatArray:
-        """Values at all frames: lines or cubics between the keys, constant before and after them."""
+        """Return the curve's values (frames,) at all frames: lines or cubics between the keys, constant before and
+        after them."""
         if len(self.frames) == frames:
             return self.values.astype(np.float64)
         if self.slopes is not None:
@@ -89,7 +89,7 @@ def read_take(graph: ObjectGraph, root: Element) -> FbxTake | None:
 def _curves(
     graph: ObjectGraph, stack: FbxObject, frame_ticks: IntArray, fps: Fraction
 ) -> dict[tuple[int, str], list[FbxCurve]]:
-    """Curves of every animated property, by channel."""
+    """Return the curves of every animated property, by object id and property name; one curve for each channel."""
     result: dict[tuple[int, str], list[FbxCurve]] = {}
     # Equal arrays of a file are one array.
     known: dict[int, tuple[IntArray, IntArray]] = {}
@@ -115,7 +115,8 @@ def _curves(
 
 
 def _slopes(graph: ObjectGraph, curve: Element, count: int, fps: Fraction) -> FloatArray | None:
-    """Slopes of cubic keys as in `FbxCurve`; None for linear keys."""
+    """Return the slopes at both sides of each cubic key of an FBX curve as in `FbxCurve`; None if the keys are linear.
+    ``count`` is the expected number of keys."""
     flags = graph.integers(curve, "KeyAttrFlags")
     if len(flags) == 1 and flags[0] & LINEAR:
         return None
@@ -127,7 +128,7 @@ def _slopes(graph: ObjectGraph, curve: Element, count: int, fps: Fraction) -> Fl
 
 
 def _key_frames(graph: ObjectGraph, key_ticks: IntArray, frame_ticks: IntArray, fps: Fraction) -> IntArray:
-    """Frame numbers of the keys. Raises FileError for keys between frames."""
+    """Return the frame numbers (N,) of an FBX curve's keys. Raises FileError for keys between or outside the frames."""
     frames = ticks.nearest_frames(key_ticks.astype(np.float64), fps)
     there = len(frames) and 0 <= frames.min() <= frames.max() < len(frame_ticks)
     if not there or (np.diff(frames) <= 0).any() or not np.array_equal(frame_ticks[frames], key_ticks):

@@ -46,7 +46,7 @@ def frame_ticks(fps: Fraction, frames: int) -> IntArray:
 
 
 def nearest_frames(at_ticks: FloatArray, fps: Fraction) -> IntArray:
-    """Frame numbers (N,) nearest to ticks (N,)."""
+    """Return the frame numbers (N,) nearest to FBX times (N,) in ticks."""
     return np.rint(at_ticks * (float(fps) / TICKS_PER_SECOND)).astype(np.int64)
 
 

@@ -201,7 +201,8 @@ def _unconnected_binds(scene: Scene) -> FloatArray:
 def _add_levels(
     graph: Assembly, figure: _Figure, mesh: SkinnedMesh, binds: FloatArray, world_from_node: FloatArray
 ) -> tuple[int, ...]:
-    """Add a mesh; one with levels of detail below a node that shows one of them at a time."""
+    """Add a mesh, and its levels of detail below a node that shows one level at a time; returns the ids of all
+    meshes."""
     if not mesh.levels:
         return (_add_mesh(graph, figure, mesh, figure.node, binds, world_from_node),)
     name = f"{mesh.name}_LODs"

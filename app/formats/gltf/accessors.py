@@ -139,14 +139,14 @@ class Accessors:
         return bytes(data)
 
     def data(self, uri: str) -> bytes:
-        """Decode a data URI."""
+        """Return the bytes of a base64 data URI. Raises FileError if it is damaged."""
         try:
             return base64.b64decode(uri.partition(",")[2], validate=True)
         except (binascii.Error, ValueError) as error:
             raise self.damaged("data URI") from error
 
     def blob(self, number: object) -> bytes:
-        """The bytes of a buffer view."""
+        """Return the bytes of the glTF buffer view with an index, such as a picture."""
         buffer, start, length, _ = self._place(number)
         self.take(length // 8)
         return buffer[start : start + length]
@@ -158,7 +158,8 @@ class Accessors:
         return *self._span(view), self.number(view, "byteStride", 0)
 
     def _span(self, view: object) -> tuple[bytes, int, int]:
-        """Buffer, start and length of a part of a buffer."""
+        """Return the bytes of the buffer to which a buffer view of glTF refers, and start and length of the view in it.
+        Raises FileError if it exceeds the buffer."""
         buffer = self._buffers[self.index(field(view, "buffer"), len(self._buffers), "buffer")]
         start, length = self.number(view, "byteOffset", 0), self.number(view, "byteLength")
         if start + length > len(buffer):
@@ -197,7 +198,7 @@ class Accessors:
         return np.empty((0, width), dtype) if rows is None else rows.copy()
 
     def _accessor(self, number: object) -> tuple[Any, np.dtype[Any], int, int]:
-        """Accessor object, data type, numbers per element and element count."""
+        """Return the glTF accessor with an index, its data type, the numbers per element, and the count of elements."""
         accessors = self.items("accessors")
         accessor = accessors[self.index(number, len(accessors), "accessor")]
         component = COMPONENTS.get(self.number(accessor, "componentType"))
@@ -207,7 +208,8 @@ class Accessors:
         return accessor, np.dtype(component), width, self.number(accessor, "count")
 
     def _sparse(self, accessor: object, dtype: np.dtype[Any], width: int, count: int) -> tuple[IntArray, Any]:
-        """Changed elements of a sparse accessor and their values."""
+        """Return the indices (K,) of the elements that a sparse accessor of glTF replaces, and their values (K,
+        width)."""
         sparse = field(accessor, "sparse")
         if sparse is None:
             return np.empty(0, dtype=np.int64), np.empty((0, width), dtype)
@@ -225,7 +227,8 @@ class Accessors:
         return rows, self._view(field(values, "bufferView"), offset, changed, dtype, width)
 
     def _scaled(self, accessor: object, values: npt.NDArray[Any]) -> FloatArray:
-        """Convert normalised integers to fractions."""
+        """Return an accessor's values as floats; integers marked as normalised become fractions -1..1. Raises FileError
+        for values that are not finite."""
         with np.errstate(invalid="ignore"):  # What is no number at all is refused below.
             result = values.astype(np.float64)
         if field(accessor, "normalized") is True and values.dtype.kind != "f":
@@ -247,7 +250,7 @@ class Accessors:
         return accessor, values
 
     def real(self, number: object, width: int) -> FloatArray:
-        """Accessor as floats (N, width)."""
+        """Return the glTF accessor with an index as floats (N, width). Raises FileError for another width."""
         accessor, values = self._elements(number)
         if values.shape[1] != width:
             raise self.damaged("accessor type")
@@ -264,7 +267,8 @@ class Accessors:
         return self._scaled(accessor, values)
 
     def whole(self, number: object, width: int) -> IntArray:
-        """Accessor as integers (N, width)."""
+        """Return the glTF accessor with an index as unsigned integers (N, width). Raises FileError for another type or
+        width."""
         _, values = self._elements(number)
         if values.shape[1] != width or values.dtype.kind != "u":
             raise self.damaged("accessor type")

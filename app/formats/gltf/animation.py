@@ -16,7 +16,8 @@ _KEY_TOLERANCE = 1e-5
 
 
 def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
-    """Values (T, W) of a channel; constant before its first and after its last key. Rotations are normalised."""
+    """Return values (T, W) of an animation channel of width W at T times; constant before its first and after its last
+    key. Rotations are normalised."""
     known = channel.times_s
     if channel.interpolation == "STEP":
         # Keys are float32 seconds, which may lie after the frame that they are meant for.
@@ -37,7 +38,8 @@ def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
 
 
 def _unit(channel: GltfChannel, found: FloatArray) -> FloatArray:
-    """Normalise rotations; other values stay."""
+    """Return an animation channel's values (N, C) with rotations normalised to unit quaternions; other channels are
+    unchanged."""
     if channel.path != "rotation":
         return found
     size = np.linalg.norm(found, axis=1, keepdims=True)
@@ -45,7 +47,8 @@ def _unit(channel: GltfChannel, found: FloatArray) -> FloatArray:
 
 
 def _spline(keys: FloatArray, before: IntArray, after: IntArray, share: FloatArray, length_s: FloatArray) -> FloatArray:
-    """Cubic Hermite spline between keys (K, 3, W): in-tangent, value, out-tangent."""
+    """Return values (N, W) of a cubic Hermite spline: ``keys`` (K, 3, W) are in-tangent, value and out-tangent of K
+    keys, ``before`` and ``after`` the keys around each time, ``share`` 0..1 the way between them."""
     t, t2, t3 = share, share**2, share**3
     return np.asarray(
         (2.0 * t3 - 3.0 * t2 + 1.0) * keys[before, 1]

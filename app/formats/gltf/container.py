@@ -24,7 +24,7 @@ def field(owner: object, name: str) -> Any:
 
 
 def split(data: bytes, file: str) -> tuple[dict[str, Any], bytes | None]:
-    """Split a file into its document and its binary chunk, if any. Raises FileError."""
+    """Split a glTF or GLB file into its JSON document and its binary chunk, if any. Raises FileError."""
     text, binary = (data, None) if data[:4] != MAGIC else _chunks(data, file)
     try:
         document = json.loads(text.decode("utf-8-sig"))
@@ -37,7 +37,8 @@ def split(data: bytes, file: str) -> tuple[dict[str, Any], bytes | None]:
 
 
 def _chunks(data: bytes, file: str) -> tuple[bytes, bytes | None]:
-    """The JSON chunk and the first binary chunk; other chunks are skipped, as specified."""
+    """Return the JSON chunk and the first binary chunk (None if missing) of a GLB file; other chunks are skipped, as
+    specified."""
     kinds: dict[int, bytes] = {}
     if len(data) < 12 or struct.unpack_from("<I", data, 4)[0] != 2:
         raise FileError("gltf.not_gltf", file=file)

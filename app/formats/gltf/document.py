@@ -33,7 +33,8 @@ class _Buffer:
     _starts: dict[tuple[str, bytes], int] = field(default_factory=dict)
 
     def add(self, kind: str, values: npt.NDArray[Any], target: int | None, stride: int | None) -> tuple[int, int]:
-        """Add values; returns the index of the view for a kind and stride, and the offset within it."""
+        """Add an array to the buffer view for its kind and stride. Returns the index of the view, and the offset within
+        it in bytes."""
         kind = f"{kind} {stride}"
         if kind not in self._index:
             self._index[kind] = len(self.views)
@@ -61,7 +62,7 @@ class _Buffer:
 
 @dataclass
 class GlbDocument:
-    """A glTF document under construction."""
+    """A glTF document and its binary data while they are built."""
 
     gltf: gltf.GLTF2
     buffer: _Buffer = field(default_factory=_Buffer)
@@ -123,7 +124,7 @@ class GlbDocument:
         return self._add(accessor)
 
     def blob(self, kind: str, content: bytes) -> int:
-        """Add a separate view with some bytes, and return its index."""
+        """Add bytes, such as a picture, to the buffer as a view of their own, and return the view's index."""
         return self.buffer.add(kind, np.frombuffer(content, np.uint8), None, None)[0]
 
     def _add(self, accessor: gltf.Accessor) -> int:
@@ -132,5 +133,5 @@ class GlbDocument:
 
 
 def listed(values: npt.NDArray[Any]) -> list[float]:
-    """Numbers as a list for JSON."""
+    """Convert an array to a list of floats for JSON."""
     return [float(value) for value in values]

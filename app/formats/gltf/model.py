@@ -33,7 +33,7 @@ class GltfMorph:
 
 @dataclass(frozen=True, eq=False)
 class GltfPrimitive:
-    """Triangles of one material.
+    """Triangles of one material in a glTF mesh.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class GltfPrimitive:
 
 @dataclass(frozen=True, eq=False)
 class GltfMesh:
-    """A mesh: one primitive for each material."""
+    """A glTF mesh, made of one primitive for each material."""
 
     name: str
     primitives: tuple[GltfPrimitive, ...]

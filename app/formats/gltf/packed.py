@@ -120,7 +120,7 @@ class _Unpacking:
         }
 
     def collect(self) -> None:
-        """Collect the compressed parts."""
+        """Collect the compressed parts of the glTF document, which a child process decompresses."""
         reader, views = self.reader, self.document["bufferViews"]
         for number, view in enumerate(views):
             extensions = reader.mapping(view, "extensions")
@@ -190,7 +190,7 @@ class _Unpacking:
         return len(self.document["accessors"]) - 1
 
     def _view(self, data: bytes) -> dict[str, Any]:
-        """Append bytes to the buffer, and return a view of them."""
+        """Append bytes to the glTF buffer, padded to four bytes, and return the JSON of a buffer view on them."""
         start = len(self.data)
         self.data += data + bytes(-len(data) % 4)
         return {"buffer": len(self.document["buffers"]) - 1, "byteOffset": start, "byteLength": len(data)}
@@ -199,7 +199,14 @@ class _Unpacking:
 def _answer(
     parts: list[PackedPart], file: str, size: int, names: Sequence[str]
 ) -> Sequence[Mapping[str, UnpackedArray]]:
-    """Decompress parts in the child process. Raises FileError."""
+    """Decompress parts of a glTF file in a child process with limited memory, and return the arrays of each part by
+    name.
+
+    Raises
+    ------
+    FileError
+        The parts are damaged, or too large when decompressed.
+    """
     most = FREE_BYTES + MOST_TIMES * size
     if sum(part.count * part.stride for part in parts if isinstance(part, MeshoptPart)) > most:
         raise FileError("gltf.too_large", file=file)

@@ -26,7 +26,7 @@ from app.formats.reading_child import NO_MEMORY, NO_READER, UNREADABLE
 
 
 def meshopt_rows(part: MeshoptPart) -> dict[str, UnpackedArray]:
-    """Decompress the bytes of a buffer view."""
+    """Decompress a buffer view of EXT_meshopt_compression; the single array has the key `INDICES`."""
     import meshopt
 
     rows = meshopt.decode_gltf_buffer(part.data, part.count, part.stride, part.mode, part.filter)
@@ -34,7 +34,7 @@ def meshopt_rows(part: MeshoptPart) -> dict[str, UnpackedArray]:
 
 
 def draco_arrays(part: DracoPart) -> dict[str, UnpackedArray]:
-    """Decompress attributes and triangles of a primitive. Raises KeyError if an attribute is missing."""
+    """Decompress attributes and triangles of a Draco primitive, by name. Raises KeyError if an attribute is missing."""
     import DracoPy
 
     mesh = DracoPy.decode(part.data)

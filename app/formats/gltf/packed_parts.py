@@ -42,7 +42,8 @@ class PackedParts(msgspec.Struct, frozen=True):
 
 
 class UnpackedArray(msgspec.Struct, frozen=True):
-    """Rows of ``width`` numbers of one type (`numpy.dtype.str`)."""
+    """An array decompressed by the child process: bytes of rows of ``width`` numbers of one type
+    (`numpy.dtype.str`)."""
 
     kind: str
     width: int

@@ -12,7 +12,7 @@ from app.formats.scene import SkinnedMesh
 
 @dataclass(frozen=True, eq=False)
 class Primitive:
-    """The faces of one material.
+    """The faces of a mesh that have one material, as glTF needs them.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Primitive:
 
 
 def primitives(mesh: SkinnedMesh) -> tuple[Primitive, ...]:
-    """One primitive for each material that has faces, with the vertices it uses."""
+    """Split a mesh into glTF primitives: one for each material that has faces, with only the vertices used there."""
     faces, corners = len(mesh.faces), mesh.faces.shape[1]
     own = np.zeros(faces, dtype=np.int64) if mesh.face_materials is None else mesh.face_materials
     result = []

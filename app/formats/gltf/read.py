@@ -45,7 +45,7 @@ _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 
 class _Vertices(NamedTuple):
-    """Vertex arrays for a `GltfPrimitive`."""
+    """Arrays of the vertices of one glTF primitive: positions, normals, UVs, joints and weights."""
 
     positions: FloatArray
     normals: FloatArray | None
@@ -74,7 +74,8 @@ def read_glb(path: str | os.PathLike[str], *, animated: bool = False, morphing: 
 
 
 def decode_gltf(data: bytes, file: str, *, animated: bool = False, morphing: bool = False) -> GltfModel:
-    """Decode a file's bytes, as `read_glb`."""
+    """Decode a glTF or GLB file from its bytes; ``file`` names it in errors, ``animated`` and ``morphing`` as in
+    `read_glb`."""
     document, binary = split(data, file)
     document, parts = unpacked(document, binary, file, len(data))
     reader = _Reader(document, binary, file, len(data), parts)

@@ -147,6 +147,6 @@ def clip_frames(animation: GltfAnimation) -> tuple[Fraction, FloatArray]:
 
 
 def channel_values(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
-    """Values (F, W) of a channel at all frames."""
+    """Return the values (F, W) of an animation channel of width W at all F frames of the scene."""
     on_every_frame = len(channel.times_s) == len(times_s) and channel.interpolation == "LINEAR"
     return channel.values if on_every_frame else sampled(channel, times_s)

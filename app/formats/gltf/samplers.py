@@ -67,9 +67,8 @@ class Samplers:
         flat: bool = False,
         slopes_fps: float = 0.0,
     ) -> None:
-        """Animate one property; `values` has a row per frame. Keys are at the given frames or all; cubic if a frame
-        rate is given, else linear.
-        """
+        """Animate one property of a glTF node; ``values`` (F, W) has a row for each frame. Keys are at the given frames
+        or all; cubic if a frame rate ``slopes_fps`` is given, else linear."""
         interpolation = gltf.ANIM_LINEAR
         if frames is not None:
             seen = values if slopes_fps else values[frames]
@@ -95,7 +94,8 @@ class Samplers:
 
 
 def _with_slopes(values: SingleArray, frames: AnyIntArray, fps: float) -> SingleArray:
-    """Rows (3 K, W) of cubic keys: in-slope per second, value, and out-slope."""
+    """Return the rows (3 K, W) that glTF stores for K cubic keys of width W: in-slope per second, value, and
+    out-slope."""
     slopes = span_slopes(values.astype(np.float64), frames) * fps
     rows = np.zeros((len(frames), 3, values.shape[1]), np.float32)
     rows[:, 1] = values[frames]
@@ -109,6 +109,6 @@ def weights_move(clip: Clip | None, mesh: SkinnedMesh) -> bool:
 
 
 def _weights(clip: Clip, names: Iterable[str]) -> SingleArray:
-    """Weights (F, T) of a mesh's targets; 0 for those that the clip does not animate."""
+    """Return the weights (F, T) of a mesh's T morph targets; 0 for those that the clip does not animate."""
     rest = np.zeros(clip.frames)
     return np.stack([clip.morph_weights.get(name, rest) for name in names], axis=1).astype(np.float32)

@@ -108,7 +108,7 @@ def _checked(scene: Scene) -> Clip:
 
 
 def _bones(scene: Scene) -> dict[str, Any]:
-    """The extension's tables of bones and of the gaze."""
+    """Return the tables of bones and of the gaze in the VRM animation extension, as JSON."""
     gaze = next((at for at, bone in enumerate(scene.bones) if bone.name == LOOK_AT), None)
     nodes = {bone.name: {"node": _FIRST + at} for at, bone in enumerate(scene.bones) if at != gaze}
     found: dict[str, Any] = {"humanoid": {"humanBones": nodes}}

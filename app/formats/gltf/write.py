@@ -67,7 +67,7 @@ def write_document(path: str | os.PathLike[str], document: GlbDocument) -> None:
 
 
 def glb_pieces(scenes: Iterable[Scene]) -> Pieces:
-    """The file's bytes in pieces."""
+    """Return the bytes of a GLB file with the scenes, in pieces that are written one after the other."""
     return _pieces(_document(scenes))
 
 
@@ -114,9 +114,8 @@ def _document(scenes: Iterable[Scene]) -> GlbDocument:
 def _add_figure(
     document: GlbDocument, scene: Scene, roots: list[int], materials: dict[Material, int]
 ) -> tuple[int, list[int]]:
-    """Add the nodes of a scene in order: its place, bones, meshes. Returns the indices of the first bone's node and of
-    the node of each mesh.
-    """
+    """Add the nodes of a scene to a glTF document: its place, bones and meshes. Returns the index of the first bone's
+    node, and of each mesh's node."""
     out = document.gltf
     roots.append(len(out.nodes))
     if scene.place is not None:
@@ -163,7 +162,7 @@ def _show_levels(document: GlbDocument, node: gltf.Node, levels: list[int]) -> N
 
 
 def _rest_transforms(scene: Scene) -> AnyFloatArray:
-    """Rest transforms (J, 4, 4) of the bones."""
+    """Return the rest transforms (J, 4, 4) of the scene's J bones in the world."""
     world: list[AnyFloatArray] = []
     for bone in scene.bones:
         local = NodePlace(bone.translation_cm, bone.rotation_xyzw).matrix
@@ -238,7 +237,8 @@ def _mesh(document: GlbDocument, mesh: SkinnedMesh, bone_count: int, materials: 
 def _targets(
     document: GlbDocument, morphs: Sequence[MorphTarget], primitive: Primitive, vertex_count: int
 ) -> list[dict[str, int]]:
-    """Morph targets of a primitive; all primitives of a mesh have the same targets, some with zeros only."""
+    """Return the JSON of a glTF primitive's morph targets, accessor by attribute. All primitives of a mesh have the
+    same targets, some with zeros only."""
     with_normals = any(morph.normal_deltas is not None for morph in morphs)
     count = len(primitive.vertices)
     zeros: list[int] = []
