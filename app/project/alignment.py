@@ -51,7 +51,7 @@ class AlignmentPart:
 
     @classmethod
     def of(cls, notes: Sequence[Note], ticks_per_quarter: int) -> AlignmentPart:
-        """The arrays of a part's notes."""
+        """Return onsets, durations (quarter notes) and pitches of notes as arrays (N,) for alignment."""
         return cls(
             np.array([note.onset_tick for note in notes], np.float64) / ticks_per_quarter,
             np.array([note.duration_tick for note in notes], np.float64) / ticks_per_quarter,
@@ -62,7 +62,7 @@ class AlignmentPart:
         return len(self.onsets)
 
     def part(self, first: int, end: int) -> AlignmentPart:
-        """Notes from ``first`` to before ``end``."""
+        """Return the notes from ``first`` to before ``end``."""
         return AlignmentPart(self.onsets[first:end], self.lengths[first:end], self.pitches[first:end])
 
 
@@ -108,7 +108,8 @@ def pair_costs(old: AlignmentPart, new: AlignmentPart, shifts: Sequence[float], 
 
 
 def cheapest(costs: FloatArray) -> list[tuple[int, int]]:
-    """Return the cheapest ordered pairing of a matrix's rows with its columns; an unpaired one costs `GAP_COST`."""
+    """Return the cheapest ordered pairing (row, column) of a cost matrix's rows with its columns; an unpaired one costs
+    `GAP_COST`."""
     rows, columns = costs.shape
     steps = GAP_COST * np.arange(columns + 1)
     totals = np.empty((rows + 1, columns + 1))
@@ -165,9 +166,8 @@ def _distances(old: AlignmentPart, new: AlignmentPart) -> tuple[FloatArray, int]
 def _partners(
     old: AlignmentPart, new: AlignmentPart, distance: float, transposition: int
 ) -> tuple[IntArray, FloatArray]:
-    """For each old note the index of the new note nearest to its shifted place (-1: none), and the distance in
-    quarters.
-    """
+    """Return for each old note (N,) the index of the new note nearest to its shifted place (-1: none), and the distance
+    in quarter notes."""
     width = float(max(old.onsets[-1] + abs(distance), new.onsets[-1]) + 2.0)
     order = np.lexsort((new.onsets, new.pitches))
     keys = new.pitches[order] * 4.0 * width + new.onsets[order]
@@ -182,7 +182,8 @@ def _partners(
 def _anchors(
     old: AlignmentPart, new: AlignmentPart, distances: FloatArray, transposition: int
 ) -> list[tuple[int, int]]:
-    """Pairs of notes that match at a shift which holds over a stretch of the line; both indices ascend."""
+    """Return pairs of notes (old index, new index), ascending, that match at a shift which holds over a stretch of the
+    line."""
     partners, away = zip(*(_partners(old, new, distance, transposition) for distance in distances), strict=True)
     found = np.array(partners)
     costs = np.where(found >= 0, 0.2 * np.array(away) / SAME_QUARTERS, 1.0)

@@ -35,7 +35,7 @@ def note_of(correction: Correction) -> str | None:
 
 
 def notes_of(correction: Correction) -> tuple[str, ...]:
-    """The notes a correction is about: both ends of a slur."""
+    """Ids of the notes to which a correction belongs: for a slur those at both ends."""
     last: str | None = getattr(correction, "last_note_id", None)
     return tuple(note for note in (note_of(correction), last) if note is not None)
 
@@ -80,7 +80,7 @@ def moved_correction(
 def _moved_keys(
     keys: tuple[CurveKey, ...], place: Callable[[int], int] | None, scale: Fraction
 ) -> tuple[CurveKey, ...]:
-    """Keys of a curve at other places, kept in ascending order without losing any."""
+    """Return the keys of a curve at the ticks that ``place`` gives, in ascending order without losing any."""
     result: list[CurveKey] = []
     for key in keys:
         tick = key.tick if place is None else place(key.tick)

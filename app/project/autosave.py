@@ -118,7 +118,7 @@ class Writing:
             return replace(written, without=Message("autosave.without", without))
 
     def _saved(self) -> Project | None:
-        """The project in its saved form."""
+        """The project as its file has it now; None if there is no file or it cannot be read."""
         try:
             return None if self.document is None else load(self.document)
         except FileError:

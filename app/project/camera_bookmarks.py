@@ -55,7 +55,7 @@ class CameraBookmark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def camera_faults(cameras: Sequence[CameraBookmark]) -> Iterator[Fault]:
-    """Faults of a piece's bookmarks."""
+    """Yield place and description of every error in a piece's camera bookmarks."""
     if len(cameras) > MOST_CAMERAS:
         yield "cameras", f"at most {MOST_CAMERAS}"
     yield from unique("cameras", (camera.name.casefold() for camera in cameras), "name")

@@ -151,7 +151,7 @@ def stage_arc(count: int, spacing_m: float = SPACING_M) -> tuple[StagePosition, 
 
 
 def _row(count: int, step: float, radius: float) -> tuple[StagePosition, ...]:
-    """Places of players on one arc, ``step`` radians apart."""
+    """Places of ``count`` players on an arc around the conductor, ``step`` radians apart, ``radius`` in metres."""
     angles = [(index - (count - 1) / 2.0) * step for index in range(count)]
     return tuple(StagePosition(radius * math.sin(angle), -radius * math.cos(angle), -angle / 2.0) for angle in angles)
 
@@ -162,7 +162,7 @@ def amplitude(seed: int, player_id: str) -> float:
 
 
 def player_seed(seed: int, player_id: str) -> int:
-    """Random seed of one player."""
+    """Return the random seed of one player, derived from the piece's seed and the player's id."""
     return seed_of("player", seed, player_id)
 
 

@@ -164,7 +164,7 @@ def _recorded_faults(recorded: PlayerTakes, place: str) -> Iterator[Fault]:
 
 
 def take_faults(take: Take, place: str) -> Iterator[Fault]:
-    """Faults of a single take."""
+    """Yield place and description of every error in a take; ``place`` is the take's own."""
     if not _TAKE.fullmatch(take.id):
         yield f"{place}.id", 'must be like "take:1"'
     yield from text_faults(f"{place}.name", take.name)
@@ -256,7 +256,7 @@ def track_faults(track: AudioTrack | VideoTrack) -> Iterator[Fault]:
 
 
 def audio_faults(audio: AudioTrack) -> Iterator[Fault]:
-    """Faults of a recording and of its alignment."""
+    """Yield place and description of every error in a recording and its alignment."""
     yield from track_faults(audio)
     for index, pin in enumerate(audio.pins):
         yield from faults_of_bounds(f"pins[{index}].tick", pin.tick, (0, limits.LAST_TICK))

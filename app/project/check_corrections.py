@@ -44,7 +44,7 @@ def project_correction_faults(project: Project, before: Project | None = None) -
 
 
 def correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
-    """Faults of a single correction."""
+    """Yield place and description of every error in a correction; ``place`` is the correction's own."""
     if isinstance(correction, AdditiveCurve):
         yield from id_faults(f"{place}.name", correction.name, least=0)
         yield from curve_faults(correction, place)

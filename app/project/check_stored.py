@@ -34,7 +34,8 @@ _SETTINGS: Final = (
 
 
 class _Group(NamedTuple):
-    """Values of one type that are encoded together: a list indexed by place in the project, or a single value."""
+    """Stored values of one type that are encoded together to be checked: a list indexed by place in the project, or a
+    single value."""
 
     place: str
     values: Sequence[Any]
@@ -123,7 +124,7 @@ def _as_stored(value: Any) -> Any:
 
 
 def _not_text(value: Any, place: str) -> Iterator[str]:
-    """Places of texts that are not valid Unicode."""
+    """Yield the places of texts in a stored value that are not valid Unicode."""
     if isinstance(value, str):
         if not is_text(value):
             yield place

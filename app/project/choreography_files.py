@@ -16,7 +16,7 @@ _NAME: Final = re.compile(r"[a-z0-9][a-z0-9_-]{0,59}", re.ASCII)
 
 @cache
 def bundled_choreographies() -> tuple[str, ...]:
-    """Sorted names of the bundled choreographies."""
+    """Names of the choreographies that come with the program, sorted."""
     folder = _folder()
     if not os.path.isdir(folder):
         return ()

@@ -25,7 +25,7 @@ class PinState(_Correction, frozen=True, tag="pin_state"):
 
 
 class ForbidState(_Correction, frozen=True, tag="forbid_state"):
-    """Exclude a basic motion from one tick to another (half-open)."""
+    """Correction that excludes a basic motion from ``start_tick`` to before ``end_tick``."""
 
     start_tick: int
     end_tick: int

@@ -147,7 +147,7 @@ def _row(
     choices: Sequence[MapChoice],
     unchanged: bool,
 ) -> RowDecision:
-    """The decision that would make these parts from these channels."""
+    """Return the import decision by which these channels of a file would become the given parts."""
     first, *_ = parts
     by_id = {choice.map_id: choice for choice in choices}
     own = by_id.get(first.map_id)

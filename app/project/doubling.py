@@ -25,9 +25,8 @@ written early. More makes two musicians."""
 
 
 def embodied(players: tuple[Player, ...]) -> tuple[Player, ...]:
-    """The players, with doubling ones given the character, parameters, place and outfit of their musician; the same
-    tuple if nothing changes.
-    """
+    """Return the players, with doubling ones given the character, parameters, place and outfit of their musician; the
+    same tuple if nothing changes."""
     if not any(player.doubles for player in players):
         return players
     musicians = {player.id: player for player in players if not player.doubles}
@@ -45,7 +44,8 @@ def _of_musician(player: Player, musician: Player | None) -> Player:
 
 
 def promote_remaining(players: Iterable[Player]) -> tuple[Player, ...]:
-    """Players after a removal: if a musician's first player was removed, the next one takes its role."""
+    """Return the players left after a removal: if a musician's first player was removed, the next one takes its
+    role."""
     left = tuple(players)
     there = {player.id for player in left if not player.doubles}
     heirs: dict[str, str] = {}
@@ -109,12 +109,12 @@ def _overlap_s(one: Sequence[tuple[int, int]], other: Sequence[tuple[int, int]],
 
 
 def _spans(notes: Iterable[Note]) -> list[tuple[int, int]]:
-    """Spans in which notes sound, ordered and separate."""
+    """Spans of ticks in which notes sound, ascending; overlapping ones become one."""
     return _joined((note.onset_tick, note.end_tick) for note in notes)
 
 
 def _joined(spans: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Spans apart and in order."""
+    """Spans sorted and merged, so that they neither overlap nor touch."""
     joined: list[tuple[int, int]] = []
     for start, end in sorted(spans):
         if joined and start <= joined[-1][1]:

@@ -34,12 +34,12 @@ class MergedTiming:
 
 
 def timing_of(score: Score) -> ReadTiming:
-    """The score's tempo and metres."""
+    """Return tempo, metres and pickup of a score as they are stored for a later reading of its file."""
     return ReadTiming(score.tempo_map, score.metres, score.pickup_ticks)
 
 
 def with_timing(score: Score, timing: ReadTiming) -> Score:
-    """The score with another tempo and metres."""
+    """Return a score with tempo, metres and pickup replaced."""
     return msgspec.structs.replace(
         score, tempo_map=timing.tempo_map, metres=timing.metres, pickup_ticks=timing.pickup_ticks
     )
@@ -90,7 +90,8 @@ def _moved_tempo(tempo_map: TempoMap, place: Placing, scale: Fraction) -> TempoM
 
 
 def _moved_metres(metres: tuple[Metre, ...], pickup_ticks: int, place: Placing) -> tuple[tuple[Metre, ...], int]:
-    """Metres at their new places, and the pickup if the metre after it still begins at its end."""
+    """Return the metres at their new places, and the length of the pickup, if the metre after it still begins at its
+    end."""
     moved = {}
     for metre in metres:
         tick = max(place(metre.tick), 0) if metre.tick else 0

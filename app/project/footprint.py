@@ -62,7 +62,7 @@ def _footprint(instrument: InstrumentMap) -> Footprint:
 
 
 def _turn(carriage: Carriage) -> FloatArray:
-    """Rotation as usually carried: yaw, then pitch, then roll."""
+    """Rotation (4,) of an instrument as usually carried: yaw, then pitch, then roll."""
     yaw, pitch, roll = (
         np.radians(angles[1]) for angles in (carriage.yaw_left_deg, carriage.pitch_down_deg, carriage.roll_left_deg)
     )
@@ -73,7 +73,8 @@ def _turn(carriage: Carriage) -> FloatArray:
 
 
 def _ends(instrument: InstrumentMap) -> FloatArray:
-    """Corners of the model's bodies in the root's frame; for parts that a hand moves, in both end positions."""
+    """Return the corners (N, 3) of the model's bodies in the root's frame, metres; for parts that a hand moves, in both
+    end positions."""
     travels = {
         control.node: np.array(control.motion.axis) * control.travel_m
         for control in instrument.controls
@@ -89,7 +90,8 @@ def _ends(instrument: InstrumentMap) -> FloatArray:
 
 
 def _bodies(instrument: InstrumentMap) -> Iterator[tuple[FloatArray, str]]:
-    """Corners of a box around every body, with the name of its node."""
+    """Yield the eight corners (8, 3) of a box around every body of the instrument, in metres, with the name of its
+    node."""
     corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
     for body in instrument.proxy:
         if isinstance(body, Box):

@@ -152,7 +152,8 @@ def found_again(project: Project, score: Score, places_now: Mapping[Place, Place
 
 @dataclass(frozen=True)
 class _FoundPart:
-    """One matched part with the fields of `FoundParts`; ``read`` has its notes in the file by id."""
+    """One part of the project matched with a part of a re-read file, with the fields of `FoundParts`; ``read`` has its
+    notes in the file by id."""
 
     part: Part
     read: dict[str, Note]
@@ -248,7 +249,8 @@ def _as_read(score: Score, old: Score, former_of: Mapping[int, int]) -> Score:
 
 @dataclass(frozen=True)
 class _Merged:
-    """The file's part with the user's remaining changes."""
+    """A part as read from the file, with those changes of the user that still apply, their number, and the
+    conflicts."""
 
     part: Part
     by_hand: int
@@ -326,7 +328,8 @@ def _renamed(part: Part, part_id: str, note_ids: Sequence[str]) -> Part:
 def _drawn(
     before: Part, kept: frozenset[str], place: Callable[[int], int], scale: Fraction, part: Part
 ) -> tuple[Note, ...]:
-    """Notes added by the user that the file lacks: those that still fit, at their new places."""
+    """Return the user's own notes that the re-read file lacks: those that still fit between its notes, at their new
+    ticks."""
     ends = np.maximum.accumulate(np.array([0, *(note.end_tick for note in part.notes)]))
     onsets = [note.onset_tick for note in part.notes]
     result = []

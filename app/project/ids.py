@@ -32,7 +32,7 @@ _NUMBERED = re.compile(r"(?:^|:)([nft]:)(\d+)$", re.ASCII)
 
 
 def fresh_note_ids(project: Project, number: int, prefix: str = DRAWN_NOTE) -> tuple[str, ...]:
-    """Ids for new notes, ``"n:1"``, ``"n:2"`` and so on; equal projects give equal ids."""
+    """Return unused ids for ``number`` new notes, such as ``"n:1"``; equal projects give equal ids."""
     return tuple(islice(new_note_ids(project, prefix), number))
 
 
@@ -51,17 +51,17 @@ def new_note_ids(project: Project, prefix: str = DRAWN_NOTE) -> Iterator[str]:
 
 
 def fresh_part_ids(project: Project, count: int = 1, prefix: str = MADE_PART) -> tuple[str, ...]:
-    """Ids for new parts, ``"part:1"`` and so on."""
+    """Return ``count`` unused ids for new parts, such as ``"part:1"``."""
     return _following(prefix, (part.id for part in project.score.parts), count)
 
 
 def fresh_player_ids(project: Project, count: int = 1) -> tuple[str, ...]:
-    """Ids for new players, ``"player:1"`` and so on."""
+    """Return ``count`` unused ids for new players, such as ``"player:1"``."""
     return _following("player:", _performers(project), count)
 
 
 def fresh_dancer_ids(project: Project, count: int = 1) -> tuple[str, ...]:
-    """Ids for new dancers, ``"dancer:1"`` and so on."""
+    """Return ``count`` unused ids for new dancers, such as ``"dancer:1"``."""
     return _following("dancer:", _performers(project), count)
 
 
@@ -72,7 +72,7 @@ def _performers(project: Project) -> Iterator[str]:
 
 
 def fresh_take_ids(project: Project, count: int = 1) -> tuple[str, ...]:
-    """Ids for new takes; a number is not reused while anything refers to a note of its take."""
+    """Return unused ids for new takes; a number is not reused while anything refers to a note of its take."""
     takes = (take.number for recorded in project.takes.values() for take in recorded.takes)
     (following,) = fresh_note_ids(project, 1, TAKE_NOTE)
     last = max((*takes, _number(following, TAKE_NOTE) // MOST_TAKE_NOTES), default=0)

@@ -62,7 +62,7 @@ def is_ignored(problem: Problem, ignored: Iterable[IgnoredProblem], clock: Tempo
 def split_by_ignored(
     problems: tuple[Problem, ...], ignored: tuple[IgnoredProblem, ...], clock: TempoMap
 ) -> tuple[tuple[Problem, ...], tuple[Problem, ...]]:
-    """Split problems into active and ignored ones, keeping their order."""
+    """Split problems into those still shown and those the user ignores, both in their order."""
     if not ignored:
         return problems, ()
     by_kind: dict[tuple[str, str], list[IgnoredProblem]] = {}

@@ -135,6 +135,7 @@ def mark_of(channel: TrackChannel, quarter: int, decided: TrackMark | None = Non
 
 
 def melody_of(channel: TrackChannel, quarter: int) -> tuple[int, ...]:
-    """The sketch of a stream's notes."""
+    """Return hashes that represent the intervals of a stream's notes, by which its melody is found again in a changed
+    file; ``quarter`` is ticks per quarter note."""
     notes = sorted(zip(channel.onset_ticks, channel.pitches, strict=True))
     return sketch(turns([onset for onset, _ in notes], [pitch for _, pitch in notes], quarter))

@@ -59,7 +59,7 @@ class ImportRequest(msgspec.Struct, frozen=True):
 
 
 def usual_rows(contents: PieceContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
-    """Default rows of an import: one for every track, or for each instrument of a track."""
+    """Default rows of an import: one for every track, or one for each instrument of a track that has several."""
     found = suggestions(contents.channels, map_choices(maps.values()))
     rows = []
     for one in found:
@@ -77,7 +77,8 @@ def cleaning(rows: Sequence[ImportRow], clean: bool) -> tuple[ImportRow, ...]:
 
 
 def merged(rows: Sequence[ImportRow], places: Sequence[int]) -> tuple[ImportRow, ...]:
-    """The rows with those at some indices merged at the first of them."""
+    """Merge the rows with the indices ``places`` into one, at the place of the first of them; it plays all their
+    tracks."""
     first, *others = sorted(places)
     channels = tuple(channel for place in (first, *others) for channel in rows[place].assignment.channels)
     together = msgspec.structs.replace(
@@ -119,7 +120,7 @@ def carried_over(
 
 
 def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:
-    """The rows with one row split into its tracks."""
+    """Split the row with the index ``place`` into one row for each of its tracks."""
     row = rows[place]
     alone = tuple(
         msgspec.structs.replace(
@@ -195,7 +196,7 @@ def _instruments(
     maps: Mapping[str, InstrumentMap],
     stop_requested: StopRequested,
 ) -> tuple[str, ...]:
-    """Instruments that play the tracks of an assignment."""
+    """Return the ids of the instruments that would play the tracks of an assignment, one for each resulting part."""
     # As if the file had no others.
     own = msgspec.structs.replace(
         contents, channels=tuple(contents.channels[channel] for channel in assignment.channels)
@@ -261,7 +262,7 @@ def import_project(
 
 
 def decisions_of(contents: PieceContents, rows: Sequence[ImportRow], encoding: str | None = None) -> ImportDecisions:
-    """The decisions of an import, to be kept."""
+    """Return the decisions that a user made in an import, as they are stored with the project."""
     quarter = contents.tempo_map.ticks_per_quarter
     return ImportDecisions(
         encoding,

@@ -57,7 +57,7 @@ def shares(old: Sequence[FloatArray], new: Sequence[FloatArray]) -> FloatArray:
 
 
 def _owners(melodies: Sequence[FloatArray]) -> dict[float, tuple[list[int], list[int]]]:
-    """Melodies that contain each turn, with counts."""
+    """For each melodic turn the indices of the melodies that contain it, and how often each does."""
     owners: dict[float, tuple[list[int], list[int]]] = {}
     for index, found in enumerate(melodies):
         values, counts = np.unique(found, return_counts=True)
@@ -77,7 +77,7 @@ def sketch(found: FloatArray) -> tuple[int, ...]:
 
 
 def sketched_shares(old: Sequence[Sequence[int]], new: Sequence[Sequence[int]]) -> FloatArray:
-    """`sketched_share` of all pairs, (old, new)."""
+    """Return the `sketched_share` of all pairs of an old and a new melody (old, new)."""
     result: FloatArray = np.zeros((len(old), len(new)))
     owners: dict[int, list[int]] = {}
     for index, melody in enumerate(new):

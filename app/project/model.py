@@ -200,7 +200,7 @@ class Project:
         return msgspec.structs.replace(score.metre_map, felt=((0, beat_ticks),))
 
     def part(self, player: Player) -> Part:
-        """Part of a player."""
+        """Return the part that a player plays."""
         return self._parts[player.part_id]
 
     def player(self, player_id: str) -> Player:
@@ -227,12 +227,12 @@ class Project:
 
     @cached_property
     def seen(self) -> tuple[Player | Dancer, ...]:
-        """All performers with a body: players, then dancers."""
+        """All performers with a body on stage: one player for each musician, then the dancers."""
         return (*self.bodies, *self.dancers)
 
     @property
     def dancer_ids(self) -> Collection[str]:
-        """Ids of all dancers."""
+        """Ids of all dancers of the project."""
         return self._dancers.keys()
 
     @cached_property

@@ -72,7 +72,7 @@ def file_stem(name: str) -> str:
 
 
 def file_stems(names: Sequence[str]) -> tuple[str, ...]:
-    """One file stem per name, unique ignoring case."""
+    """File names without suffix for the given names, made unique regardless of case by numbers."""
     taken: set[str] = set()
     stems = []
     for name in names:

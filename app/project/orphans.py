@@ -20,7 +20,7 @@ class Orphan:
 
 
 def orphaned(project: Project) -> tuple[Orphan, ...]:
-    """Every correction about a note that its player does not have."""
+    """Every correction that belongs to a note which its player does not have (any more)."""
     found = []
     for player in project.players:
         corrections = project.corrections.get(player.id, ())

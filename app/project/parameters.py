@@ -25,7 +25,7 @@ _STYLE, _HABITS = "style", "habits"
 
 
 class ParameterSetting(msgspec.Struct, frozen=True):
-    """A parameter value for one player. ``player`` is the player's index; ``value`` has the parameter's type."""
+    """A parameter value set for the player with an index; ``value`` has the parameter's type."""
 
     player: int
     parameter: str
@@ -33,7 +33,7 @@ class ParameterSetting(msgspec.Struct, frozen=True):
 
 
 def parameter_names() -> tuple[str, ...]:
-    """All names that can be set, in a fixed order."""
+    """Names of all parameters that can be set, in a fixed order."""
     return (*PARAMETERS, *_CASTING)
 
 
@@ -114,7 +114,8 @@ def with_settings(parameters: PlayerParameters, settings: Iterable[ParameterSett
 
 
 def _split(text: str, names: Sequence[str]) -> tuple[tuple[int, ...], str, str]:
-    """Split a setting into players, parameter and value, trying every place of ``.word=``."""
+    """Split a setting such as ``Flute.amplitude=0.5`` into indices of players, parameter and value, trying every place
+    of ``.word=``."""
     readings = [
         (text[: seam.start()], seam.group(1).strip(), text[seam.end() :])
         for seam in re.finditer(r"\.\s*(\w+)\s*=", text)

@@ -45,7 +45,8 @@ def matched_parts(old: Score, new: Score, hints: Sequence[Place | None]) -> list
 
 
 def turns_of(part: Part, quarter: int) -> FloatArray:
-    """The turns of a part's melody (`app.project.melody_likeness.turns`)."""
+    """Return the hashes (N,) of a part's melodic turns, by which similar melodies are found (see
+    `app.project.melody_likeness.turns`)."""
     return turns([note.onset_tick for note in part.notes], [note.pitch for note in part.notes], quarter)
 
 

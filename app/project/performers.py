@@ -1,4 +1,4 @@
-"""Performers: players of parts, and dancers."""
+"""The performers of a project: players, who play parts, and dancers."""
 
 from __future__ import annotations
 

@@ -143,7 +143,8 @@ def _with_distinct_keys(curve: AdditiveCurve) -> AdditiveCurve:
 
 
 def _scaled(value: Any, scale: float, key: str = "") -> Any:
-    """Ticks of another division of the quarter."""
+    """Return a copy of stored metadata with all ticks multiplied by ``scale``, for another division of the quarter
+    note."""
     if isinstance(value, Mapping):
         return {name: _scaled(item, scale, name) for name, item in value.items()}
     if isinstance(value, list | tuple):
@@ -154,7 +155,7 @@ def _scaled(value: Any, scale: float, key: str = "") -> Any:
 
 
 def differences(one: PieceMetadata, other: PieceMetadata) -> tuple[MetadataDifference, ...]:
-    """Differences of two metadata, by place."""
+    """Return the differences between the metadata of two pieces, each with its place and both values as text."""
     mine, theirs = dict(_flat(_table(one), "")), dict(_flat(_table(other), ""))
     return tuple(
         MetadataDifference(place, mine.get(place, ""), theirs.get(place, ""))
@@ -206,7 +207,7 @@ def _table(metadata: PieceMetadata) -> dict[str, Any]:
 
 
 def _without_none(value: Any) -> Any:
-    """Remove Nones, which TOML cannot express."""
+    """Return a copy of a table without None values, which TOML cannot express."""
     if isinstance(value, Mapping):
         return {key: _without_none(item) for key, item in value.items() if item is not None}
     return [_without_none(item) for item in value] if isinstance(value, list | tuple) else value

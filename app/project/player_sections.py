@@ -59,7 +59,7 @@ def are_worth_grouping(project: Project) -> bool:
 
 
 def in_sections_of(project: Project, player_ids: Collection[str]) -> tuple[str, ...]:
-    """All players in the sections of these players, in project order."""
+    """Return the ids of all players in the sections to which the given players belong, in project order."""
     chosen = {
         id
         for section in sections(project)

@@ -83,9 +83,8 @@ def recoverable(folder: Path) -> tuple[Recoverable, ...]:
 
 
 def recoverable_of(document: Path, folder: Path, own_token: str = "") -> tuple[Recoverable, ...]:
-    """Unsaved work on a project's file, next to it or in the folder; work based on the file's current content comes
-    first. Empty if there is none or another running editor has the file open.
-    """
+    """Unsaved work on a project's file found next to it or in the folder of autosaves; work based on the file's current
+    content comes first. Empty if there is none or another running editor has the file open."""
     beside, real = autosave_path(document), os.path.realpath(document)
     sweep(Path(real).parent)
     left = {beside: "", **_left_behind(folder)}
@@ -209,7 +208,7 @@ def _document(path: Path, folder: Path, token: str, facts: Autosaved | None) -> 
 def _item(
     path: Path, document: Path | None, token: str, facts: Autosaved | None, project: Project
 ) -> Recoverable | None:
-    """Describe unsaved work; None if the project's file holds the same."""
+    """Describe an autosaved project that can be recovered; None if the project's file has the same content."""
     written_s, missing, changed = path.stat().st_mtime, False, False
     if document is not None:
         try:

@@ -160,7 +160,7 @@ def _outcome(
     source: str | None,
     reading: MidiReading | None,
 ) -> Reimport:
-    """Apply matched parts to the project; parameters as in `reimport`."""
+    """Apply the parts matched in a re-read file to the project; parameters as in `reimport`."""
     scale = Fraction(score.ticks_per_quarter, project.score.ticks_per_quarter)
     everywhere = place_map(found.pairs_of_ticks, scale)
     timing = merged_timing(project, score, everywhere, scale, found.is_unchanged)
@@ -241,9 +241,8 @@ def _with_curves(
 def _add_others(
     project: Project, parts: list[Part], others: Sequence[Part], place: Callable[[int], int], scale: Fraction
 ) -> dict[str, str]:
-    """Add the parts that the file lacks: those made in the editor, and those of players whose part disappeared. Returns
-    the new id of each.
-    """
+    """Append to ``parts`` those that a newly read file lacks: parts made in the editor, and parts of players whose part
+    disappeared. Returns their new ids by old id; ``place`` converts ticks."""
     played = {player.part_id for player in project.players}
     ids = iter(fresh_part_ids(project, len(others), MADE_PART))
     result = {}

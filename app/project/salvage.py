@@ -90,7 +90,7 @@ def _is_at(place: str, places: list[str]) -> bool:
 
 
 def _field(place: str) -> str | None:
-    """The project's field that contains a place."""
+    """Return the name of the project's field that contains a place in its stored form; None if unknown."""
     found = _FIELD.match(place)
     name: Any = None if found is None else _FIELDS.get(found[0], found[0])
     return name if name in Project.__dataclass_fields__ else None

@@ -70,7 +70,7 @@ class Autosaved(msgspec.Struct, frozen=True):
 
 
 class _Autosave(Content, kw_only=True):
-    """Contents of an autosave."""
+    """Contents of the file of an autosave: those of a project, and where it came from."""
 
     autosave: Autosaved
 
@@ -234,8 +234,7 @@ def is_project_file(path: Path) -> bool:
 
 def missing(project: Project) -> tuple[Message, ...]:
     """Return warnings about instruments, characters, outfits and choreographies that are missing on this computer. The
-    project keeps their names, and they are used again on a computer that has them.
-    """
+    project keeps their names, and they are used again on a computer that has them."""
     instruments, bodies = all_maps(), characters()
     found = []
     for player in project.players:

@@ -215,7 +215,7 @@ def _edited_curves(project: Project) -> dict[str, tuple[ControllerCurve, ...]]:
 
 
 def _read_curves(content: Content, score: Score) -> dict[str, tuple[ControllerCurve, ...]]:
-    """The MIDI file's controllers for each part read from it."""
+    """Return the controller curves by part id: those that the user edited, else those of the MIDI file."""
     here = {part.id: part.curves for part in score.parts}
     return {part_id: here.get(part_id, ()) for part_id in content.edited_notes} | content.edited_curves
 

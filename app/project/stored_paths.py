@@ -54,7 +54,7 @@ def full_choreography(choreography: str, folder: Path) -> str:
 
 
 def with_choreography(player: Player, choreography: str) -> Player:
-    """The player with another choreography."""
+    """Return a player with another choreography in the parameters."""
     if choreography == player.parameters.choreography:
         return player
     parameters = msgspec.structs.replace(player.parameters, choreography=choreography)

@@ -19,7 +19,7 @@ MOST_STEPS = 1000
 
 @dataclass(frozen=True, eq=False)
 class UndoStep:
-    """An applied edit: its name, and the project before and after it.
+    """An applied edit that can be undone: its name, and the project before and after it.
 
     ``gesture`` is the token of the drag or slider, None for a single edit.
     """
@@ -48,7 +48,7 @@ Observer = Callable[[Change], None]
 
 
 class Document:
-    """A project with its undo history."""
+    """A project with its undo history; edits replace the immutable project."""
 
     def __init__(self, project: Project) -> None:
         self._project = project
@@ -60,7 +60,7 @@ class Document:
 
     @property
     def project(self) -> Project:
-        """The current project."""
+        """The project after the last edit or undo."""
         return self._project
 
     @property
@@ -70,12 +70,12 @@ class Document:
 
     @property
     def done(self) -> tuple[UndoStep, ...]:
-        """Steps that can be undone, oldest first."""
+        """Edits that can be undone, oldest first."""
         return tuple(self._done)
 
     @property
     def undone(self) -> tuple[UndoStep, ...]:
-        """Steps that can be redone, the next one last."""
+        """Edits that can be redone, the next one last."""
         return tuple(self._undone)
 
     def observe(self, observer: Observer) -> Callable[[], None]:

@@ -40,13 +40,13 @@ def about(
 
 
 def faults_at_key(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:
-    """Prefix faults with a key."""
+    """Yield the errors with their places prefixed by the key at which the checked value lies."""
     for place, detail in found:
         yield f"{prefix}.{place}", detail
 
 
 def faults_of_bounds(place: str, value: float, bounds: Bounds) -> Iterator[Fault]:
-    """Check that a number is within its bounds."""
+    """Yield an error at ``place`` if a number is outside its bounds."""
     # Also not where it is no number at all, or a whole one that no float can hold.
     if not bounds[0] <= value <= bounds[1]:
         yield place, f"must be from {bounds[0]:.15g} to {bounds[1]:.15g}"

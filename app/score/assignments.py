@@ -18,7 +18,7 @@ Split: TypeAlias = Literal["sustained", "every", "never"]
 
 
 class PartAssignment(msgspec.Struct, frozen=True):
-    """The user's choices for some tracks.
+    """The user's choices for the tracks that form one part.
 
     Attributes
     ----------

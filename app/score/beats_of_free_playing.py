@@ -111,7 +111,8 @@ def tempo_of_beats(beats_s: FloatArray, ticks_per_quarter: int) -> TempoMap:
 
 
 def _settled(beats_s: FloatArray, onsets_s: FloatArray) -> FloatArray:
-    """Move each beat to the nearest onset, if one is close: the envelope is coarser than the onsets."""
+    """Move each beat (N,) in seconds to the nearest note onset, if one is close: the envelope from which beats are
+    found is coarser than onsets."""
     if not len(beats_s):
         return beats_s
     after = np.clip(np.searchsorted(onsets_s, beats_s), 1, len(onsets_s) - 1)
@@ -122,9 +123,8 @@ def _settled(beats_s: FloatArray, onsets_s: FloatArray) -> FloatArray:
 
 
 def _covering(beats_s: FloatArray, first_s: float, last_s: float) -> FloatArray:
-    """Extend the beats so that they cover the span from the first note to the last; added beats have the distance of
-    the nearest ones.
-    """
+    """Extend beats (N,) in seconds so that they cover the span from the first note to the last; added beats have the
+    distance of the nearest ones."""
     inside = beats_s[(beats_s > first_s - 2 * _SPREAD_S) & (beats_s < last_s + 2 * _SPREAD_S)]
     beats_s = inside if len(inside) >= 2 else beats_s
     lead, tail = beats_s[1] - beats_s[0], beats_s[-1] - beats_s[-2]

@@ -71,7 +71,7 @@ _ORCHESTRA_SOUNDS: Final[Mapping[int, int]] = {
 
 
 class SoundChange(NamedTuple):
-    """A change of one channel's sound; changes take effect in the order of the list."""
+    """A change of the sound (such as program or bank) of one channel; changes take effect in the order of the list."""
 
     tick: int
     rank: int
@@ -82,7 +82,7 @@ class SoundChange(NamedTuple):
 
 
 class _ChannelState:
-    """A channel while messages come in."""
+    """State of one MIDI channel while its messages are read in order."""
 
     def __init__(self, channel: int) -> None:
         self.channel = channel

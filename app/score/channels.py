@@ -125,9 +125,8 @@ def leading_channel(events: TrackEvents, channels: Collection[int]) -> int:
 
 
 def sounding_channels(first: int, channels: Collection[int], zones: Mapping[int, frozenset[int]]) -> tuple[int, ...]:
-    """Channels whose program may be that of a group, likeliest first: the leading channel, the manager of its MPE zone,
-    the others.
-    """
+    """Return the channels whose program may be that of a group, likeliest first: the leading channel, the manager of
+    its MPE zone, the others."""
     managers = [one for one, members in zones.items() if len(channels) > 1 and members & {*channels}]
     return tuple(dict.fromkeys((first, *managers, *channels)))
 
@@ -252,7 +251,8 @@ def _held(points: _Points, ticks: Sequence[int]) -> list[float]:
 
 
 def _by_turns(own: Mapping[int, _Points], spans: Sequence[_Span], kind: SentKind) -> _Points:
-    """Steps of several channels, each taken from the onset of one of its notes to the next onset on any channel."""
+    """Return the controller's steps merged from several channels, each used from the onset of one of its notes to the
+    next onset on any channel."""
     at = {channel: sorted(points) for channel, points in own.items()}
     merged: _Points = {}
     starts = [-1, *(onset for onset, _, _ in spans[1:])]
@@ -268,7 +268,7 @@ def _by_turns(own: Mapping[int, _Points], spans: Sequence[_Span], kind: SentKind
 
 
 def _without_repeats(points: _Points) -> _Points:
-    """Drop steps that repeat the previous value."""
+    """Return the controller's steps without those that repeat the previous value."""
     changed: _Points = {}
     before: float | None = None
     for tick in sorted(points):

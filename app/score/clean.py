@@ -183,7 +183,7 @@ def loudest(notes: Played) -> FloatArray:
 
 
 def highest(curve: Controlled, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
-    """The highest value of a curve in each of some spans, closed at both ends."""
+    """The highest value (N,) of a controller within each span from ``starts_s`` to ``ends_s``, both ends included."""
     values = np.concatenate(([0.0], curve.values, [0.0]))
     first = np.searchsorted(curve.times_s, starts_s, side="right")
     last = np.maximum(np.searchsorted(curve.times_s, ends_s, side="right"), first) + 1
@@ -310,6 +310,7 @@ def _octave(notes: Played, index: int, other: int) -> bool:
 
 
 def _touches(held: int, index: int, following: int, onsets: FloatArray, ends: FloatArray) -> bool:
-    """Return whether a note only connects two legato notes."""
+    """Return whether note ``index`` is so short that it only connects the notes ``held`` and ``following``, which are
+    legato."""
     before_s, after_s = onsets[index] - ends[held], onsets[following] - ends[index]
     return bool(before_s <= _TOUCHING_S and after_s <= _TOUCHING_S and ends[following] > onsets[following])

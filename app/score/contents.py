@@ -96,7 +96,7 @@ def score_of(
 
 
 def _percussion(channels: Sequence[TrackChannel]) -> tuple[PercussionHit, ...]:
-    """Every note of some percussion tracks."""
+    """All notes of the given percussion tracks as hits in order of time."""
     hits = (
         hit
         for channel in channels

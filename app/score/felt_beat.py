@@ -73,7 +73,7 @@ def felt_beat_ticks(numerator: int, denominator: int, quarters_bpm: float, ticks
 
 
 def _steady(bpm: FloatArray, metres: IntArray) -> FloatArray:
-    """Median tempo of each bar and the bars around it in the same metre."""
+    """Median tempo (N,) of each bar and its neighbours in the same metre, in beats per minute."""
     result = bpm.copy()
     half = STEADY_BARS // 2
     edges = [0, *(np.flatnonzero(np.diff(metres)) + 1).tolist(), len(metres)]

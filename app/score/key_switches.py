@@ -58,7 +58,8 @@ def without_key_switches(
 
 
 def _far(pitches: IntArray) -> list[BoolArray]:
-    """The few notes below and above the widest gap of a stream's pitches."""
+    """Return masks (N,) of the few notes below, and of those above, the widest gap of a stream's pitches; empty if no
+    gap is wide."""
     used = np.unique(pitches)
     gaps = np.diff(used)
     if not len(gaps) or gaps.max() < _APART:
@@ -86,7 +87,7 @@ def _switch(channel: TrackChannel, away: BoolArray, tempo_map: TempoMap) -> bool
 
 
 def _kept(channel: TrackChannel, kept: BoolArray) -> TrackChannel:
-    """Keep some notes of a stream."""
+    """Return a stream with only those notes that the mask selects."""
     places = np.flatnonzero(kept).tolist()
     columns = ("onset_ticks", "end_ticks", "pitches", "velocities", "numbers")
     return msgspec.structs.replace(

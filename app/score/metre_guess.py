@@ -195,9 +195,8 @@ def _signals(columns: Sequence[IntArray], ticks_per_quarter: int) -> _Signals:
 
 
 def _add_line(sums: FloatArray, kinds: FloatArray, onsets: IntArray, ends: IntArray, pitches: IntArray) -> None:
-    """Add a line's features: onset; long note; note longer than the previous one; entry; leap; turning point; note held
-    over; one of the longest notes.
-    """
+    """Add to ``sums`` the features of a line's notes by which metres are guessed: onset; long note; note longer than
+    the previous one; entry; leap; turning point; note held over; one of the longest notes."""
     at, first = np.unique(onsets, return_index=True)
     top, until = np.maximum.reduceat(pitches, first), np.maximum.reduceat(ends, first)
     steps = np.diff(at, append=max(int(ends.max()), int(at[-1]) + 1))
@@ -224,7 +223,8 @@ def _add_line(sums: FloatArray, kinds: FloatArray, onsets: IntArray, ends: IntAr
 
 
 def _harmony_changes(classes: FloatArray, reach: int) -> FloatArray:
-    """Difference (T,) between the pitch classes in the cells before and after each cell, 0..1."""
+    """Return the difference (T,), 0..1, between the pitch classes in the ``reach`` cells before and after each of T
+    cells of time."""
     count = classes.shape[1]
     total = np.cumsum(np.pad(classes, ((0, 0), (reach, reach))), axis=1)[:, : count + 2 * reach]
     before, after = (total[:, k + reach : k + reach + count] - total[:, k : k + count] for k in (0, reach))

@@ -39,9 +39,8 @@ class Metre(msgspec.Struct, frozen=True):
 
 
 def beat_ticks_at(beats: FeltBeats, ticks: npt.ArrayLike) -> IntArray:
-    """Length in ticks of the felt beat at each of some ticks; before the first entry of ``beats`` its length
-    applies.
-    """
+    """Length in ticks of the felt beat at each tick, in the shape of ``ticks``; before the first entry of ``beats`` its
+    length applies."""
     if len(beats) == 1:
         return np.full(np.shape(ticks), beats[0][1])
     starts, lengths = _edges(beats)
@@ -80,7 +79,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _first_bars(self) -> tuple[int, ...]:
-        """Number of the first bar of each metre."""
+        """Number of the first bar of each metre change; a pickup is bar 0."""
         numbers = [0 if self.has_pickup else 1]
         for metre, following in zip(self.metres, self.metres[1:], strict=False):
             length = following.tick - metre.tick
@@ -102,7 +101,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
     @overload
     def bar_of_tick(self, ticks: IntArray) -> IntArray: ...
     def bar_of_tick(self, ticks: int | IntArray) -> int | IntArray:
-        """The number of the bar in which each tick lies."""
+        """Number of the bar in which each tick lies; accepts a number or an array of them."""
         # The largest k with floor(k * bar) <= tick - start.
         if not isinstance(ticks, np.ndarray):
             index = max(bisect_right(self._ticks, ticks) - 1, 0)
@@ -119,7 +118,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
     @overload
     def tick_of_bar(self, bars: IntArray) -> IntArray: ...
     def tick_of_bar(self, bars: int | IntArray) -> int | IntArray:
-        """The tick at which each bar begins."""
+        """Tick at which each bar begins, by bar number; accepts a number or an array of them."""
         # The bar line after a pickup does not come a whole bar later: it is the second metre's own tick.
         if not isinstance(bars, np.ndarray):
             index = max(bisect_right(self._first_bars, bars) - 1, 0)
@@ -132,7 +131,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return ticks
 
     def span_of_bar(self, bar: int) -> tuple[int, int]:
-        """The ticks from which and to which a bar lasts."""
+        """Return the ticks at which a bar begins and ends."""
         return self.tick_of_bar(bar), self.tick_of_bar(bar + 1)
 
     def bars(self, first_tick: int, last_tick: int) -> IntArray:
@@ -144,7 +143,8 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return self.tick_of_bar(np.arange(first, stop, dtype=np.int64))
 
     def _kept(self, name: str, span: tuple[int, int], make: Callable[[int, int], IntArray]) -> IntArray:
-        """Return the array for a name and span, made once and cached: all players of a piece ask for the same."""
+        """Return the array for a name and span of ticks, made once and cached: all players of a piece ask for the
+        same."""
         found = self._known.get((name, *span))
         if found is None:
             found = make(*span)
@@ -158,7 +158,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return {}
 
     def metre_at(self, tick: float) -> Metre:
-        """The metre that holds at a tick."""
+        """Return the metre in force at a tick."""
         return self.metres[max(bisect_right(self._ticks, tick) - 1, 0)]
 
     def bar_ticks_at(self, tick: int) -> int:
@@ -234,7 +234,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
     @overload
     def felt_ticks_at(self, ticks: IntArray) -> IntArray: ...
     def felt_ticks_at(self, ticks: float | IntArray) -> int | IntArray:
-        """Length in ticks of the felt beat at each of some ticks."""
+        """Length in ticks of the felt beat at each tick; accepts a number or an array."""
         beats = self.felt_beats
         if isinstance(ticks, np.ndarray):
             return beat_ticks_at(beats, ticks)
@@ -266,8 +266,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
     def _bar_at(self, tick: int) -> tuple[int, int, int]:
         """Number and start tick of the bar at a tick, and the length of its first beat if that one is incomplete, as in
-        a pickup.
-        """
+        a pickup."""
         bar = self.bar_of_tick(tick)
         start = self.tick_of_bar(bar)
         if bar != 0 or not self.has_pickup:
@@ -278,9 +277,8 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
     def _written(
         self, first_bar: int, end_bar: int, instead_ticks: IntArray | None = None
     ) -> tuple[IntArray, IntArray]:
-        """Beats of some bars and their numbers in the bar; lengths in ``instead_ticks`` (B,) replace the metre's beat
-        where not 0.
-        """
+        """Return the ticks of the beats from ``first_bar`` to before ``end_bar``, and their numbers in the bar; lengths
+        in ``instead_ticks`` (one per bar) replace the metre's beat where not 0."""
         numbers = np.arange(first_bar, end_bar + 1, dtype=np.int64)
         starts = self.tick_of_bar(numbers)
         lengths, starts = np.diff(starts), starts[:-1]
@@ -298,9 +296,8 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
 
 def _beats(starts: IntArray, counts: IntArray, wholes: IntArray, denominators: IntArray) -> tuple[IntArray, IntArray]:
-    """Place ``counts`` beats of ``wholes / denominators`` ticks after each start, and number them from 0 within
-    each.
-    """
+    """Return the ticks (N,) of ``counts`` beats of ``wholes / denominators`` ticks after each start, and their numbers
+    (N,) from 0 within each."""
     before = np.cumsum(counts) - counts
     numbers = np.arange(counts.sum()) - np.repeat(before, counts)
     ticks: IntArray = np.repeat(starts, counts) + numbers * np.repeat(wholes, counts) // np.repeat(denominators, counts)

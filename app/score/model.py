@@ -80,7 +80,7 @@ class ControllerCurve(msgspec.Struct, frozen=True):
 
 
 def value_range(kind: CurveKind) -> tuple[float, float]:
-    """The lowest and highest value of a controller."""
+    """Lowest and highest value of a kind of controller: pitch bend in whole tones, -63.5..63.5, others 0..1."""
     return (-MOST_BEND, MOST_BEND) if kind == "pitch_bend" else (0.0, 1.0)
 
 
@@ -189,7 +189,7 @@ _LEFT_OUT_OF_PARTS: Final = frozenset({"score.stray_notes", "score.key_switches"
 
 
 class UnplayedPart(msgspec.Struct, frozen=True):
-    """A part without a player, with the reason, and the tick at which its last note ends.
+    """A part without a player, with the reason (such as percussion), and the tick at which its last note ends.
 
     ``sounding`` are the spans of ticks, in order, in which it sounds; pauses shorter than a quarter are bridged. Empty
     for notes that are no accompaniment (key switches, stray notes), and in old projects.

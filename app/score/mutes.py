@@ -98,8 +98,7 @@ def _sections(section: Instrument) -> tuple[str, ...]:
 
 class Mutes(NamedTuple):
     """Spans (first onset, last end) of ticks in order: all muted ones, and among them the hand-stopped ones; and the
-    changes of the kind of mute.
-    """
+    changes (tick, kind) of the kind of mute."""
 
     muted: tuple[Span, ...] = ()
     stopped: tuple[Span, ...] = ()
@@ -156,7 +155,7 @@ def named_mute(text: str) -> How:
 
 
 def mute_at(changes: Sequence[Change], tick: int) -> str:
-    """The kind of mute at a tick."""
+    """Return the kind of mute in use at a tick, from the changes (tick, kind) in order."""
     place = bisect_right(changes, tick, key=lambda change: change[0])
     return changes[place - 1][1] if place else "mute"
 

@@ -55,7 +55,7 @@ def silent_notes(id_: str, part: str, notes: Sequence[Note], piece: Score) -> li
 def instrument_warnings(
     parts: Sequence[Part], found: MapCandidates, assignment: PartAssignment, maps: Sequence[MapChoice], piece: Score
 ) -> list[Message]:
-    """Report guesses about the instrument."""
+    """Return messages about an instrument that was guessed for parts of a file, such as by their range."""
     warnings = []
     if found.how is not How.RANGE:
         warnings += _written_warnings(parts, maps, piece)

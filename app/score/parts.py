@@ -185,7 +185,7 @@ class _Sorting:
         return Message("score.too_many_for_hours", {"most": self._most, "hours": round(self._hours, 1)})
 
     def all_warnings(self) -> tuple[Message, ...]:
-        """All warnings without repetitions; warnings about shortened legato notes are merged."""
+        """Return all warnings about the parts without repetitions; those about shortened legato notes are merged."""
         warnings = [*self._warnings]
         if self._slurred:
             part, first = min(self._slurred, key=lambda row: row[1].onset_tick)
@@ -196,7 +196,7 @@ class _Sorting:
 def _shared(
     assignment: PartAssignment, chosen: Sequence[TrackChannel], notes: Sequence[Note], tempo_map: TempoMap, most: int
 ) -> TrackVoices:
-    """The notes among their players."""
+    """Distribute the notes of the chosen tracks over at most ``most`` players, so that each plays one line."""
     if assignment.split == "never":
         return TrackVoices([tuple(notes)], [], [], [])
     alone = len(chosen) == 1 or are_one_line(chosen)
@@ -234,7 +234,7 @@ def rhythm_parts(channels: Sequence[TrackChannel], assignments: Sequence[PartAss
 
 
 def _switches(channels: Sequence[TrackChannel], own: Sequence[int], places: Sequence[Sequence[int]]) -> list[Note]:
-    """Key switches of the channels, by onset."""
+    """Return the key switches of the channels as notes, by onset."""
     found = []
     for index, switches in zip(own, places, strict=True):
         if switches:
@@ -280,7 +280,8 @@ def _parts(
     written: bool,
     of_voices: Sequence[MapChoice | None],
 ) -> list[Part]:
-    """Make one part for each voice, with the voice's own instrument map if one was chosen."""
+    """Return one part for each voice of a channel, with the voice's own instrument map if one was chosen in
+    ``of_voices``."""
     parts = []
     instrument = found.instrument
     onsets = {file_id(note.id): note.onset_tick for notes in voices for note in notes} if channel.marks else {}
@@ -313,7 +314,7 @@ def _parts(
 
 
 def _marks(marks: Sequence[Mark], onsets: Mapping[str, int], notes: Sequence[Note]) -> tuple[Mark, ...]:
-    """The marks of a channel that belong to one of its voices."""
+    """The marks of a channel that belong to the notes of one of its voices."""
     return (
         marks_of_player(marks, onsets, [(note.onset_tick, file_id(note.id), note.id) for note in notes])
         if marks

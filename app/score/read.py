@@ -199,7 +199,7 @@ def _require_length(empty: Score, tracks: Sequence[TrackEvents], file: str) -> N
 
 
 def _texts(tracks: Sequence[TrackEvents], encoding: str | None) -> TextDecoder:
-    """The reader of the texts of a file."""
+    """Return a decoder for the texts of a file, for the given encoding or a guess from all of its texts."""
     names = (name for events in tracks for name in (events.name, events.instrument_name))
     others = (text for events in tracks for _, text in (*events.markers, *events.texts))
     return TextDecoder(names, others, encoding)

@@ -58,7 +58,7 @@ class Repaired(msgspec.Struct, frozen=True):
 
 
 class _TruncatedError(Exception):
-    """The track ends within an event."""
+    """Raised if a track ends within an event."""
 
 
 def track_messages(track: TrackChunk, index: int, file: str) -> tuple[mido.MidiTrack, list[Message]]:

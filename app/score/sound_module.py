@@ -183,7 +183,7 @@ _Parameter: TypeAlias = Literal["mode", "receive", "bend"]
 
 
 class _PartValue(NamedTuple):
-    """A parameter of a part (0..15) with the value that a message sets."""
+    """A parameter of a part (0..15) of a sound module with the value that a message sets."""
 
     other_port: bool
     part: int
@@ -204,7 +204,8 @@ def _meaning(message: bytes) -> list[_Reset | _PartValue]:
 
 
 def _roland(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _PartValue]:
-    """Data set to an address of GS."""
+    """Return the settings that a Roland GS message (an address of three bytes and data) makes for parts of the sound
+    module."""
     if (high, middle, low) == (0x40, 0, 0x7F):
         return [_Reset("" if data[0] == 0x7F else "gs")]
     if (high, middle, low) == (0, 0, 0x7F):
@@ -218,7 +219,7 @@ def _roland(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _Par
 
 
 def _yamaha(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _PartValue]:
-    """Resets and part parameters in a Yamaha XG message."""
+    """Return the resets and part parameters that a Yamaha XG message (an address of three bytes and data) contains."""
     if (high, middle) == (0, 0) and low in (0x7E, 0x7F):
         return [_Reset("xg")]
     if high != 8 or middle >= 32:
@@ -243,7 +244,7 @@ _CENTRE, _MOST_BENT = 0x40, 24
 
 
 class _Row(NamedTuple):
-    """Effects of one system exclusive message, in the order in which they apply."""
+    """Effects of one system exclusive message; rows are sorted into the order in which messages apply."""
 
     tick: int
     rank: int

@@ -19,7 +19,7 @@ Key = tuple[int, int]
 
 
 def begins(message: bytes) -> bool:
-    """Return whether a note begins."""
+    """Return whether a MIDI message is a note-on with a velocity above 0."""
     return message[0] >> 4 == _NOTE_ON and message[2] > 0
 
 

@@ -47,17 +47,17 @@ class VoiceSpans(NamedTuple):
     releases: FloatArray
 
     def depths(self) -> IndexArray:
-        """Return the number of notes that sound at each onset, including the new note."""
+        """Return the number (N,) of notes that sound at each note's onset, including the note itself."""
         started = np.searchsorted(self.onsets, self.onsets, side="right")
         return started - np.searchsorted(np.sort(self.releases), self.onsets, side="right")
 
     def of(self, kept: BoolArray | IndexArray) -> VoiceSpans:
-        """The spans of some notes."""
+        """The spans of the notes selected by a mask or by indices."""
         return VoiceSpans(self.onsets[kept], self.ends[kept], self.releases[kept])
 
 
 def spans_of(notes: Sequence[Note], tempo_map: TempoMap) -> VoiceSpans:
-    """Return the time spans of notes."""
+    """Return onsets, ends and releases of notes in seconds, as arrays."""
     onset_ticks = np.array([note.onset_tick for note in notes], np.float64)
     end_ticks = onset_ticks + np.array([note.duration_tick for note in notes], np.float64)
     onsets, ends = tempo_map.seconds(onset_ticks), tempo_map.seconds(end_ticks)
@@ -65,7 +65,7 @@ def spans_of(notes: Sequence[Note], tempo_map: TempoMap) -> VoiceSpans:
 
 
 def legato_s(lengths_s: FloatArray) -> FloatArray:
-    """Return the longest allowed legato overlap in seconds for notes of these lengths."""
+    """Return the longest allowed legato overlap (N,) in seconds for notes of the given lengths in seconds."""
     legato = np.clip(_LEGATO_SHARE * lengths_s, LEGATO_LEAST_S, _LEGATO_MOST_S)
     return np.minimum(legato, _LEGATO_MOST_SHARE * lengths_s)
 
@@ -86,7 +86,8 @@ def players_needed(spans: VoiceSpans, depths: IndexArray, pitches: IntArray) -> 
 
 
 def _within(spans: VoiceSpans, depths: IndexArray, more: int) -> BoolArray:
-    """Return a mask of the notes during which at least ``more`` notes sound together."""
+    """Return a mask (N,) of the notes during which at least ``more`` notes sound together; ``depths`` counts them after
+    each onset."""
     counts = np.concatenate(([0], np.cumsum(depths >= more)))
     first = np.searchsorted(spans.onsets, spans.onsets, side="left")
     last = np.searchsorted(spans.onsets, spans.releases, side="left")
@@ -112,7 +113,8 @@ def _sustained(spans: VoiceSpans, depths: IndexArray, more: int, several: int) -
 
 
 def _doubled(spans: VoiceSpans, pitches: IntArray) -> BoolArray:
-    """Return a mask of the notes that only double the note before or after them, in unison or in octaves."""
+    """Return a mask (N,) of the notes that only double another one beside them in order of time, in unison or
+    octaves."""
     doubled = np.zeros(len(pitches), bool)
     order = np.lexsort((pitches, spans.onsets))
     for step in range(1, 3):

@@ -38,7 +38,7 @@ class Assumed(msgspec.Struct, frozen=True):
 
 
 class StatedTiming(NamedTuple):
-    """Timing of a file, with messages about what was left out or assumed."""
+    """Tempo and metres of a file, with messages about what was left out or assumed."""
 
     tempo_map: TempoMap
     metres: tuple[Metre, ...]
@@ -137,7 +137,8 @@ def _stated_metres(
 def _assumed_metres(
     tracks: Sequence[TrackEvents], ticks_per_quarter: int, assumed: Assumed | None
 ) -> tuple[tuple[Metre, ...], int]:
-    """Metres and pickup length for a file that states none."""
+    """Return metres and pickup length in ticks for a MIDI file that states no metre: the assumed ones, or a guess from
+    its notes."""
     if assumed is not None:
         return assumed.in_ticks_of(ticks_per_quarter)
     melodic = (notes for events in tracks for channel, notes in events.channels.items() if channel != DRUM_CHANNEL)

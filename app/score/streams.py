@@ -136,9 +136,8 @@ def _lilypond_name(staff: str, voice: str) -> str:
 
 
 def _kind_order(kind: tuple[Use, str]) -> tuple[int, bool]:
-    """Sort key: melodies first, so that the player's main part keeps its place; among them the track's main instrument
-    first.
-    """
+    """Return a sort key for streams of a track: melodies first, so that the player's main part keeps its place; among
+    them the track's main instrument first."""
     use, instrument = kind
     return ("melodic", "rhythm", "effect").index(use), bool(instrument)
 

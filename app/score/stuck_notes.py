@@ -24,7 +24,7 @@ BESIDE_S, TIMES = 600.0, 2.0
 
 
 class _Long(NamedTuple):
-    """A note that may be stuck."""
+    """A note so long that its end may be missing: its place in the file and its onset."""
 
     track: int
     channel: int
@@ -61,7 +61,8 @@ def cut_stuck_notes(
 
 
 def _candidates(tracks: Sequence[TrackEvents], tempo_map: TempoMap) -> tuple[list[_Long], int, bool]:
-    """Notes longer than `BESIDE_S`, the end of all other notes, and whether there are other notes."""
+    """Notes that sound longer than `BESIDE_S` alone and may be stuck, the tick at which all other notes have ended, and
+    whether there are others."""
     long: list[_Long] = []
     rest_tick, others = 0, False
     for track, events in enumerate(tracks):

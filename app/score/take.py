@@ -71,7 +71,7 @@ class Cleaning(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True, rename={"mapping": "wiring"}):
-    """One pass of a recording.
+    """One recorded pass of a player's part, with the settings by which its notes are cleaned.
 
     Attributes
     ----------
@@ -142,7 +142,7 @@ class Controlled:
     values: FloatArray
 
     def at(self, times_s: FloatArray) -> FloatArray:
-        """The value at times; 0 before the first."""
+        """Value (N,) of the controller at given times; 0 before its first message."""
         index = np.searchsorted(self.times_s, times_s, side="right")
         return np.concatenate(([0.0], self.values))[index]
 

@@ -120,7 +120,7 @@ def _is_blown(notes: Played, breath: Controlled) -> bool:
 
 
 def _among(notes: Played, times_s: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Return whether a note sounds at each of some moments."""
+    """Return a mask (N,) of the times at which a note sounds."""
     ends_s = np.maximum.accumulate(notes.ends_s)
     index: IntArray = np.searchsorted(notes.onsets_s, times_s, side="right") - 1
     return np.asarray((index >= 0) & (times_s < ends_s[np.maximum(index, 0)]))

@@ -143,9 +143,8 @@ def _piecewise_at(x: float, pieces: _Pieces) -> float:
 
 
 def _piecewise(x: AnyFloatArray | AnyIntArray, knots: FloatArray, values: FloatArray, slopes: FloatArray) -> FloatArray:
-    """Evaluate a piecewise linear function: ``values`` at the ``knots``, ``slopes`` after them; the outer pieces extend
-    without end.
-    """
+    """Evaluate a piecewise linear function at ``x``: ``values`` (K,) at the ``knots`` (K,), ``slopes`` after each; the
+    outer pieces extend without end."""
     places = np.asarray(x, np.float64)
     piece = np.maximum(np.searchsorted(knots, places, side="right") - 1, 0)
     result: FloatArray = values[piece] + (places - knots[piece]) * slopes[piece]

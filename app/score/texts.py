@@ -145,7 +145,7 @@ def _evidence(encoding: str, data: bytes) -> float:
 
 @cache
 def _single() -> frozenset[tuple[str, ...]]:
-    """Single characters that are instrument names."""
+    """Instrument names of a single character, as used in Japanese."""
     return frozenset((name,) for one in vocabulary().instruments.values() for name in one.names if len(name) == 1)
 
 

@@ -106,7 +106,8 @@ def _is_after_a_drum(channel: TrackChannel, named: Instrument, numbered: Instrum
 
 
 def _named(channel: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
-    """Return the instruments in a track's names: the first definite one, and otherwise the first vague one."""
+    """Return the instruments in a track's names: the first definite one, and, only if there is none, the first vague
+    one."""
     words = vocabulary()
     named = [found for text in (channel.name, channel.instrument_name) if text and (found := words.by_name(text))]
     telling = next((found for found in named if not found.vague), None)

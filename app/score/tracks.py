@@ -209,7 +209,7 @@ def _until_end(events: TrackEvents, messages: Sequence[Any]) -> Sequence[Any]:
 
 
 def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None:
-    """Store a message that is not about notes."""
+    """Add a MIDI message other than notes to the track's events, such as a controller, program or tempo."""
     if tick > LAST_TICK:
         events.beyond += 1
     elif kind == "control_change":
@@ -266,7 +266,7 @@ def _connect(events: TrackEvents, message: Any) -> None:
 
 
 def _close(events: TrackEvents) -> None:
-    """Give notes without length one tick."""
+    """Give notes without length a length of one tick."""
     for notes in events.channels.values():
         ends = notes.end_ticks
         for index, (onset, end) in enumerate(zip(notes.onset_ticks, ends, strict=True)):

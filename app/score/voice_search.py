@@ -35,7 +35,8 @@ class LastPlayed(NamedTuple):
 
 
 class _Hypothesis(NamedTuple):
-    """Partial assignment of notes to players, with its cost."""
+    """Candidate of the search for voices: cost of the notes assigned so far, the last note of each voice, and the
+    assignment."""
 
     cost: float
     voices: tuple[LastPlayed, ...]

@@ -174,9 +174,8 @@ def _unisons(notes: Sequence[Note], spans: VoiceSpans) -> set[int]:
 
 
 def _first(spans: VoiceSpans, _: IntArray, order: IndexArray, count: int) -> list[int]:
-    """Notes that find a free voice if each occupies one until its release; further notes exceed any section and are
-    dropped.
-    """
+    """Return the indices of the notes that find a free voice if each occupies one until its release; further notes
+    exceed any section and are dropped."""
     sounding: list[float] = []
     kept = []
     onsets, releases = spans.onsets[order].tolist(), spans.releases[order].tolist()
@@ -190,8 +189,8 @@ def _first(spans: VoiceSpans, _: IntArray, order: IndexArray, count: int) -> lis
 
 
 def _playable(spans: VoiceSpans, pitches: IntArray, order: IndexArray, count: int) -> list[int]:
-    """Notes that this number of players can play, by onset and from the highest; releases are moved earlier in place
-    where a player must leave a note for the next one.
+    """Return the indices of the notes that ``count`` players can play, by onset and from the highest; releases are
+    moved earlier in place where a player must leave a note for the next one.
 
     If more notes are struck together than there are players, the lowest are dropped, and the lower of two in octaves or
     unison; otherwise the note that ends first is cut at the next onset.
@@ -224,7 +223,8 @@ def _playable(spans: VoiceSpans, pitches: IntArray, order: IndexArray, count: in
 
 
 def _voices(spans: VoiceSpans, pitches: IntArray, kept: list[int], count: int, tempo_map: TempoMap) -> list[list[int]]:
-    """The notes of each voice, by onset."""
+    """Distribute the ``kept`` notes over ``count`` voices; returns the indices of each voice's notes in order of
+    onset."""
     onsets, ends, releases = (column[kept] for column in spans)
     struck = _chords(onsets, releases)
     # A voice that is free before the last note of a chord begins is free for the first one.
@@ -244,7 +244,7 @@ def _voices(spans: VoiceSpans, pitches: IntArray, kept: list[int], count: int, t
 
 
 def _chords(onsets: FloatArray, releases: FloatArray) -> FloatArray:
-    """Return the onset of the chord to which each note belongs; for a single note its own onset."""
+    """Return for each note (N,) the onset of the chord to which it belongs; for a single note its own onset."""
     struck = onsets.tolist()
     begin, free = -1.0, -1.0
     for place, (onset, release) in enumerate(zip(struck.copy(), releases.tolist(), strict=True)):
@@ -284,7 +284,8 @@ def _move_together(spans: VoiceSpans, kept: IndexArray) -> bool:
 
 
 def _with_unisons(voices: list[tuple[Note, ...]], tempo_map: TempoMap) -> list[tuple[Note, ...]]:
-    """The voices, with passages of a quarter or longer that one of them plays alone copied to all of them."""
+    """Copy passages of a quarter or longer that one voice plays alone to all voices, since they are played in
+    unison."""
     quarter = tempo_map.ticks_per_quarter
     rows = sorted(
         ((note.onset_tick, voice, note) for voice, notes in enumerate(voices) for note in notes),

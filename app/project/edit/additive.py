@@ -25,7 +25,7 @@ DECIMALS: Final = 5
 
 
 def curves_of(project: Project, player_id: str, channel: str | None = None) -> tuple[AdditiveCurve, ...]:
-    """Additive curves of a player, of one channel or all."""
+    """Additive animation curves of a player: all, or those of one channel."""
     return tuple(
         item
         for item in project.corrections.get(player_id, ())
@@ -36,7 +36,13 @@ def curves_of(project: Project, player_id: str, channel: str | None = None) -> t
 def add_curve(
     project: Project, player_id: str, channel: str, keys: Iterable[tuple[int, float]], title: str = ""
 ) -> tuple[Project, str]:
-    """Add a curve with automatic handles, and return its name. KeyError for an unknown channel."""
+    """Add an additive curve with keys (tick, value) and automatic handles. Returns the project and the curve's name.
+
+    Raises
+    ------
+    KeyError
+        The channel is unknown.
+    """
     made = tuple(CurveKey(tick, _bounded(channel, value)) for tick, value in sorted(dict(keys).items()))
     blend = BLEND_BEATS * project.score.ticks_per_quarter
     curve = AdditiveCurve(_new_name(project, player_id), channel, made, blend, blend, title=title)
@@ -58,7 +64,7 @@ def add_key(project: Project, player_id: str, name: str, tick: int, value: float
 
 
 def move_keys(project: Project, player_id: str, keys: Keys, ticks: int, value: float = 0.0) -> Project:
-    """Shift keys in time and value, with their handles."""
+    """Move keys of additive curves by ticks and value, together with their handles."""
 
     def moved(key: CurveKey, channel: str) -> CurveKey:
         tick = min(max(key.tick + ticks, -limits.LAST_TICK), limits.LAST_TICK)
@@ -76,12 +82,12 @@ def move_keys(project: Project, player_id: str, keys: Keys, ticks: int, value: f
 
 
 def set_values(project: Project, player_id: str, keys: Keys, value: float) -> Project:
-    """Set the value of keys."""
+    """Set the value of the chosen keys of a player's additive curves, within the range of each channel."""
     return _each_key(project, player_id, keys, lambda key, channel: _valued(key, channel, value))
 
 
 def set_interpolation(project: Project, player_id: str, keys: Keys, interpolation: Interpolation) -> Project:
-    """Set the interpolation after keys."""
+    """Set the interpolation (such as linear) from each chosen key of an additive curve to the next key."""
     return _each_key(project, player_id, keys, lambda key, _: msgspec.structs.replace(key, interpolation=interpolation))
 
 
@@ -94,7 +100,7 @@ def set_tangent(
     tangent: Tangent,
     other: Tangent | None = None,
 ) -> Project:
-    """Place one handle of a key; the opposite handle is set to ``other`` or stays."""
+    """Place one handle of a curve's key; the opposite handle is set to ``other`` or stays."""
 
     def placed(key: CurveKey, channel: str) -> CurveKey:
         values: dict[str, Tangent] = {side: _sane(tangent, channel)}
@@ -106,7 +112,7 @@ def set_tangent(
 
 
 def free_tangents(project: Project, player_id: str, keys: Keys) -> Project:
-    """Make the handles of keys automatic again."""
+    """Make the handles of the chosen keys of additive curves automatic again."""
     return _each_key(project, player_id, keys, lambda key, _: msgspec.structs.replace(key, arrive=None, leave=None))
 
 
@@ -132,7 +138,7 @@ def flatten_tangents(project: Project, player_id: str, keys: Keys) -> Project:
 
 
 def delete_keys(project: Project, player_id: str, keys: Keys) -> Project:
-    """Delete keys; a curve without keys is removed."""
+    """Delete the chosen keys of additive curves; a curve without keys is removed."""
     for name, chosen in keys.items():
         curve = _curve(project, player_id, name)
         left = [key for key in curve.keys if key.tick not in frozenset(chosen)]
@@ -183,7 +189,7 @@ def change_curves(project: Project, player_id: str, names: Iterable[str], **valu
 
 
 def delete_curves(project: Project, player_id: str, names: Iterable[str]) -> Project:
-    """Delete whole curves."""
+    """Delete the additive curves with the given names."""
     gone = frozenset(names)
     return take_back(project, player_id, [curve for curve in curves_of(project, player_id) if curve.name in gone])
 

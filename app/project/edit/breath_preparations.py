@@ -32,7 +32,7 @@ def preparations_of(plan: PlayerPlan) -> dict[str, BreathEvent]:
 def preparation_with(
     project: Project, player_id: str, breath: BreathEvent, placed: SetBreath, prepared: BreathEvent
 ) -> SetBreath:
-    """Return a preparation shifted by as much as the start of its breath, before the same note."""
+    """Return the preparation of a breath shifted by as much as the start of the breath was, before the same note."""
     before = breath_of(project, player_id, prepared)
     onset, by = _start(project, player_id, breath, placed)
     return msgspec.structs.replace(

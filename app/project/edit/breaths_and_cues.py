@@ -76,12 +76,13 @@ def notes_of(project: Project, player_id: str) -> tuple[Note, ...]:
 
 
 def removals_of(project: Project, player_id: str, event_id: str) -> tuple[Correction, ...]:
-    """The corrections that only remove an event."""
+    """The corrections of a player that only remove a planned event, and add no other in its place."""
     return tuple(item for item in corrections_of(project, player_id, (event_id,)) if item.left_out == event_id)
 
 
 def _added(project: Project, player_id: str, item: SetBreath | SetCue) -> Edited:
-    """Add a correction, or restore what was removed there."""
+    """Add a breath or cue by hand; if the planned one was removed there, it is restored with the new times. Returns the
+    project and the id."""
     removed = removals_of(project, player_id, item.about)
     item = msgspec.structs.replace(item, added=not removed)
     return Edited(with_corrections(take_back(project, player_id, removed), player_id, (item,)), (item.about,))
@@ -122,7 +123,8 @@ def breath_at(
 
 
 def _breath_within(before: SetBreath, note: Note, start: int, end: int, moves: bool) -> SetBreath:
-    """Move a breath within a note, keeping it inside the note."""
+    """Return the breath ``before`` placed within a note from ``start`` to ``end`` (ticks), kept inside the note: by a
+    shift if ``moves``, else by shortening."""
     first, last = start - note.onset_tick, end - note.onset_tick
     if moves:
         by = max(-first, 0) + min(note.duration_tick - last, 0)

@@ -36,7 +36,7 @@ def rename_camera(project: Project, name: str, new_name: str) -> Project:
 
 
 def remove_camera(project: Project, name: str) -> Project:
-    """Delete a bookmark."""
+    """Delete the camera bookmark with a name."""
     return replace(project, cameras=tuple(camera for camera in project.cameras if camera.name != name))
 
 

@@ -44,7 +44,7 @@ def ignore(project: Project, performer_id: str, problems: Iterable[Problem]) -> 
 
 
 def unignore(project: Project, performer_id: str, problems: Iterable[Problem]) -> Project:
-    """Count problems of a performer again."""
+    """Show problems of a performer again that the user had marked as ignored."""
     clock, known = project.score.tempo_map, project.ignored_problems.get(performer_id, ())
     again = tuple(problems)
     kept = tuple(item for item in known if not any(is_ignored(problem, (item,), clock) for problem in again))

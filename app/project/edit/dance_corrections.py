@@ -16,7 +16,7 @@ def pin_state(project: Project, dancer_id: str, tick: int, state: int) -> Projec
 
 
 def use_segment(project: Project, dancer_id: str, tick: int, segment: int) -> Project:
-    """Require a segment at a tick, replacing what was pinned there."""
+    """Require a certain segment of motion at a tick of a dance, replacing what was required there."""
     return _put(project, dancer_id, UseSegment(_tick(tick), segment))
 
 
@@ -29,7 +29,7 @@ def forbid_state(project: Project, dancer_id: str, start_tick: int, end_tick: in
 
 
 def take_back(project: Project, dancer_id: str, corrections: Iterable[DanceCorrection]) -> Project:
-    """Remove corrections of dances."""
+    """Remove the given corrections of a dance, so that the generated motion returns."""
     return _without(project, dancer_id, corrections)
 
 
@@ -43,7 +43,7 @@ def _tick(tick: int) -> int:
 
 
 def _place(item: DanceCorrection) -> tuple[int, ...]:
-    """Key of a correction: at one tick only one thing can be pinned."""
+    """Key of a dance correction: at one tick only one segment or motion can be required."""
     return (item.start_tick, item.end_tick, item.state) if isinstance(item, ForbidState) else (item.tick,)
 
 

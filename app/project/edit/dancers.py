@@ -67,8 +67,8 @@ def remove_dancers(project: Project, dancer_ids: Collection[str]) -> Project:
 
 
 def duplicate_dancers(project: Project, dancer_ids: Collection[str]) -> tuple[Project, tuple[str, ...]]:
-    """Let others dance the same, with the same corrections and the same seed, so in unison; their ids come with the
-    project. Each is listed behind the one they double."""
+    """Add for each dancer another one with the same corrections and seed, who dances in unison, listed behind the
+    original. Returns the project and the new ids."""
     originals = [dancer for dancer in project.dancers if dancer.id in dancer_ids]
     new_ids = fresh_dancer_ids(project, len(originals))
     names = project.performer_names()
@@ -120,7 +120,7 @@ def set_choreography(project: Project, dancer_ids: Collection[str], choreography
 
 
 def place_dancers(project: Project, places: Mapping[str, StagePosition]) -> Project:
-    """Set the stage places of dancers, by id."""
+    """Set the positions on stage of dancers, by dancer id."""
     return _with_dancers(
         project,
         (msgspec.structs.replace(dancer, stage=places.get(dancer.id, dancer.stage)) for dancer in project.dancers),
@@ -133,7 +133,8 @@ def move_dancers(project: Project, dancer_ids: Collection[str], before: int) -> 
 
 
 def free_places(project: Project, count: int) -> tuple[StagePosition, ...]:
-    """Free places for more dancers in front of the players, facing the audience: in rows filled from the middle."""
+    """Free positions for ``count`` more dancers in front of the players, facing the audience: in rows filled from the
+    middle."""
     taken = [dancer.stage for dancer in project.dancers]
     found: list[StagePosition] = []
     places = _rows(_front_m(project))

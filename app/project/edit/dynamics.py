@@ -17,7 +17,7 @@ _RESOLUTION: Final = 127
 
 
 def set_dynamics(project: Project, curves: Mapping[str, ControllerCurve]) -> Project:
-    """Replace the parts' curves of the same kind."""
+    """Replace for each part, by part id, its controller curve of the same kind."""
     return _with_curves(
         project,
         {

@@ -119,12 +119,12 @@ def set_fades(
 
 
 def set_expression(project: Project, plan: PlayerPlan, event_ids: Iterable[str], expression: str) -> Project:
-    """Replace the faces of expression events."""
+    """Replace the facial expressions that the chosen expression events show."""
     return _all_changed(project, plan, event_ids, ExpressionEvent, expression=expression)
 
 
 def set_style(project: Project, plan: PlayerPlan, event_ids: Iterable[str], style: str) -> Project:
-    """Change the style of style spans."""
+    """Change the style of the chosen style spans of a player."""
     return _all_changed(project, plan, event_ids, StyleEvent, style=style)
 
 
@@ -246,7 +246,8 @@ def forget(
     note_ids: Collection[str],
     field: str | None = None,
 ) -> Project:
-    """Remove pinned fingerings or embouchures of notes; optionally only one value of an embouchure."""
+    """Remove the pinned fingerings or embouchures of notes, so that the generated ones return; with ``field`` only one
+    value of the embouchure."""
     for item in project.corrections.get(player_id, ()):
         if not isinstance(item, kind) or item.note_id not in note_ids:
             continue

@@ -65,7 +65,8 @@ def _leaves_no_time(project: Project, following: Following, span: UnmatchedSpan)
 
 
 def pins_for(project: Project, path: str | os.PathLike[str]) -> tuple[BeatPin, ...]:
-    """Beats pinned to this recording, for following it again."""
+    """Beats that the user has pinned to the recording at ``path``, for following it again; empty for another
+    recording."""
     audio = project.audio
     same = audio is not None and audio.path == os.path.abspath(path)  # noqa: PTH100 - as `set_audio` has it
     return audio.pins if audio is not None and same else ()

@@ -1,4 +1,4 @@
-"""Finds events of a plan and their corrections."""
+"""Finds the events of a plan that an edit is about, and the corrections of them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _OF_NOTES: Final = ("fingering", "embouchure", "tongue", *BREATH_KINDS, "cue")
 
 
 def corrections_of(project: Project, player_id: str, event_ids: Iterable[str]) -> tuple[Correction, ...]:
-    """The corrections that added or changed these events."""
+    """The corrections of a player that added or changed the events with the given ids."""
     requested = frozenset(event_ids)
     return tuple(item for item in project.corrections.get(player_id, ()) if item.about in requested)
 

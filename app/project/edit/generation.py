@@ -64,7 +64,7 @@ def unvary_span(project: Project, player_ids: Iterable[str], start_tick: int, en
 def variations(
     project: Project, player_id: str, start_tick: int | None = None, end_tick: int | None = None
 ) -> tuple[Vary, ...]:
-    """Variations of a player, all or those that overlap a span."""
+    """The variations of a player: all, or those that overlap the span from ``start_tick`` to ``end_tick``."""
     return tuple(
         item
         for item in project.corrections.get(player_id, ())
@@ -75,7 +75,7 @@ def variations(
 
 
 def by_hand(project: Project, player_ids: Iterable[str]) -> tuple[Correction, ...]:
-    """Corrections of some players, without variations."""
+    """All corrections that the user made for the given players by hand; variations are left out."""
     return tuple(
         item
         for player_id in player_ids

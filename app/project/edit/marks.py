@@ -40,7 +40,8 @@ AFTER: Final = frozenset({"breath", "caesura"})
 
 
 class Marked(NamedTuple):
-    """A project after marks were written or removed."""
+    """Result of toggling musical marks: the new project, True if marks were added (False: removed), and the number of
+    marks concerned."""
 
     project: Project
     added: bool
@@ -65,17 +66,17 @@ def remove_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Pro
 
 
 def replace_mark(project: Project, player_id: str, mark: Mark, changed: Mark) -> Project:
-    """Move a mark or change its text."""
+    """Replace a musical mark by a changed one, such as at another note or with another text."""
     return set_marks(remove_marks(project, player_id, [mark]), player_id, [changed])
 
 
 def give_back_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Project:
-    """Restore the marks of the score at these places."""
+    """Restore marks of the score that the user had removed."""
     return take_back(project, player_id, [remove_mark(mark) for mark in marks])
 
 
 def corrections_at(project: Project, player_id: str, note_ids: Collection[str]) -> tuple[SetMark | RemoveMark, ...]:
-    """Return the corrections of marks that are at these notes or begin there."""
+    """Return the corrections of marks that belong to the given notes or begin at their onsets."""
     said = mark_corrections(project.corrections.get(player_id, ()))
     if not said:
         return ()

@@ -32,7 +32,7 @@ LOW_VELOCITY, HIGH_VELOCITY = 1, 127
 
 
 def chosen_notes(project: Project, note_ids: Collection[str]) -> Iterator[tuple[Part, list[Note]]]:
-    """Yield the parts that contain some of these notes, each with those notes in order."""
+    """Yield each part that contains any of the given notes, with those notes in order of onset."""
     requested = frozenset(note_ids)
     for part in project.score.parts:
         if not requested.isdisjoint(part.note_ids):
@@ -42,7 +42,13 @@ def chosen_notes(project: Project, note_ids: Collection[str]) -> Iterator[tuple[
 def add_note(
     project: Project, part_id: str, onset_tick: int, duration_tick: int, pitch: int, velocity: int
 ) -> tuple[Project, str]:
-    """Add a note to a part; returns the project and the note's id. KeyError for an unknown part."""
+    """Add a note to a part. Returns the project and the note's id.
+
+    Raises
+    ------
+    KeyError
+        There is no such part.
+    """
     note = _checked(Note(next(new_note_ids(project)), onset_tick, duration_tick, pitch, velocity))
     if part_id not in {part.id for part in project.score.parts}:
         raise KeyError(part_id)
@@ -62,7 +68,7 @@ def reach_of_move(project: Project, note_ids: Collection[str], by_tick: int, by_
 
 
 def move(project: Project, note_ids: Collection[str], by_tick: int, by_pitch: int) -> Project:
-    """Move notes in time and pitch together."""
+    """Move notes by ``by_tick`` ticks and ``by_pitch`` semitones; they keep their distances."""
 
     def moved(note: Note) -> Note:
         return _checked(
@@ -141,7 +147,8 @@ def join(project: Project, note_ids: Collection[str]) -> Project:
 
 
 def _runs(part: Part, requested: Collection[str]) -> Iterator[tuple[int, Note]]:
-    """Yield a part's notes with the number of their run of selected notes; 0 for others."""
+    """Yield a part's notes with the number of the run of adjacent selected notes of one pitch to which each belongs; 0
+    for notes not selected."""
     run = 0
     before: Note | None = None
     for note in part.notes:
@@ -173,12 +180,12 @@ def duplicate(
 
 
 def set_velocity(project: Project, note_ids: Collection[str], velocity: int) -> Project:
-    """Set the velocity of notes."""
+    """Set the MIDI velocity of the given notes."""
     return _each(project, note_ids, lambda note: _checked(msgspec.structs.replace(note, velocity=velocity)))
 
 
 def change_velocity(project: Project, note_ids: Collection[str], by: int = 0, factor: float = 1.0) -> Project:
-    """Scale velocities, then add; results are clipped to 1..127."""
+    """Multiply the velocities of the notes by a factor, then add ``by``; results are clipped to 1..127."""
 
     def changed(note: Note) -> Note:
         velocity = round(note.velocity * factor) + by
@@ -235,7 +242,7 @@ class CopiedNote(msgspec.Struct, frozen=True):
 
 
 class CopiedLine(msgspec.Struct, frozen=True):
-    """Clipboard notes of one part."""
+    """Notes on the clipboard that come from one part."""
 
     part_id: str
     notes: tuple[CopiedNote, ...]
@@ -257,7 +264,7 @@ def read_clip(data: bytes) -> ClipboardNotes | None:
 
 
 def copied(project: Project, note_ids: Collection[str]) -> ClipboardNotes:
-    """Notes, ready to be pasted."""
+    """Copy notes to a value that can be pasted elsewhere, with times relative to the first one."""
     chosen = list(chosen_notes(project, note_ids))
     first = min((notes[0].onset_tick for _, notes in chosen), default=0)
     lines = tuple(

@@ -37,7 +37,7 @@ def new_piece(
 
 
 def set_title(project: Project, title: str) -> Project:
-    """Set the title; may be empty."""
+    """Set the title of the score; it may be empty, and is shortened if too long."""
     cleaned = clean_name(title)[: limits.MOST_NAME]
     if project.score.title in (title, cleaned):
         return project
@@ -45,13 +45,13 @@ def set_title(project: Project, title: str) -> Project:
 
 
 def set_fps(project: Project, fps: Fraction) -> Project:
-    """Frames per second of the picture."""
+    """Set the frame rate of the piece, frames per second."""
     _check("fps", fps, limits.FPS)
     return _with(project, fps=Fraction(fps))
 
 
 def set_preroll(project: Project, beats: float) -> Project:
-    """Felt beats before the first note."""
+    """Set the length of the pre-roll, in felt beats before the first note."""
     _check("preroll_beats", beats, limits.PREROLL_BEATS)
     return _with(project, preroll_beats=float(beats))
 
@@ -63,7 +63,7 @@ def set_section_intensity(project: Project, intensity: float) -> Project:
 
 
 def set_conductor(project: Project, place: ConductorPlace | None) -> Project:
-    """Set the conductor's place; None: no conductor."""
+    """Set the conductor's position; None removes the conductor."""
     if place is not None:
         _check("conductor.x_m", place.x_m, limits.STAGE_M)
         _check("conductor.z_m", place.z_m, limits.STAGE_M)
@@ -85,7 +85,7 @@ def set_seed(project: Project, seed: int) -> Project:
 
 
 class PieceSettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Settings of the piece as a whole; fields as in `Project`, plus the title of its score."""
+    """Settings of the piece as a whole that the dialog edits; fields as in `Project`, plus the title of its score."""
 
     title: str
     fps: Fraction
@@ -97,7 +97,7 @@ class PieceSettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def piece_settings(project: Project) -> PieceSettings:
-    """The current settings of a piece."""
+    """Return the settings of a project's piece, as the dialog edits them."""
     values = {field: getattr(project, field) for field in PieceSettings.__struct_fields__ if field != "title"}
     return PieceSettings(title=project.score.title, **values)
 

@@ -25,14 +25,16 @@ from app.score.take import Cleaning, Take
 
 @dataclass(frozen=True, eq=False)
 class _Placed:
-    """A take's notes in the piece, and the map of its onsets: ticks as played, ascending, to ticks in the score."""
+    """Notes of a take placed in the piece, and the map of their onsets: ticks as played, ascending, to ticks in the
+    score."""
 
     notes: tuple[Note, ...]
     played: FloatArray
     here: FloatArray
 
     def moved(self, ticks: FloatArray) -> FloatArray:
-        """Return the new place of other moments of the take: linear between two onsets, so that order is kept."""
+        """Return the new ticks (N,) of moments of the take: shifted as the notes around them, linearly between two
+        onsets, so that order is kept."""
         if not len(self.played):
             return ticks
         # An aligned note may pass another: a breath never runs backwards.
@@ -57,7 +59,8 @@ def recorded_of(project: Project, player_id: str) -> PlayerTakes:
 
 
 def take_notes(project: Project, player_id: str, take_id: str) -> tuple[Note, ...]:
-    """Notes of a take as they would be in the part: cleaned, aligned to score and grid, in the piece's ticks.
+    """Return the notes of a take as they would be in the part: cleaned, aligned to score and grid, in the piece's
+    ticks.
 
     A note matched with one of the score keeps that note's id, so that its corrections apply.
     """
@@ -70,7 +73,7 @@ def take_cleaned(project: Project, player_id: str, take_id: str) -> Cleaned:
 
 
 def take_curves(project: Project, player_id: str, take_id: str) -> tuple[ControllerCurve, ...]:
-    """Breath, bite and other controllers of a take, in the piece's ticks, moved with the notes."""
+    """Return breath, bite and other controllers of a take in the piece's ticks, moved with the take's notes."""
     take = recorded_with(project, player_id, take_id).take(take_id)
     placed = _placed(project, player_id, take_id)
     return _CURVES.step(_curves, take, placed)
@@ -134,9 +137,9 @@ def _aligned(
     before: tuple[Note, ...],
     metre_map: MetreMap,
 ) -> tuple[FloatArray, FloatArray, list[str], list[int]]:
-    """Align notes with matched notes of the score, which provide pitch and id; other notes move with their neighbours,
-    so that order is kept.
-    """
+    """Return the notes of a take with onsets and ends (ticks), ids and pitches aligned with the score ``before`` by
+    ``strength`` 0..1: matched notes take the score's pitch and id, and the others move with their neighbours, so that
+    order is kept."""
     quarter = metre_map.ticks_per_quarter
     order = np.lexsort((np.array(pitches), onsets))
     played = AlignmentPart(
@@ -162,7 +165,8 @@ def _aligned(
 def _quantised(
     cleaning: Cleaning, onsets: FloatArray, ends: FloatArray, metre_map: MetreMap
 ) -> tuple[FloatArray, FloatArray]:
-    """Quantise onsets; the end of a legato note moves with the next onset."""
+    """Move onsets (ticks) towards the grid by the strength of the cleaning settings; returns onsets and ends (N,),
+    where the end of a legato note moves with the next onset."""
     grid = Grid(Fraction(cleaning.grid_quarters).limit_denominator(960))
     by = cleaning.quantise * np.array([grid.snap(metre_map, onset) - onset for onset in onsets.tolist()])
     if not len(onsets):

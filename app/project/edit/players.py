@@ -194,7 +194,7 @@ def show_layer(project: Project, player_ids: Collection[str], amount: str, shown
 
 
 def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
-    """Set the stage places of players' musicians."""
+    """Set the positions on stage of the musicians who play the given players' parts, by player id."""
     places = {project.musician(player).id: places[player.id] for player in project.players if player.id in places}
     return _each(project, places, lambda player: msgspec.structs.replace(player, stage=places[player.id]))
 
@@ -244,9 +244,8 @@ def add_player(
 
 
 def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Project, tuple[str, ...]]:
-    """Copy players with their part and corrections but new seeds; returns the project and the ids. Each copy stands
-    after its original.
-    """
+    """Copy players with their part and corrections but new seeds, each behind its original. Returns the project and the
+    new ids."""
     originals = [player for player in project.players if player.id in player_ids]
     new_ids = fresh_player_ids(project, len(originals))
     part_ids = fresh_part_ids(project, len(originals))
@@ -407,12 +406,12 @@ def visible_name(name: str) -> str:
 
 
 def musicians_of(project: Project, player_ids: Collection[str]) -> frozenset[str]:
-    """Ids of the musicians of these players."""
+    """Ids of the musicians who play the parts of the given players."""
     return frozenset(project.musician(player).id for player in project.players if player.id in player_ids)
 
 
 def postures_of_musician(project: Project, player: Player) -> tuple[Posture, ...]:
-    """Postures in which a musician can play all instruments; if none fits all, those of the first instrument."""
+    """Postures in which a musician can play all their instruments; if none fits all, those of the first instrument."""
     played = [postures_of(one) for one in project.played_by(player)]
     return tuple(one for one in played[0] if all(one in postures for postures in played)) or played[0]
 

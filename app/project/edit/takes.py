@@ -73,7 +73,7 @@ def remove_take(project: Project, player_id: str, take_id: str) -> Project:
 
 
 def move_take(project: Project, player_id: str, take_id: str, before: int) -> Project:
-    """Move a take's lane before index ``before``."""
+    """Move a take before the one with index ``before`` in the list of takes."""
     recorded = recorded_with(project, player_id, take_id)
     take = recorded.take(take_id)
     first = [one for one in recorded.takes[:before] if one is not take]
@@ -107,7 +107,7 @@ def comp(project: Project, player_id: str, take_id: str, start_tick: int, end_ti
 
 
 def comp_whole(project: Project, player_id: str, take_id: str) -> Project:
-    """Use a whole take in the part."""
+    """Use all of a take in the player's part."""
     if take_id == BEFORE:
         return comp(project, player_id, take_id, 0, LAST_TICK)
     take = recorded_with(project, player_id, take_id).take(take_id)
@@ -118,7 +118,8 @@ def comp_whole(project: Project, player_id: str, take_id: str) -> Project:
 
 
 def comp_with(spans: tuple[CompSpan, ...], start_tick: int, end_tick: int, take_id: str) -> tuple[CompSpan, ...]:
-    """The comp with another span added on top; adjacent spans of one take are merged."""
+    """Return the comp (the part assembled from takes) with another span of a take added on top; adjacent spans of one
+    take are merged."""
     result = []
     for span in spans:
         if span.start_tick < start_tick:
@@ -220,7 +221,7 @@ def _replaced(
     start_tick: int,
     end_tick: int,
 ) -> Project:
-    """Replace the notes and curves of the part in a span."""
+    """Replace the notes and controller curves of the player's part from ``start_tick`` to ``end_tick``."""
     part = project.part(project.player(player_id))
     outside = [note for note in part.notes if not start_tick <= note.onset_tick < end_tick]
     # A note that was moved out of the span by hand is there already.
@@ -263,7 +264,7 @@ def _with_part(project: Project, part_id: str, notes: Iterable[Note], curves: tu
 def _spliced(
     before: Sequence[ControllerCurve], given: Sequence[ControllerCurve], start_tick: int, end_tick: int
 ) -> tuple[ControllerCurve, ...]:
-    """Insert curves into a span; after its end the previous values continue."""
+    """Insert controller curves from ``start_tick`` to ``end_tick``; after the span the previous values continue."""
     old, new = {curve.kind: curve for curve in before}, {curve.kind: curve for curve in given}
     result = []
     for kind in (*old, *(kind for kind in new if kind not in old)):
@@ -293,7 +294,7 @@ def _spliced(
 
 
 def _steps(curve: ControllerCurve | None) -> tuple[IntArray, FloatArray]:
-    """A curve as arrays."""
+    """Return ticks and values (N,) of the steps of a controller; both empty if there is no curve."""
     if curve is None:
         return np.empty(0, np.int64), np.empty(0)
     return _STEPS.step(_arrays, curve)

@@ -168,7 +168,7 @@ def _check_metre(numerator: int, denominator: int) -> None:
 
 
 def _check_pickup(score: Score, ticks: int, numerator: int, denominator: int) -> None:
-    """A pickup is shorter than a whole bar."""
+    """Raise UsageError if a pickup of ``ticks`` is not shorter than a whole bar of the metre."""
     most = 4 * score.ticks_per_quarter * numerator // denominator - 1
     if not 0 <= ticks <= most:
         raise UsageError("metre.pickup_too_long", most=most)

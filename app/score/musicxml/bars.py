@@ -14,7 +14,7 @@ _MOST_NUMERATOR, _MOST_DENOMINATOR = 255, 64
 
 
 def measure_lengths(bars: Sequence[Bar], parts: Sequence[Sequence[Measure]], quarter: int) -> list[tuple[int, int]]:
-    """Give the measures their lengths, and return the metre that holds in each.
+    """Set the lengths of all measures, and return the metre (beats, unit) in force in each.
 
     A measure is as long as what is longest in it, whatever the time signature says; one without notes has the length of
     the signature. Where parts disagree, rests alone make none longer.
@@ -63,8 +63,8 @@ class Metred(NamedTuple):
 def metres_of(
     order: Sequence[int], starts: Sequence[Time], bars: Sequence[Bar], written: Sequence[tuple[int, int]], quarter: int
 ) -> Metred:
-    """The metres of a piece as it is played: those written, and others where a measure is shorter or longer. Short ones
-    that follow one another and make up a whole bar are one."""
+    """Return the metres of a piece as it is played: those written, and others where a measure is shorter or longer.
+    Consecutive short ones that make up a whole bar are one."""
     found: list[Metre] = []
     pickup = 0
     place = 0
@@ -109,7 +109,8 @@ def metres_of(
 
 
 def _fitting(length: Time, denominator: int, quarter: int) -> tuple[int, int] | None:
-    """A time signature of which one bar has a length; None: there is none."""
+    """Return the time signature (beats, unit) of which one bar has exactly a length, starting with ``denominator``;
+    None if there is none."""
     while denominator <= _MOST_DENOMINATOR:
         beats = Fraction(length) * denominator / (4 * quarter)
         if beats.denominator == 1:
@@ -119,5 +120,5 @@ def _fitting(length: Time, denominator: int, quarter: int) -> tuple[int, int] | 
 
 
 def _once(metres: Sequence[Metre]) -> tuple[Metre, ...]:
-    """The metres by tick, one at each."""
+    """Return the metres by tick; of several at one tick the last."""
     return tuple({metre.tick: metre for metre in metres}.values())

@@ -164,7 +164,7 @@ def _decoded(content: bytes) -> str:
 
 
 def _parsed(text: str, file: str) -> Element:
-    """The elements of a document."""
+    """Parse an XML document into its elements, within limits of depth and number. Raises FileError if it is damaged."""
     builder = TreeBuilder()
     parser = expat.ParserCreate("utf-8")
     depth = count = 0

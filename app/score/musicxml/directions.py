@@ -39,7 +39,8 @@ _DYNAMIC: Final = re.compile(r"(?:p{1,6}|f{1,6}|m[pf]|s?f{1,2}p{0,2}|s?f{1,3}z{1
 
 
 def read_direction(one: Element, cursor: Time, division: Time, bar: Bar, place: Place) -> Iterator[Direction]:
-    """Read a direction: what stands in its types, and its sound."""
+    """Yield the directions of a MusicXML ``<direction>`` element, such as dynamics and tempo, and of its ``<sound>``,
+    at their positions."""
     sound = one.find("sound")
     offset = one.find("offset")
     moved: Time = cursor
@@ -56,7 +57,7 @@ def read_direction(one: Element, cursor: Time, division: Time, bar: Bar, place: 
 
 
 def read_dynamics(item: Element, at: Time) -> Iterator[Direction]:
-    """Read dynamics."""
+    """Yield the dynamics (such as "mf") in a MusicXML ``<dynamics>`` element."""
     for mark in item:
         text = mark.tag if mark.tag != "other-dynamics" else "".join((mark.text or "").split())
         if _DYNAMIC.fullmatch(text):
@@ -64,7 +65,7 @@ def read_dynamics(item: Element, at: Time) -> Iterator[Direction]:
 
 
 def _typed(item: Element, at: Time, bar: Bar, place: Place) -> Iterator[Direction]:
-    """Read one type of a direction."""
+    """Yield the directions of one child of MusicXML's ``<direction-type>``, such as dynamics, a wedge or words."""
     tag = item.tag
     number = item.get("number", "1")
     if tag == "dynamics":
@@ -106,7 +107,8 @@ def _metronome(item: Element, place: Place) -> float | None:
 
 
 def read_sound(sound: Element, at: Time, bar: Bar, place: Place) -> Iterator[Direction]:
-    """Read how something is played, whatever is drawn."""
+    """Yield the tempo, loudness, mutes and instrument changes that a MusicXML ``<sound>`` element prescribes,
+    independent of what is drawn; its repeats and jumps are stored in ``bar``."""
     tempo, loudness = sound.get("tempo"), sound.get("dynamics")
     if tempo is not None:
         value = float(place.number_of(tempo, "tempo"))
@@ -133,7 +135,7 @@ def read_sound(sound: Element, at: Time, bar: Bar, place: Place) -> Iterator[Dir
 
 
 def read_barline(one: Element, bar: Bar, place: Place) -> None:
-    """Read repeats, endings and signs of a barline."""
+    """Store repeats, endings and signs of a MusicXML barline in ``bar``."""
     repeat, ending = one.find("repeat"), one.find("ending")
     if repeat is not None:
         if repeat.get("direction") == "forward":

@@ -98,7 +98,7 @@ def ticks_per_quarter(root: Element) -> int:
 
 @dataclass(slots=True)
 class _State:
-    """Values in force from a place of a part on."""
+    """Values in force while a MusicXML part is read: ticks per unit, division, key signature and so on."""
 
     ticks: int
     division: Time
@@ -236,7 +236,7 @@ def _ticks(exact: Time) -> Time:
 
 
 def _note(part: WrittenPart, one: Element, measure: Measure, state: _State, place: Place) -> None:
-    """Read a note: into a chord of its own, or the one before."""
+    """Read a MusicXML note into a new chord of the measure, or the previous one if it belongs to that."""
     found: dict[str, Element] = {}
     ties, notations = set(), []
     for child in one:
@@ -282,7 +282,7 @@ def _said(element: Element | None, usual: str) -> str:
 
 
 def _tone(part: WrittenPart, found: dict[str, Element], chord: Chord, state: _State, place: Place) -> Tone | None:
-    """Return the sound of a note; None for a rest."""
+    """Return the tone of a MusicXML note with its pitch; None for a rest."""
     named = found.get("instrument")
     id = "" if named is None else named.get("id", "")
     instrument = part.instruments.get(id) or next(iter(part.instruments.values()), None)
@@ -309,7 +309,7 @@ def _tone(part: WrittenPart, found: dict[str, Element], chord: Chord, state: _St
 
 
 def _with_neighbours(tone: Tone, pitch: Element, fifths: int, place: Place) -> None:
-    """Give a note with an ornament its neighbours in the key."""
+    """Set the upper and lower neighbour of a note with an ornament, in semitones, by the key signature (``fifths``)."""
     step, octave = (pitch.findtext("step") or "").strip(), int(place.number(pitch, "octave") or 0)
     written = 12 * (octave + 1) + _STEPS[step] + int(place.number(pitch, "alter") or 0)
     tone.upper, tone.lower = (_neighbour(step, octave, by, fifths) - written for by in (1, -1))

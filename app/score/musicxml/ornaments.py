@@ -46,7 +46,7 @@ def _ticks(seconds: float, tick: int, tempo: TempoMap) -> int:
 
 
 def _place_group(graces: Sequence[PlayedChord], onset: int, before: Sequence[PlayedChord], tempo: TempoMap) -> None:
-    """Place grace notes that follow one another before a tick."""
+    """Place consecutive grace notes before the tick ``onset``, shortening the chords ``before`` them."""
     notes = [note for chord in before for note in chord.notes]
     start = max((note.onset for note in notes), default=-1)
     room = onset if start < 0 else int((onset - start) * _SHARE)
@@ -80,7 +80,7 @@ def _lead_in(own: Sequence[PlayedChord]) -> None:
 
 
 def write_out(chords: Sequence[PlayedChord], tempo: TempoMap, quarter: int) -> None:
-    """Write the ornaments of notes out, into their rows."""
+    """Write out the ornaments of notes (trills, grace notes, tremolos) into the rows of each note."""
     pairs = list(_pairs(chords))
     for first, second in pairs:
         _alternate(first, second, quarter, tempo)
@@ -93,7 +93,7 @@ def write_out(chords: Sequence[PlayedChord], tempo: TempoMap, quarter: int) -> N
 
 
 def _rows(note: PlayedNote, tempo: TempoMap, quarter: int) -> list[tuple[int, int, int]]:
-    """Write out the ornaments of one note; empty if it has none."""
+    """Write out trills, turns, tremolos and the like of one note as (start, end, pitch); empty if it has none."""
     kinds = note.chord.ornaments
     pitch, onset, length = note.tone.pitch, note.onset, note.end - note.onset
     if length < 2 or (not kinds and not note.chord.tremolo[1]):
@@ -127,7 +127,8 @@ def _rows(note: PlayedNote, tempo: TempoMap, quarter: int) -> list[tuple[int, in
 
 
 def _before_main(onset: int, end: int, short: int, first: Sequence[int], pitch: int) -> list[tuple[int, int, int]]:
-    """Short notes, then the main one, which has half of the time at least where that is."""
+    """Write short notes before a main note as (start, end, pitch); they last ``short`` ticks each, together at most
+    half of the time."""
     each = min(short, (end - onset) // (2 * len(first)))
     if each < 1:
         return []
@@ -136,7 +137,8 @@ def _before_main(onset: int, end: int, short: int, first: Sequence[int], pitch: 
 
 
 def _divided(start: int, end: int, pitches: Sequence[int]) -> list[tuple[int, int, int]]:
-    """A time shared equally among notes."""
+    """Divide the time from ``start`` to ``end`` equally among pitches; returns start, end and pitch of each note,
+    leaving out those without length."""
     count = len(pitches)
     bounds = [start + (end - start) * place // count for place in range(count + 1)]
     return [
@@ -147,13 +149,14 @@ def _divided(start: int, end: int, pitches: Sequence[int]) -> list[tuple[int, in
 
 
 def _equal(start: int, end: int, each: int, pitches: Sequence[int]) -> list[tuple[int, int, int]]:
-    """Notes of one length, as many as fit."""
+    """Fill the time from ``start`` to ``end`` with notes of about ``each`` ticks that repeat the pitches in turn;
+    returns start, end and pitch of each note."""
     count = min(max(-(-(end - start) // each), 1), _MOST_ROWS, end - start)
     return _divided(start, end, [pitches[place % len(pitches)] for place in range(count)])
 
 
 def _pairs(chords: Sequence[PlayedChord]) -> Iterator[tuple[PlayedChord, PlayedChord]]:
-    """Chords between which a tremolo alternates."""
+    """Yield pairs of chords between which a tremolo alternates, by their start and stop marks in one voice."""
     open_: dict[str, PlayedChord] = {}
     for chord in chords:
         kind, voice = chord.chord.tremolo[0], chord.chord.voice

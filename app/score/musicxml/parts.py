@@ -28,7 +28,7 @@ _DEFAULT_STROKE = 38
 
 @dataclass(slots=True)
 class PartInstrument:
-    """One instrument of a part.
+    """One instrument of a MusicXML part.
 
     Attributes
     ----------

@@ -39,7 +39,7 @@ class PlayedPart:
 
     @property
     def notes(self) -> list[PlayedNote]:
-        """All notes, by onset."""
+        """All notes that begin in the part, by onset."""
         return [note for chord in self.chords for note in chord.begun]
 
 

@@ -28,7 +28,7 @@ EVERYONE: Final = Desk()
 
 @dataclass(slots=True, eq=False)
 class PlayedNote:
-    """A note, its ties joined.
+    """A note as it is played, with tied notes joined.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class PlayedNote:
 
 @dataclass(slots=True, eq=False)
 class PlayedChord:
-    """A chord where it is played; its notes are those that it begins, and those that it holds on."""
+    """A chord of a part with repeats written out: the notes that it begins, and those that it holds on."""
 
     onset: int
     end: int
@@ -60,6 +60,6 @@ class PlayedChord:
     desk: Desk = EVERYONE
 
     def desk_of(self, note: PlayedNote) -> Desk:
-        """The player of one of its notes."""
+        """Return the player (desk) of one of the chord's notes, if its notes are shared among several."""
         above = sum(tone.pitch > note.tone.pitch for tone in self.chord.tones)
         return Desk(self.desk.first + above, self.desk.players) if self.desk.first else self.desk

@@ -128,7 +128,7 @@ def _require_length(empty: Score, end: int, file: str) -> None:
 
 
 def _tempo(played: Sequence[PlayedPart]) -> tuple[list[TempoEvent], list[Held]]:
-    """Collect the tempo marks of all parts."""
+    """Return the tempo marks of all parts, and the fermatas."""
     events: list[TempoEvent] = []
     marks: list[TempoEvent] = []
     for part in played:
@@ -146,7 +146,7 @@ def _tempo(played: Sequence[PlayedPart]) -> tuple[list[TempoEvent], list[Held]]:
 
 
 def _markers(played: Sequence[PlayedPart]) -> tuple[Marker, ...]:
-    """Rehearsal marks of all parts, each once."""
+    """Rehearsal marks of all parts in order of time; equal ones at one place become one."""
     found: Iterable[Marker] = (
         Marker(tick, one.text) for part in played for tick, one in part.directions if one.kind == "rehearsal"
     )

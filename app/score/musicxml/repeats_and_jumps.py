@@ -105,7 +105,7 @@ class _Player:
         self.lost: list[str] = []
 
     def play(self) -> Order:
-        """Return the order."""
+        """Return the indices of the measures in the order in which they are played, with repeats and jumps followed."""
         order: list[int] = []
         place = 0
         while place < len(self.bars):
@@ -137,7 +137,7 @@ class _Player:
         return self.turn in group.numbers
 
     def _after(self, place: int, bar: Bar) -> int | None:
-        """Return the next measure; None at the end."""
+        """Return the index of the measure that is played next, following repeats and jumps; None at the end."""
         if bar.backward and (not self.jumped or bar.after_jump):
             if self.turn < self._times(place, bar):
                 self.turn += 1
@@ -185,7 +185,8 @@ class _Player:
 
 
 class _Group(NamedTuple):
-    """Endings that follow one another: their numbers, how many they are, and whether the last of them is repeated."""
+    """Consecutive endings of a repeat ("1.", "2."): their numbers, the count of them, and True if the last of them is
+    repeated."""
 
     numbers: frozenset[int]
     endings: int

@@ -29,7 +29,7 @@ _SHORT: Final = {"staccatissimo": 0.34, "staccato": 0.5, "marcato": 0.75}
 
 @dataclass(slots=True)
 class _Row:
-    """One note of a stream."""
+    """One note of a stream while it is read from MusicXML: onset, end, pitch, velocity and more."""
 
     onset: int
     end: int
@@ -127,7 +127,7 @@ def _base(part: WrittenPart, first: PartInstrument, transposition: int | None) -
 
 
 def _kinds(part: WrittenPart, played: PlayedPart, transposition: int | None) -> dict[int, str]:
-    """The instrument of each note, by its identity: as the note says, or as the words before it ask for."""
+    """Return the instrument of each note by the note's identity: as the note itself says, or the words before it."""
     instruments = part.instruments
     first = next(iter(instruments), "")
     base = _base(part, instruments.get(first, PartInstrument()), transposition)
@@ -167,7 +167,7 @@ def id_of(note: PlayedNote) -> int:
 
 
 def _rows(played: PlayedPart, level: Callable[[int], float], kinds: dict[int, str]) -> list[_Row]:
-    """All notes of a part as they are written out, numbered."""
+    """Return all notes of a part with ornaments written out, numbered."""
     rows: list[_Row] = []
     seated = ((note, chord.desk_of(note)) for chord in played.chords for note in chord.begun)
     for note, desk in seated:
@@ -217,8 +217,8 @@ def _mutes(
 
 
 def _signed(rows: Sequence[_Row], words: Sequence[tuple[int, str]], others: Sequence[int]) -> Iterator[tuple[int, How]]:
-    """Places where "+" and "o" as words stop and open the bell: "+" holds until an "o" or other words, and where no "o"
-    follows only for the notes that begin with it."""
+    """Yield the ticks at which "+" and "o" as words stop and open the bell: "+" holds until an "o" or other words, and
+    where no "o" follows only for the notes that begin with it."""
     signs = [(tick, text.strip()) for tick, text in words if text.strip() in (STOPPED_SIGN, OPEN_SIGN)]
     ends = sorted({tick for tick, _ in signs} | set(others))
     onsets = sorted({row.onset for row in rows})
@@ -236,7 +236,7 @@ def _how(text: str) -> How:
 
 
 def _marks(played: PlayedPart, prefix: str, spans: Sequence[Mark]) -> list[Mark]:
-    """Marks of a part: at its notes, each player's of a chord, and over its staff."""
+    """Return the marks of a part: at its notes (for each player of a chord), and over its staff."""
     found: list[Mark] = []
 
     def first(note: PlayedNote) -> str:
@@ -266,8 +266,8 @@ def _marks(played: PlayedPart, prefix: str, spans: Sequence[Mark]) -> list[Mark]
 
 
 def _paired(start: PlayedChord, end: PlayedChord) -> list[tuple[PlayedNote, PlayedNote]]:
-    """The notes of two chords that a slur joins: the highest with the highest; where one has more, its others with the
-    lowest."""
+    """Pair the notes of two chords that a slur joins: the highest with the highest; where one has more, its others with
+    the lowest."""
     upper, lower = (sorted(one.notes, key=lambda note: -note.tone.pitch) for one in (start, end))
     if not upper or not lower:
         return []

@@ -114,7 +114,7 @@ def tempo_map(events: Sequence[TempoEvent], held: Sequence[Held], end_tick: int,
 
 
 def _changes(events: Sequence[TempoEvent], end_tick: int, quarter: int) -> list[tuple[int, float]]:
-    """Ticks and quarters per minute of all but fermatas."""
+    """Ticks and tempo (quarters per minute) of all tempo changes, with gradual ones in steps; fermatas are left out."""
     numbers = {event.tick for event in events if event.kind == "set"}
     said = [event for event in dict.fromkeys(events) if event.kind != "word" or event.tick not in numbers]
     changes = [(0, USUAL)]

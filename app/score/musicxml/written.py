@@ -16,7 +16,7 @@ Time: TypeAlias = int | Fraction
 
 @dataclass(slots=True)
 class Place:
-    """Place in the file, for messages."""
+    """Place in a MusicXML file (part and measure) that is named in messages about errors."""
 
     file: str
     part: str = ""
@@ -56,7 +56,7 @@ _MOST_DIGITS, _MOST_NUMBER, _MOST_PARTS = 10, 1e9, 1_000_000
 
 @dataclass(slots=True)
 class Tone:
-    """One note of a chord.
+    """One note of a chord in MusicXML.
 
     Attributes
     ----------
@@ -143,7 +143,7 @@ class Direction:
 
 @dataclass(slots=True)
 class Measure:
-    """One measure of one part.
+    """One measure of one part of a MusicXML score.
 
     Attributes
     ----------
