@@ -94,7 +94,7 @@ def channel_to_parent(kind: Any, limits: str) -> MessageChannel[Any]:
 
 
 class Child(MessageChannel[T]):
-    """A process started by this one."""
+    """A process started by this one, and the channel of messages to it."""
 
     def end(self) -> None:
         """End the process immediately."""

@@ -95,7 +95,7 @@ def shown(path: str | os.PathLike[str]) -> str:
 
 
 def is_text(path: str | os.PathLike[str]) -> bool:
-    """Return whether a path is UTF-8."""
+    """Return whether a path can be stored as UTF-8 text."""
     try:
         os.fspath(path).encode()
     except UnicodeEncodeError:

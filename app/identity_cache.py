@@ -1,4 +1,4 @@
-"""Caches keyed by the identity of their inputs."""
+"""Caches of results, keyed by the identity of their (immutable) inputs."""
 
 from __future__ import annotations
 

@@ -144,7 +144,7 @@ class StepResults:
         return result
 
     def __getitem__(self, name: str) -> Any:
-        """Return a result or a given value."""
+        """Return the result of a step, computed on first use, or a given value, by its name."""
         values = self._values
         if name in values:
             return values[name]
@@ -196,7 +196,7 @@ class StepRuns:
         return results
 
     def of(self, table: StepTable, about: str = "") -> StepResults:
-        """Return a run that has begun. Raises KeyError."""
+        """Return the run of a table that was begun for ``about``. Raises KeyError if there is none."""
         return self._runs[table, about]
 
     def close(self) -> None:
@@ -227,7 +227,8 @@ def _each(named: str | tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _parameters(step: StepInputs) -> tuple[str, ...]:
-    """Return the parameters that receive values."""
+    """Return the names of the step's parameters, which receive inputs or results of other steps. Raises TypeError for
+    functions that cannot be a step."""
     if getattr(step.function, "__closure__", None):
         raise TypeError(f"{_name(step.function)} reads more than its parameters")
     parameters = inspect.signature(step.function).parameters.values()

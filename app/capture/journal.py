@@ -161,7 +161,7 @@ class JournalWriter:
         return whole
 
     def event(self, ns: int, message: bytes) -> None:
-        """Append a received message."""
+        """Append a received MIDI message with its time in nanoseconds to the journal."""
         self._is_synced = False
         self._pending += b"e %d %s\n" % (ns, message.hex().encode())
         self.count += 1

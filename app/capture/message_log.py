@@ -57,7 +57,7 @@ class MessageLog:
 
     @property
     def lines(self) -> tuple[MessageRow, ...]:
-        """Return the lines, the newest first."""
+        """The rows of the log, the newest first."""
         return tuple(self._lines)
 
     def clear(self) -> None:
@@ -65,7 +65,7 @@ class MessageLog:
         self._lines.clear()
 
     def add(self, message: bytes) -> None:
-        """Add a received channel message."""
+        """Add a received channel message to the log; repeated ones are joined in one row."""
         line = _line(message)
         place = next((place for place, other in self._since_note() if _is_same(line, other)), None)
         if place is None or line.kind in _NOTES:

@@ -28,11 +28,11 @@ class PortLists(Protocol):
     """Ports of a MIDI system under the system's own names."""
 
     def inputs(self) -> list[str]:
-        """Return the input ports."""
+        """Return the names of the system's MIDI input ports."""
         ...
 
     def outputs(self) -> list[str]:
-        """Return the output ports."""
+        """Return the names of the system's MIDI output ports."""
         ...
 
     def close(self) -> None:
@@ -41,7 +41,7 @@ class PortLists(Protocol):
 
 
 class OpenInput(Protocol):
-    """An open input port."""
+    """An open MIDI input port, which calls its callback until it is closed."""
 
     def close(self) -> None:
         """Close the port. This blocks forever while messages arrive, since the driver's thread waits for Python's
@@ -91,7 +91,7 @@ def load_library() -> MidiLibrary:
 
 
 class PythonRtmidi:
-    """The package python-rtmidi."""
+    """MIDI input and output by the package python-rtmidi, one of the two supported."""
 
     def __init__(self) -> None:
         import rtmidi
@@ -102,12 +102,13 @@ class PythonRtmidi:
         self.errors: tuple[type[Exception], ...] = (rtmidi.RtMidiError, OSError, ValueError, TypeError)
 
     def lists(self, system: str) -> PortLists:
-        """See `MidiLibrary.lists`."""
+        """Return the lists of inputs and outputs of a MIDI system (such as ALSA)."""
         number = self._numbers[system]
         return _PythonRtmidiLists(self._rtmidi.MidiIn(number, CLIENT), self._rtmidi.MidiOut(number, CLIENT))
 
     def open_input(self, system: str, index: int, callback: MidiCallback) -> OpenInput:
-        """See `MidiLibrary.open_input`."""
+        """Open the MIDI input ``index`` of a system; ``callback`` receives nanoseconds and the bytes of each message,
+        in a thread of the library."""
 
         def receive(event: tuple[list[int], float], _: object) -> None:
             ns = time.perf_counter_ns()
@@ -147,7 +148,7 @@ class _PythonRtmidiInput:
 
 
 class Rtmidi2:
-    """The package rtmidi2."""
+    """MIDI input and output by the package rtmidi2, one of the two supported."""
 
     def __init__(self) -> None:
         # The copy of JACK's library in its wheel speaks an older protocol than the servers of today.
@@ -166,7 +167,7 @@ class Rtmidi2:
         self.errors: tuple[type[Exception], ...] = (RuntimeError, OSError, ValueError, TypeError)
 
     def lists(self, system: str) -> PortLists:
-        """See `MidiLibrary.lists`."""
+        """Return the lists of inputs and outputs of a MIDI system (such as ALSA)."""
         number = self._numbers[system]
         return _Rtmidi2Lists(
             self._rtmidi2.MidiIn(CLIENT, api=number),
@@ -174,7 +175,8 @@ class Rtmidi2:
         )
 
     def open_input(self, system: str, index: int, callback: MidiCallback) -> OpenInput:
-        """See `MidiLibrary.open_input`."""
+        """Open the MIDI input ``index`` of a system; ``callback`` receives nanoseconds and the bytes of each message,
+        in a thread of the library."""
 
         def receive(message: list[int], _: float) -> None:
             ns = time.perf_counter_ns()

@@ -57,13 +57,13 @@ class MidiSystem:
         return self._watch is not None and self._watch.has_ended
 
     def inputs(self) -> tuple[Port, ...]:
-        """Return the connected inputs."""
+        """Return the MIDI inputs connected at present."""
         ports = named(self._lists.inputs(), self.name, self._known)
         self._known |= {port.identity: port.name for port in ports}
         return ports
 
     def outputs(self) -> tuple[Port, ...]:
-        """Return the connected outputs."""
+        """Return the MIDI outputs connected at present."""
         return named(self._lists.outputs(), self.name)
 
     def open_input(self, port: Port, callback: MidiCallback) -> OpenInput:

@@ -107,7 +107,7 @@ class RecorderProcess:
         self.has_ended = False
 
     def obey(self, command: Command) -> None:
-        """Execute a command of the editor."""
+        """Execute a command that the editor sent, such as to open or close a port."""
         match command:
             case Open():
                 self._asked, self._was_open = command, command.is_lost

@@ -25,7 +25,7 @@ _seconds = bounded_number(0.0, LONGEST_S, "quantity.seconds", float)
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou align``."""
     add_file_options(command)
     command.add_argument("recording", type=Path, metavar="RECORDING")
     command.add_argument("--from", dest="from_s", type=_seconds, metavar="S")

@@ -91,7 +91,7 @@ class _Note(msgspec.Struct, frozen=True):
 
 
 class _Reported(msgspec.Struct):
-    """Fields of an export's report that the batch reads."""
+    """Those fields of an export's ``report.json`` that a batch run reads for its summary."""
 
     players: list[msgspec.Raw]
     left_out: list[msgspec.Raw]
@@ -174,7 +174,7 @@ class _Results:
         self.outcomes = dict(known)
 
     def add(self, piece: str, future: Future[BatchOutcome]) -> None:
-        """Store the result of a piece."""
+        """Store the result of a piece of the batch, and report it."""
         outcome = self.outcomes[piece] = _outcome(future)
         if outcome.done:
             self._notes[piece] = _Note(self._digests[piece], outcome)
@@ -182,7 +182,8 @@ class _Results:
 
 
 def folders_of(source: Path) -> dict[str, str]:
-    """Return the pieces in a folder and its subfolders with their output folders, both as paths with slashes."""
+    """Return the pieces in a folder and its subfolders with the output folder of each; both are relative paths with
+    slashes."""
     found = sorted(
         path.relative_to(source)
         for path in source.rglob("*")

@@ -38,7 +38,7 @@ class CannotPlayError(AppError):
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou characters``."""
     command.add_argument("--json", action="store_true")
     command.set_defaults(run=list_characters)
     actions = add_actions(command)
@@ -191,7 +191,7 @@ def make_person(arguments: argparse.Namespace) -> None:
 
 
 def joints_of(texts: list[str]) -> dict[str, str]:
-    """Return the corrections of joints from texts ``JOINT=NAME``. Raises UsageError."""
+    """Parse the user's corrections ``JOINT=NAME`` into bone names by joint. Raises UsageError."""
     found = {}
     for given in texts:
         joint, equals, bone = given.partition("=")
@@ -202,7 +202,7 @@ def joints_of(texts: list[str]) -> dict[str, str]:
 
 
 def morphs_of(texts: list[str]) -> dict[str, dict[str, float]]:
-    """Return the corrections of face shapes from typed texts. Raises UsageError."""
+    """Parse the user's corrections of face shapes into weights of morphs by shape. Raises UsageError."""
     found: dict[str, dict[str, float]] = {}
     for given in texts:
         shape, equals, parts = given.partition("=")
@@ -228,9 +228,9 @@ def checked(
     *,
     keep_props: bool = False,
 ) -> dict[str, Any]:
-    """Return the mapping of a file's figure as JSON, with notes in the language of ``speech``. Raises FileError if
-    there is no figure.
-    """
+    """Read a figure's file, and return as JSON how its bones and morphs map to joints and expressions, with notes in
+    the language of ``speech``; ``joints`` and ``morphs`` are corrections by the user, ``hidden`` meshes to leave out.
+    Raises FileError if there is no figure."""
     from app.rig.characters.figure_build import at_height, figure_height
     from app.rig.characters.figure_to_character import figure_character
     from app.rig.characters.joint_mapping import JointMapping
@@ -304,7 +304,7 @@ def as_text(found: Mapping[str, Any]) -> list[str]:
 
 
 def _face(found: Mapping[str, Any]) -> list[str]:
-    """Findings on the face as text."""
+    """Return lines of text about the morphs found for a figure's face."""
     if not found["morphs"]:
         return [said("characters.no_face", count=len(found["missing_morphs"]))]
     lines = [said("characters.face", profile=found["face"] or said("characters.unknown_face"))]

@@ -93,7 +93,8 @@ def check_worker(worker: str, answer: Mapping[str, Any] | BaseException) -> None
 
 
 def machine_facts() -> dict[str, Any]:
-    """Return the facts that a worker reports about its machine: digests of its program and user files."""
+    """Return the facts that a worker of a cluster reports about its machine, so that only equal ones share work:
+    digests of its program and user files."""
     return {"version": program_version(), "program": program_digest(), "own": own_digests()}
 
 

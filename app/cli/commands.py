@@ -110,7 +110,7 @@ class CommandParser(argparse.ArgumentParser):
         self._declare = declare
 
     def complete(self) -> None:
-        """Add all arguments."""
+        """Add all options and arguments of the sub-command, which are declared only when it is used."""
         if self._declare is not None:
             declare, self._declare = self._declare, None
             declare(self)

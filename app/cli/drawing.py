@@ -35,9 +35,8 @@ def kept_camera(project: Project, name: str) -> CameraBookmark:
 
 
 def parsed_view(arguments: argparse.Namespace, project: Project) -> tuple[View, tuple[str, ...]]:
-    """Return the view, and the ids of the players in it. Raises UsageError for an unknown player or an instrument view
-    of a dancer.
-    """
+    """Return the requested view, and the ids of the players in it. Raises UsageError for an unknown player or an
+    instrument view of a dancer."""
     everyone = project.performers
     view: View = arguments.view or ("front" if arguments.players else "ensemble")
     if not arguments.players and view == "ensemble":

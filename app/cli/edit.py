@@ -15,7 +15,7 @@ LEAST_PX, MOST_PX = (960, 600), (7680, 4320)
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou edit``."""
     command.add_argument("file", type=Path, nargs="?", metavar="FILE")
     command.add_argument("--screenshot", type=Path, metavar="OUT.png")
     command.add_argument("--time", dest="time_s", type=seconds, default=0.0, metavar="S")

@@ -53,7 +53,7 @@ SKELETONS: Final[tuple[SkeletonChoice, ...]] = ("own", "ue5", "suisou")
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou export``."""
     add_source_options(command)
     add_title_option(command)
     place = command.add_mutually_exclusive_group(required=True)
@@ -76,7 +76,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def _add_skeleton_options(command: argparse.ArgumentParser) -> None:
-    """Declare the options for skeletons."""
+    """Declare the export options that choose the skeleton, its bones and a check against an asset."""
     command.add_argument("--skeleton", choices=SKELETONS)
     add_rig_options(command)
     command.add_argument("--check-skeleton", type=Path, metavar="ASSET")
@@ -250,7 +250,7 @@ def _request(
     folder: Path,
     skeleton: SkeletonChoice,
 ) -> ExportRequest:
-    """Return the export request with the chosen way of attaching instruments."""
+    """Return the export request that the command's options describe."""
     project = performance.project
     names = [*(player.name for player in project.players), *(dancer.name for dancer in project.dancers)]
     chosen = select_players(arguments.players, names)

@@ -54,7 +54,7 @@ _columns = bounded_number(1, MOST_COLUMNS, "quantity.columns", int)
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou film``."""
     add_source_options(command)
     place = command.add_mutually_exclusive_group(required=True)
     place.add_argument("--to", type=Path, metavar="OUT")
@@ -106,7 +106,7 @@ class _Film:
 
     @property
     def path(self) -> Path:
-        """The output file or folder."""
+        """The video file or the folder of pictures to write, from the command's options."""
         path: Path = self.arguments.sheet or self.arguments.to
         return path
 
@@ -157,7 +157,7 @@ def film(arguments: argparse.Namespace) -> int:
 
 
 def _draw(film: _Film, stop_requested: StopRequested) -> int:
-    """Draw and write every frame."""
+    """Render every frame of a film and write it to the video file. Returns the exit status of the command."""
     # All of Qt.
     from app.performance.cast import require_players
     from widgets.viewport.offscreen import offscreen

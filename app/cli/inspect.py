@@ -55,7 +55,7 @@ default a twelfth of the time goes into examining them again and again.
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou inspect``."""
     add_source_options(command)
     add_title_option(command)
     add_rate_option(command)

@@ -18,7 +18,7 @@ class InvalidMapError(AppError):
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou instruments``."""
     command.set_defaults(run=list_maps)
     add_pitch_options(command, of_players=False)
     actions = add_actions(command)

@@ -26,7 +26,7 @@ class InvalidMetadataError(AppError):
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou metadata``."""
     command.add_argument("piece", type=Path, nargs="?", metavar="PIECE")
     what = command.add_mutually_exclusive_group()
     what.add_argument("--check", type=Path, metavar="FILE")
@@ -137,7 +137,8 @@ def _unknown_names(rules: Iterable[Rule]) -> list[Message]:
 
 
 def save(piece: Path, file: Path) -> None:
-    """Write a piece's metadata."""
+    """Write the metadata of the piece in a project file to ``file``: acting, corrections and the like without the
+    notes."""
     from app.project.piece_metadata import metadata_of, save_metadata
     from app.project.storage import load
 
@@ -146,7 +147,7 @@ def save(piece: Path, file: Path) -> None:
 
 
 def load(piece: Path, file: Path) -> None:
-    """Apply metadata to a piece."""
+    """Apply the metadata in ``file`` to the piece in a project file, and save the project."""
     from app.project.piece_metadata import load_metadata, with_metadata
     from app.project.storage import load as opened
     from app.project.storage import save as written

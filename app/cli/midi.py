@@ -12,7 +12,7 @@ from app.errors import FileError
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou midi``."""
     add_file_options(command)
     add_title_option(command)
     command.add_argument("--to", type=Path, required=True, metavar="FILE")
@@ -20,7 +20,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def write(arguments: argparse.Namespace) -> None:
-    """Write the file and print its contents."""
+    """Write the project's score as a MIDI file and print its contents."""
     from app.project.midi_out import export_midi
     from instrument_maps.library import library
 

@@ -102,7 +102,7 @@ seconds = bounded_number(-LONGEST_S, LONGEST_S, "quantity.seconds", float)
 
 
 def picture_size(least_px: tuple[int, int], most_px: tuple[int, int]) -> Callable[[str], tuple[int, int]]:
-    """Return the type of an option that takes a width and height such as ``1600x1000`` within bounds in pixels."""
+    """Return a parser for option values such as ``1600x1000`` that refuses sizes (pixels) outside the bounds."""
 
     def parsed(text: str) -> tuple[int, int]:
         width, _, height = text.partition("x")
@@ -142,7 +142,7 @@ def text_encoding(text: str) -> str:
 
 
 def add_players_option(command: argparse.ArgumentParser) -> None:
-    """Declare the option for players."""
+    """Declare the repeatable option ``--player`` that selects players by name."""
     command.add_argument("--player", dest="players", action="append", default=[], metavar="NAME")
 
 
@@ -264,7 +264,8 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
 
 
 def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> tuple[Project, Message | None]:
-    """Return the project of a file, and a message about its parts without a bundled instrument."""
+    """Open a project or import a MIDI file; returns the project, and a message about parts without a bundled
+    instrument."""
     if is_project_file(arguments.file):
         return _saved_project(arguments), None
     contents, choices = read_contents(arguments.file, encoding=arguments.encoding), map_choices(maps.values())

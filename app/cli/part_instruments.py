@@ -47,9 +47,8 @@ class Unassigned(NamedTuple):
 def unassigned_parts(
     channels: Sequence[TrackChannel], rows: Sequence[ImportRow], maps: Sequence[MapChoice], of_others: bool = False
 ) -> tuple[Unassigned, ...]:
-    """Return the parts that have an instrument neither from the file nor from the user, in the order of the file; with
-    ``of_others``, the parts for instruments without a map, such as a piano.
-    """
+    """Return the melodic parts whose instrument neither the file nor the user names, in the order of the file; with
+    ``of_others``, the parts for instruments without a map, such as a piano."""
     found = []
     for row, name in zip(rows, part_names(channels, rows), strict=True):
         played = [channels[index] for index in row.assignment.channels]
@@ -132,7 +131,8 @@ def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned], i
 
 
 def _option(value: str) -> tuple[str, ...]:
-    """Return ``--assign`` with a value, joined if the value begins with a hyphen and would be read as an option."""
+    """Return the command-line words for ``--assign`` with a value, joined if the value begins with a hyphen and would
+    be read as an option."""
     return (f"--assign={value}",) if value.startswith("-") else ("--assign", value)
 
 

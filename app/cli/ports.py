@@ -68,7 +68,7 @@ class PortMonitor:
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou ports``."""
     command.add_argument("--json", action="store_true")
     command.set_defaults(run=list_ports)
 

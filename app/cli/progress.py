@@ -43,7 +43,7 @@ class Progress:
         self._shown = line
 
     def clear(self) -> None:
-        """Erase the line."""
+        """Erase the progress line from the terminal."""
         if self._shown:
             self._stream.write(f"\r{' ' * width(self._shown)}\r")
             self._stream.flush()

@@ -54,7 +54,7 @@ class RecordError(AppError):
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou record``."""
     command.add_argument("--port", metavar="NAME")
     command.add_argument("--to", type=Path, required=True, metavar="TAKE.mid")
     command.add_argument("--seconds", type=_seconds, metavar="S")
@@ -140,7 +140,7 @@ class _Moves:
         self.journal = journal
 
     def follow(self, reported: Moved) -> None:
-        """Store the journal's new path, and report it."""
+        """Continue in the journal that the recorder moved to, and report its path."""
         former, self.journal = self.journal, Path(os.fsdecode(reported.path))
         files = {"file": str(former), "journal": str(self.journal)}
         warn(said("record.goes_on_elsewhere", reason=reported.reason, **files))

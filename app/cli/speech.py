@@ -32,11 +32,11 @@ class InLanguages(Protocol):
 
     @property
     def en(self) -> str:
-        """English."""
+        """English text."""
 
     @property
     def ja(self) -> str:
-        """Japanese, or empty."""
+        """Japanese text; empty if there is none."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Speech:
     written: bool = False
 
     def __call__(self, message: Message) -> str:
-        """Return a message as a sentence."""
+        """Return the sentence of a message in the language of the command, with pitches spelled."""
         semitones = int(message.arguments.get(TRANSPOSITION, 0))
         return text(message, self.language, lambda pitch: self.pitch(pitch, semitones))
 

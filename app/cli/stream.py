@@ -54,7 +54,7 @@ _REPORT_S: Final = 1.0
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou stream``."""
     add_source_options(command)
     add_players_option(command)
     command.add_argument("--host", type=_host, default=LOOPBACK)
@@ -70,7 +70,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def _host(text: str) -> str:
-    """Return a computer's name or address."""
+    """Return the typed name or address of a computer; refuses an empty one."""
     if not text.strip():
         raise argparse.ArgumentTypeError(said("cli.no_host"))
     return text.strip()
@@ -138,7 +138,7 @@ def stream(arguments: argparse.Namespace) -> int:
 
 
 def _beside(performance: Performance, one: Player | Dancer, made: Mapping[str, Performer]) -> tuple[Performer, ...]:
-    """Return the visible instruments of a streamed musician other than the one being played."""
+    """Return the performers of the other instruments that a streamed musician plays besides the player ``one``."""
     if not isinstance(one, Player):
         return ()
     return tuple(
@@ -208,7 +208,8 @@ class _Streamed:
 
 
 def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: int, loop: bool) -> None:
-    """Send every frame at its time; late frames are dropped."""
+    """Send every frame of a span at its time, from frame ``first`` and again from the start if ``loop``; late frames
+    are dropped."""
     fps, frames = float(span.fps), span.count
     began_s = time.perf_counter()
     sounding_s, inaudible, sent = began_s, False, 0

@@ -82,7 +82,7 @@ def add_cues(session: Session, places: Places) -> None:
 
 
 def add_gestures(session: Session, kind: GestureKind, spans: Spans) -> None:
-    """Add a gesture over each span."""
+    """Add a gesture of a kind over each span of a player, as one undoable step."""
     amount = 0.5 if GESTURE_KINDS[kind].signed else 1.0
     add = partial(edit.add_gesture, kind=kind, amount=amount)
     made = [
@@ -117,7 +117,7 @@ def add_expressions(session: Session, name: str, spans: Spans) -> None:
 
 
 def add_styles(session: Session, style: str, spans: Spans) -> None:
-    """Add style spans for players."""
+    """Add spans in which players play in a style, as one undoable step."""
     add = partial(edit.add_style, style=style)
     made = [
         (plan, start, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end))
@@ -140,7 +140,8 @@ def change_styles(session: Session, style: str) -> None:
 
 
 def bars_of(session: Session, player_ids: Iterable[str], tick: float) -> list[tuple[PlayerPlan, int, int]]:
-    """For each player, the selected range if it contains the place, else the bar there and the next one."""
+    """Return player plan, first and last tick for each player: the selected range if it contains ``tick``, else the bar
+    at ``tick`` and the next one."""
     metres, span = session.project.metre_map, session.selection.span
     if span is None or not span[0] <= tick < span[1]:
         at = max(round(tick), 0)

@@ -1,4 +1,4 @@
-"""Bars that an export wrote, and their lead-in."""
+"""The bars that the last export wrote and the lead-in before them, as the export dialog offers them again."""
 
 from __future__ import annotations
 

@@ -195,7 +195,7 @@ class Files(QObject):
             self.let_go(lambda: self._read(path, ask, at_start))
 
     def open_example(self) -> None:
-        """Open the bundled quartet."""
+        """Open the example project, a bundled quartet."""
         with as_file(files("resources") / "examples" / EXAMPLE) as path:
             self.open(path, ask=False)
 
@@ -237,7 +237,8 @@ class Files(QObject):
         self.session.attempt(done, lambda project: relocate(project, missing, path))
 
     def agree_to(self, paths: tuple[str, ...]) -> None:
-        """Allow access to these paths on other computers."""
+        """Allow the project to open the media files at these paths, which it names but the user has not yet opened on
+        this computer."""
         for path in paths:
             agree(path)
         self.session.media_agreed.emit()
@@ -606,7 +607,7 @@ class Files(QObject):
         self.session.tasks.run(Message("work.recoverable"), work, found, key="recoverable")
 
     def recover(self, item: Recoverable) -> None:
-        """Open unsaved work."""
+        """Open the unsaved work that was found after a crash, as the current project."""
         if item.document is not None:
             agree(item.document)
 
@@ -628,7 +629,7 @@ class Files(QObject):
             )
 
     def discard(self, item: Recoverable) -> None:
-        """Delete unsaved work."""
+        """Delete the unsaved work that was found after a crash."""
         try:
             discard(item)
         except AppError as error:

@@ -1,4 +1,4 @@
-"""Grid steps to choose from, in musical notation."""
+"""Grid steps of the timeline that the user can choose, as note values."""
 
 from __future__ import annotations
 

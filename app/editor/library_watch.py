@@ -78,15 +78,16 @@ class LibraryWatch(QObject):
 
 
 def watch_instruments(session: Session) -> LibraryWatch:
-    """Watch the user's instruments."""
+    """Watch the folder of the user's instruments, so that changed files are read again."""
     return LibraryWatch(session, INSTRUMENTS, "instruments.read_again")
 
 
 def watch_characters(session: Session) -> LibraryWatch:
-    """Watch the user's characters."""
+    """Watch the folder of the user's characters, so that changed files are read again."""
     return LibraryWatch(session, CHARACTERS)
 
 
 def watch_metadata(session: Session) -> tuple[LibraryWatch, ...]:
-    """Watch the user's styles, habits, expressions and other metadata."""
+    """Watch the user's folders of styles, habits, expressions and other metadata; their files are read again when they
+    change."""
     return tuple(LibraryWatch(session, folder, "metadata.read_again", "metadata") for folder in FOLDERS)

@@ -24,7 +24,8 @@ BLEND_S: Final = 0.2
 
 @dataclass(frozen=True)
 class _Blend:
-    """Blend weight of a live player, 0..1."""
+    """A transition 0..1 between generated and live motion of a player: from the weight ``before`` to ``after``,
+    starting at ``since_s``."""
 
     since_s: float
     before: float
@@ -64,7 +65,7 @@ class LivePlayers(QObject):
 
     @property
     def playing(self) -> Mapping[str, PlayAlong]:
-        """Live players by player id."""
+        """The objects that follow live players' instruments, by player id."""
         return MappingProxyType(self._playing)
 
     @property

@@ -24,7 +24,7 @@ class LivePoses:
         return self._session.live_players.is_shown
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
-        """See `PoseSource.poses`."""
+        """Return the pose of each player at a time; those who play live show what they play instead of the score."""
         found = self._poses.poses(player_ids, time_s)
         live = self._session.live_players
         if not live.is_shown:
@@ -78,14 +78,15 @@ class WornFaces:
         self._session, self._poses = session, poses
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
-        """See `PoseSource.poses`."""
+        """Return the pose of each player at a time, with the expression that is being previewed."""
         found = self._poses.poses(player_ids, time_s)
         if self._session.preview_morphs is None:
             return found
         return [self._worn(player_id, pose) for player_id, pose in zip(player_ids, found, strict=True)]
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """See `PoseSource.pose_now`."""
+        """Return one player's pose at a time (see `PoseSource.pose_now`), with the expression that is being
+        previewed."""
         return self._worn(player_id, self._poses.pose_now(player_id, time_s))
 
     def _worn(self, player_id: str, pose: Pose | None) -> Pose | None:

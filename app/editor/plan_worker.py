@@ -59,7 +59,8 @@ class _Clock(Protocol):
 
 @dataclass(frozen=True)
 class Reports(Generic[T]):
-    """Receiver of the worker's reports, on the window's thread."""
+    """Functions by which the planning worker reports to the window, called on its thread: plan finished, motion
+    changed, progress, and broken contacts found."""
 
     planned: Callable[[T, Performance, int, AppError | None], None]
     moved: Callable[[T], None]
@@ -106,7 +107,8 @@ class PlanWorker(Generic[T]):
         return self._planning or self._pending is not None
 
     def plan(self, performance: Performance, number: int) -> None:
-        """Plan this performance next, replacing any waiting one."""
+        """Request the plan of a performance from the worker thread; it replaces any request that still waits.
+        ``number`` identifies the result."""
         with self._changed:
             self._pending = (performance, number)
             self._changed.notify()

@@ -1,4 +1,4 @@
-"""Interface through which the viewport gets motion."""
+"""Interface through which the 3D view gets the poses of players."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def blended(one: Pose, other: Pose, share: float) -> Pose:
 
 
 def same(one: Pose | None, other: Pose | None) -> bool:
-    """Return whether two poses look equal."""
+    """Return whether two poses look the same, so that nothing need be drawn again."""
     if one is None or other is None or one is other:
         return one is other
     return (

@@ -33,7 +33,7 @@ class ProblemFix(NamedTuple):
 
 
 def fixes_of(project: Project, player_id: str, problems: Sequence[Problem]) -> tuple[ProblemFix, ...]:
-    """Fixes applicable to problems of one kind, best first."""
+    """Return the fixes that would change something about a player's problems, all of one kind; the best first."""
     player = next((player for player in project.players if player.id == player_id), None)
     if player is None or not problems:
         return ()
@@ -43,7 +43,7 @@ def fixes_of(project: Project, player_id: str, problems: Sequence[Problem]) -> t
 
 
 def fixed(project: Project, fix: ProblemFix, by_player: Sequence[tuple[str, Sequence[Problem]]]) -> Project:
-    """The project with problems of several players resolved."""
+    """Return the project with a fix applied to the problems of each player."""
     for player_id, problems in by_player:
         project = fix.edit(project, project.player(player_id), problems)
     return project
@@ -83,7 +83,7 @@ def _by_octaves(project: Project, player: Player, problems: Sequence[Problem]) -
 
 
 def _shorten(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
-    """End notes where the next note begins."""
+    """End the notes of a problem where the next note begins, so that they no longer overlap."""
     onsets = {note.id: note.onset_tick for note in project.part(player).notes}
     following = {problem.note_id: onsets.get(str(problem.message.arguments["other"])) for problem in problems}
     for note in _named(project, player, problems):
@@ -94,12 +94,12 @@ def _shorten(project: Project, player: Player, problems: Sequence[Problem]) -> P
 
 
 def _erase(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
-    """Delete notes that cannot sound together with others."""
+    """Delete the notes of a problem, which cannot sound together with others of the player."""
     return edit.erase(project, [note.id for note in _named(project, player, problems)])
 
 
 def _revert(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
-    """Delete corrections that lost their notes."""
+    """Delete the corrections to which the problems refer because the notes they belong to are gone."""
     lost = {(problem.message.arguments["kind"], problem.message.arguments["anchor"]) for problem in problems}
     items = project.corrections.get(player.id, ())
     return take_back(project, player.id, [item for item in items if (item.tag, item.subject) in lost])

@@ -42,7 +42,7 @@ _EVENT_VIEWS: Final[dict[str, View]] = {
 
 
 def view_of(problem: Problem) -> View:
-    """The view that shows a problem's subject."""
+    """Return the camera view in which the subject of a problem can be seen."""
     message_id = problem.message.id
     return _VIEWS.get(message_id) or _VIEWS.get(message_id.split(".")[0], _OTHER_VIEW)
 

@@ -71,7 +71,7 @@ MakeLink = Callable[[Callable[[], None]], RecorderLink]
 
 @dataclass
 class _Running:
-    """A take in progress."""
+    """A take that is being recorded: its files, player and start."""
 
     path: Path
     second_path: Path
@@ -204,7 +204,7 @@ class Recorder(QObject):
         self._know(self._state.port)
 
     def set_latency(self, latency_s: float) -> None:
-        """Set the latency of the device."""
+        """Store the latency of the connected MIDI device in seconds, by which recorded notes are moved earlier."""
         self._settings.set_midi_device(self._state.port, "latency_s", repr(float(latency_s)))
         self._know(self._state.port)
 
@@ -569,7 +569,7 @@ class Recorder(QObject):
 
 
 def _names(project: Project, player_id: str) -> tuple[str, ...]:
-    """Names of a player's takes."""
+    """Return the names of all takes recorded for a player."""
     recorded = project.takes.get(player_id)
     return tuple(take.name for take in recorded.takes) if recorded is not None else ()
 

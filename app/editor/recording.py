@@ -100,7 +100,7 @@ class RecordingState(State):
         self.latency_s = 0.0
 
     def set_played(self, breath: float, pitch: int | None) -> None:
-        """Set the current breath and pitch."""
+        """Set the breath 0..1 and the pitch that are played at present; pitch None if nothing sounds."""
         if (breath, pitch) != (self.breath, self.pitch):
             self.breath, self.pitch = breath, pitch
             self.played.emit()

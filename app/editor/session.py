@@ -42,7 +42,7 @@ TimeDisplay = Literal["bars", "seconds", "frames"]
 
 
 class Severity(Enum):
-    """Severity of a notice."""
+    """Severity of a notice to the user: information, warning or error."""
 
     INFORMATION = "information"
     WARNING = "warning"
@@ -165,7 +165,7 @@ class Session(QObject):
 
     @property
     def project(self) -> Project:
-        """The document's project."""
+        """The project being edited, after the last edit."""
         return self.document.project
 
     @property
@@ -174,7 +174,8 @@ class Session(QObject):
         return self._performance
 
     def set_performance(self, performance: Performance) -> None:
-        """Set new plans."""
+        """Replace the planned performance, which everything displayed and heard depends on; emits
+        ``performance_changed`` if it is another one."""
         if performance is not self._performance:
             self._performance = performance
             self.performance_changed.emit()
@@ -198,7 +199,7 @@ class Session(QObject):
         return self._split_problems(player_id)[0]
 
     def ignored_problems(self, player_id: str) -> tuple[Problem, ...]:
-        """Problems of a performer that the user ignores."""
+        """Problems of a performer that the user has marked as ignored."""
         return self._split_problems(player_id)[1]
 
     def _split_problems(self, player_id: str) -> tuple[tuple[Problem, ...], tuple[Problem, ...]]:
@@ -280,12 +281,12 @@ class Session(QObject):
 
     @property
     def players(self) -> tuple[str, ...]:
-        """Ids of the selected players; the first one is in front."""
+        """Ids of the selected players; the first is the active player, the one that panels show."""
         return self._players
 
     @property
     def player(self) -> Player | None:
-        """The front player; None without players."""
+        """The active player, the first of the selected ones, shown in the panels; None without players."""
         return self.project.player(self._players[0]) if self._players else None
 
     @property
@@ -301,17 +302,17 @@ class Session(QObject):
 
     @property
     def dancer(self) -> Dancer | None:
-        """The selected dancer; None without dancers."""
+        """The selected dancer; None if no dancer exists."""
         return self.project.dancer(self._dancer_id) if self._dancer_id else None
 
     def set_dancer(self, dancer_id: str) -> None:
-        """Select a dancer."""
+        """Select the dancer with an id, whom the dancers' section shows."""
         if dancer_id != self._dancer_id:
             self._dancer_id = dancer_id
             self.dancer_changed.emit()
 
     def colour(self, player: Player | Dancer) -> str:
-        """A player's or dancer's colour, ``#rrggbb``."""
+        """Return the colour of a player or dancer, ``#rrggbb``: their own, else the theme's for their index."""
         if player.colour:
             return player.colour
         players = self.project.players
@@ -322,7 +323,7 @@ class Session(QObject):
 
     @property
     def selection(self) -> Selection:
-        """The selection, always within the current project."""
+        """Everything that is selected (notes, events, marks, time range), always within the current project."""
         return self._selection
 
     def select(self, selection: Selection) -> None:
@@ -392,5 +393,5 @@ class Session(QObject):
         self.noticed.emit(message, severity)
 
     def reveal(self, time_s: float) -> None:
-        """Scroll a time into view."""
+        """Scroll the timeline until a time in seconds is visible."""
         self.revealed.emit(time_s)

@@ -14,7 +14,7 @@ from app.editor.session import Session
 
 @dataclass(frozen=True)
 class SettingBinding:
-    """Place of a setting's value in a session."""
+    """Functions that read and change one stored setting in a session, and the signal of its changes."""
 
     get: Callable[[Session], Any]
     set: Callable[[Session, Any], object]

@@ -172,7 +172,7 @@ class Settings(StoredSettings):
         return table
 
     def hold(self, session: Session) -> None:
-        """Restore the session's bound values, and store them whenever they change."""
+        """Restore the settings that belong to the session, and store them whenever they change."""
         for setting in SETTINGS:
             if setting.held is not None:
                 setting.held.set(session, getattr(self, setting.name))
@@ -189,11 +189,11 @@ class Settings(StoredSettings):
     # Values that are several
 
     def midi_device(self, port: str, name: str) -> str:
-        """Stored property of a device; empty: none."""
+        """Return the stored value of a property ``name`` of the MIDI device at a port; empty if none is stored."""
         return self._midi_devices.get(port, {}).get(name, "")
 
     def set_midi_device(self, port: str, name: str, value: str) -> None:
-        """Store a property of a device."""
+        """Store the value of a property ``name`` of the MIDI device at a port; without effect if the port is empty."""
         if port:
             devices = self._midi_devices
             self._midi_devices = {**devices, port: {**devices.get(port, {}), name: value}}
@@ -209,7 +209,7 @@ class Settings(StoredSettings):
         return dict(self._workspaces.get(workspace_id, {}))
 
     def set_workspace_state(self, workspace_id: str, **parts: str) -> None:
-        """Store parts of a workspace's layout."""
+        """Store parts of the layout of a workspace, keeping its other parts."""
         known = self._workspaces
         self._workspaces = {**known, workspace_id: {**known.get(workspace_id, {}), **parts}}
 
@@ -232,7 +232,7 @@ class Settings(StoredSettings):
 
     @property
     def recent(self) -> tuple[str, ...]:
-        """Recent files, newest first."""
+        """Paths of the recently opened files, newest first."""
         return tuple(path for text in self._recent[:MOST_RECENT] if (path := encoding.restored(text)))
 
     def add_recent(self, path: Path) -> None:
@@ -242,7 +242,7 @@ class Settings(StoredSettings):
         self._recent = tuple(map(encoding.stored, (text, *others)))[:MOST_RECENT]
 
     def remove_recent(self, path: str) -> None:
-        """Remove a recent file."""
+        """Remove a path from the list of recently opened files."""
         self._recent = tuple(encoding.stored(other) for other in self.recent if other != path)
 
     def shortcut(self, action_id: str) -> str | None:

@@ -98,7 +98,7 @@ class EditorSound(QObject):
 
     @property
     def recording(self) -> AudioRecording | None:
-        """The project's recording, once it is read."""
+        """The audio recording of the project, decoded; None until it is read."""
         return self._recording
 
     @property
@@ -216,7 +216,7 @@ class EditorSound(QObject):
             self._take()
 
     def _take(self) -> None:
-        """Play the current project."""
+        """Play the project as it is now, after an edit."""
         project = self._sounding_project()
         self._set_span(project)
         path = project.audio.path if project.audio is not None else ""

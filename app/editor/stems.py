@@ -44,7 +44,7 @@ class _Made:
 
 @dataclass(eq=False)
 class _Job:
-    """Rendering in progress; written by the worker, read on the window's thread."""
+    """A rendering of single players' sound in progress; written by the worker, read on the window's thread."""
 
     project: Project
     made: dict[str, _Made] = field(default_factory=dict)

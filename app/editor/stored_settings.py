@@ -61,7 +61,7 @@ class Setting(Generic[T]):
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Return the text ids of label and options."""
+        """Ids of the texts of a setting: its label, then its options."""
         return (self.label, *(word for _, word in self.options))
 
     @overload
@@ -86,7 +86,7 @@ class Setting(Generic[T]):
         return value
 
     def written(self, value: T) -> object:
-        """Return a value in its stored form."""
+        """Return a value of the setting as it is stored in TOML."""
         return value
 
 
@@ -150,7 +150,7 @@ class StoredSettings(QObject):
 
     @classmethod
     def declared(cls) -> tuple[Setting[Any], ...]:
-        """All settings of the class."""
+        """All settings that the class declares as attributes."""
         return tuple(value for value in vars(cls).values() if isinstance(value, Setting))
 
     def stored(self, keys: tuple[str, str]) -> object:
@@ -201,7 +201,7 @@ class StoredSettings(QObject):
             raise
 
     def _possible(self, table: dict[str, Any]) -> dict[str, Any]:
-        """The table without invalid values, which are reported."""
+        """Return the table of stored settings without invalid values, each of which is reported once."""
         self._table = table
         file = os.fspath(self.path)
         for value in self.declared():

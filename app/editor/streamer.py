@@ -222,7 +222,8 @@ class Streamer(QObject):
 
 @dataclass(frozen=True)
 class _Request:
-    """Data for the streaming thread; ``beside`` are the other parts of each performer."""
+    """Request to the streaming thread: address, performers and their ports; ``beside`` are the other instruments of
+    each performer."""
 
     address: Address
     performers: tuple[Player | Dancer, ...]
@@ -236,7 +237,8 @@ class _Request:
 
 @dataclass(frozen=True)
 class _Anchor:
-    """Performance position and speed at a time of `time.perf_counter`."""
+    """Known point of the playback: position and speed at a time of `time.perf_counter`, from which later positions
+    follow."""
 
     position_s: float
     at_s: float

@@ -23,7 +23,7 @@ USUAL_RATE_HZ: Final = 60
 
 @dataclass(frozen=True)
 class StreamTarget:
-    """A performer with its destination port."""
+    """A performer whose motion is streamed, and the UDP port it is sent to."""
 
     player_id: str
     port: int

@@ -16,7 +16,8 @@ LEAST_BARS = 4
 
 
 def place_limits(session: Session) -> tuple[float, float]:
-    """Range of allowed positions in seconds: the performance with its pre-roll, and free room after it."""
+    """First and last second at which something can be placed: the performance with its pre-roll, and free room after
+    it."""
     start_s, end_s = _performance_s(session)
     return start_s, max(end_s + max(ROOM_S, ROOM_SHARE * end_s), LEAST_S)
 
@@ -50,7 +51,8 @@ def _performance_s(session: Session) -> tuple[float, float]:
 
 
 def selected_span(session: Session) -> tuple[float, float] | None:
-    """Time range of the selection in seconds; None without one."""
+    """Start and end in seconds of everything selected (a time range, notes, events); None if nothing with a time is
+    selected."""
     selection, project = session.selection, session.project
     tempo = project.score.tempo_map
     places: list[tuple[float, float]] = []

@@ -59,7 +59,7 @@ class Tasks(Protocol):
 
     @property
     def writing(self) -> tuple[Message, ...]:
-        """Names of running work that writes requested files, oldest first."""
+        """Names of running tasks that write files the user requested, oldest first."""
         ...
 
 
@@ -122,12 +122,12 @@ class ThreadTasks(QObject):
 
     @property
     def running(self) -> tuple[Task, ...]:
-        """Work that is not stopped, oldest first."""
+        """Tasks that run and have not been asked to stop, oldest first."""
         return tuple(task for task in self._running if not task.stop.is_set())
 
     @property
     def writing(self) -> tuple[Message, ...]:
-        """Names of running work that writes files: see `Tasks.writing`."""
+        """Names of running tasks that write files the user requested, oldest first."""
         return tuple(task.name for task in self.running if task.writes)
 
     @property
@@ -146,7 +146,8 @@ class ThreadTasks(QObject):
         *,
         writes: bool = False,
     ) -> None:
-        """Start work: see `Tasks.run`."""
+        """Start ``work`` in a thread, and call ``done`` with its result in the main thread; running work with the same
+        ``key`` is stopped (see `Tasks.run`)."""
         if key is not None:
             for other in self._running:
                 if other.key == key:

@@ -1,4 +1,4 @@
-"""Texts by id in the editor's language."""
+"""Translates texts by their ids into the editor's language."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ class VideoState(State):
         self.fault: Message | None = None
 
     def set_picture(self, picture: Picture | None) -> None:
-        """Set the current frame."""
+        """Set the decoded picture of the reference video at the playhead; emits ``pictured`` if it is another one."""
         if picture is not self.picture:
             self.picture = picture
             self.pictured.emit()

@@ -72,21 +72,21 @@ class ViewportState(State):
 
     @property
     def view(self) -> View:
-        """The view requested last."""
+        """The camera view that was requested last, such as the front."""
         return self._view
 
     def set_view(self, view: View) -> None:
-        """Choose a view."""
+        """Choose a named camera view, such as the front; the 3D view moves there."""
         self._view = view
         self.viewed.emit()
         self.changed.emit()
 
     def shows(self, what: Shown) -> bool:
-        """Return whether an optional thing is drawn."""
+        """Return whether an optional item (such as names or skeletons) is drawn in the 3D view."""
         return what in self._shown
 
     def show(self, what: Shown, shown: bool) -> None:
-        """Show or hide an optional thing."""
+        """Show or hide an optional item (such as names or skeletons) in the 3D view."""
         after = self._shown | {what} if shown else self._shown - {what}
         if after != self._shown:
             self._shown = after
@@ -98,7 +98,7 @@ class ViewportState(State):
         return self._posing
 
     def set_posing(self, posing: bool) -> None:
-        """Activate or deactivate the pose tool."""
+        """Activate or deactivate the tool that drags poses in the 3D view."""
         if posing != self._posing:
             self._posing = posing
             self.changed.emit()
@@ -112,5 +112,5 @@ class ViewportState(State):
         self.turned.emit()
 
     def frame(self, selected: bool) -> None:
-        """Frame the selected players, or everyone."""
+        """Move the camera so that the selected players, or everyone, fill the picture."""
         self.framed.emit(selected)

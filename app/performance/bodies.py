@@ -123,8 +123,8 @@ def is_strained(character: Character, instrument: InstrumentMap) -> bool:
 
 
 def strained_on(character: Character, person: Person) -> tuple[str, ...]:
-    """Return the ids of the bundled instruments that a person does not play as people do: on which it is strained, or
-    of which the finished body whose hands it has holds none."""
+    """Return the ids of the bundled instruments that a person cannot play in a natural posture: the body would be
+    strained, or no hold of it is known."""
     found = []
     for instrument in bundled_maps().values():
         shares = person.carriages.get(instrument.id)

@@ -31,7 +31,7 @@ class LeftOut(msgspec.Struct, frozen=True):
     reason: Message
 
     def message(self, wording: Wording) -> Message:
-        """Message for the user."""
+        """Return the message for the user that the player is left out, with the reason."""
         return Message("player.left_out", {"player": self.player.name, "reason": wording(self.reason)})
 
 
@@ -118,18 +118,18 @@ def performer_of(performance: Performance, player: Player) -> Performer:
 def performers_of(
     performance: Performance, players: Iterable[Player], stop_requested: StopRequested = lambda: False
 ) -> Attempt[Performer]:
-    """Run `performer_of` for each player."""
+    """Prepare the performer (character, instrument, plan) of each player; the result also lists failures."""
     return attempt(players, lambda player: performer_of(performance, player), stop_requested)
 
 
 def dancings_of(
     performance: Performance, dancers: Iterable[Dancer], stop_requested: StopRequested = lambda: False
 ) -> Attempt[Dancing]:
-    """Run `app.performance.dances.dancing_of` for each dancer."""
+    """Prepare the dance of each dancer; the result also lists failures."""
     return attempt(dancers, lambda dancer: dancing_of(performance, dancer), stop_requested)
 
 
 def require_players(left_out: Sequence[LeftOut], file: str, wording: Wording) -> None:
-    """Raise FileError if all players were excluded."""
+    """Raise FileError if every player was left out, with the reasons; ``file`` is named in the error."""
     reasons = "; ".join(f"{one.player.name}: {wording(one.reason)}" for one in left_out)
     raise FileError("player.all_left_out", file=file, reasons=reasons)

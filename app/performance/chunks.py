@@ -44,7 +44,7 @@ class Pose:
 
     @classmethod
     def of(cls, motion: Motion, frame: int) -> Pose:
-        """One frame of a motion."""
+        """Return one frame of a motion as a pose."""
         return cls(
             rotations=motion.rotations[frame],
             hips_m=motion.hips_m[frame],
@@ -61,7 +61,7 @@ Posed: TypeAlias = Callable[[str, float, Pose], Pose]
 
 @dataclass(frozen=True, eq=False)
 class Chunk:
-    """Consecutive frames of one player's motion; joints that do not move are stored once.
+    """Consecutive frames of one player's computed motion; joints that do not move are stored once.
 
     ``values`` (F, M + C) are morphs, then controls.
     """
@@ -149,7 +149,7 @@ def between(before: SingleArray, after: SingleArray, share: float) -> SingleArra
 
 @dataclass(frozen=True)
 class FrameGrid:
-    """The frames of a performance, divided into chunks."""
+    """The frames of a performance (rate, start, number), divided into chunks of ``length`` frames."""
 
     fps: Fraction
     start_s: float

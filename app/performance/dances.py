@@ -34,19 +34,19 @@ class Dancing(Protocol):
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """Problems of the dance, once generated."""
+        """Problems of the dance; they are found when it is generated."""
 
     def motion(self, fps: Fraction, first: int, count: int) -> Motion:
         """Motion of some frames of the performance; a frame is bit-identical in every span."""
 
     def changed_s(self, before: object) -> FloatArray:
-        """Spans (K, 2) in which the motion differs from that of another dance."""
+        """Return the K spans (K, 2) in seconds in which the motion differs from that of another dance."""
 
     def standing(self, fps: Fraction, first: int, count: int) -> BoolArray:
         """Mask (count, 2) of the frames in which the left and right foot stand."""
 
     def starts_s(self, fps: Fraction) -> tuple[float, ...]:
-        """Seconds at which basic motions begin."""
+        """Seconds at which each basic motion of the dance begins."""
 
 
 class MakerOfDances(Protocol):

@@ -124,7 +124,7 @@ class Performance:
 
     @cached_property
     def piece(self) -> Piece:
-        """Data that all players share."""
+        """Tempo, metres and other data of the piece that all players share."""
         with self._lock:
             return self._whole.of(Piece)
 
@@ -189,7 +189,7 @@ class Performance:
 
     @cached_property
     def time_frame(self) -> TimeFrame:
-        """The time span of every player's motion."""
+        """The time span of the performance from pre-roll to end, the same for all players."""
         first_tick, last_tick = self.span_ticks
         beat_ticks = self.project.metre_map.felt_ticks_at(first_tick)
         frame = frame_around(first_tick, last_tick, self.piece.clock, self.project.preroll_beats, beat_ticks)
@@ -197,7 +197,7 @@ class Performance:
 
     @cached_property
     def places(self) -> dict[str, StagePlace]:
-        """Stage places of the players and of the conductor, if there is one."""
+        """Positions on stage of the players and of the conductor, if there is one, by id."""
         found = {}
         for player in self.project.players:
             stage, eyes_m = player.stage, EYES_M[player.parameters.posture]
@@ -266,7 +266,7 @@ class Performance:
     def _plan_musician(
         self, planning: EnsemblePlanning, played: tuple[Player, ...], stop_requested: StopRequested
     ) -> None:
-        """Plan all players of one musician, and find their problems."""
+        """Plan all instruments of one musician, including the changes between them, and find their problems."""
         made = {player.id: planning.plan(player.id) for player in played if player.id in planning.player_ids}
         turns = (first_played(made), changes(made)) if len(made) > 1 else None
         for player in played:
@@ -325,7 +325,7 @@ class Performance:
         return held.of(with_parts)
 
     def _problems_of(self, player: Player, plan: PlayerPlan) -> tuple[Problem, ...]:
-        """Problems of a player's plan, and missing resources."""
+        """Problems of a player's plan, of missing files of the player, and of notes out of reach."""
         lacking, unreached = self.lacking(player), tuple[Problem, ...]()
         if lacking:
             self.unseen[player.id] = lacking[0]
@@ -342,7 +342,7 @@ class Performance:
 
     @cached_property
     def plans(self) -> dict[str, PlayerPlan]:
-        """Every player's plan by player id."""
+        """The plans of all players by id, made on first use."""
         self.prepare()
         return self._plans
 
@@ -381,7 +381,7 @@ class Performance:
         return player_id in self._plans
 
     def plan(self, player: Player) -> PlayerPlan:
-        """Return the plan of a player."""
+        """Return the plan of a player, made on first use."""
         known = self._plans.get(player.id)
         return self.plans[player.id] if known is None else known
 
@@ -394,7 +394,7 @@ class Performance:
         return instrument
 
     def lacking(self, player: Player) -> tuple[Message, ...]:
-        """Messages about a player's missing or damaged instrument or character."""
+        """Return messages about the instrument or character of a player that is missing or damaged."""
         found = []
         if player.instrument_id not in self.library.maps:
             found.append(self._no_instrument(player))
@@ -412,7 +412,7 @@ class Performance:
 
     @property
     def unheld(self) -> tuple[Player, ...]:
-        """Players whose grips are not computed yet, which takes seconds each."""
+        """Players whose grip of the instrument has not been computed yet, which takes seconds each."""
         found = []
         for player in self.project.players:
             instrument = self.library.maps.get(player.instrument_id)

@@ -52,7 +52,7 @@ class PerformanceExcerpt(Performance):
         """Span whose motion may be shown, seconds."""
 
     def prepare(self, stop_requested: StopRequested = lambda: False, *_: Callable[..., object]) -> None:
-        """Plan all included players. Raises Cancelled."""
+        """Plan the players that the excerpt includes. Raises Cancelled if stopped."""
         for musician in self.project.bodies:
             raise_if_stopped(stop_requested)
             with self._lock:

@@ -94,7 +94,8 @@ def _dynamic(index: int, written: WrittenMarks, read: WrittenMarks) -> FactSourc
 
 
 def _slur(index: int, notes: Sequence[Note], written: WrittenMarks, read: WrittenMarks) -> FactSource:
-    """Source of whether a note is slurred to."""
+    """Return the source of the fact that note ``index`` is slurred to: ``"score"``, ``"sound"`` (the recording),
+    ``"guess"``, or a mark by hand."""
     if not index:
         return "score" if written.is_score else "sound"
     before = index - 1

@@ -65,7 +65,7 @@ class LiveMotion:
 
     @property
     def performance(self) -> Performance:
-        """The performance shown."""
+        """The performance whose motion is shown at present."""
         return self._shown.performance
 
     def show_first(self, performance: Performance, player_ids: Sequence[str]) -> None:
@@ -275,7 +275,8 @@ class LiveMotion:
             track.making.release()
 
     def _make(self, shown: ShownTracks, track: LiveTrack, index: int, *, prove: bool = True) -> bool | None:
-        """Compute a chunk; None if it is not needed or not possible, False if there is no room for it."""
+        """Compute chunk ``index`` of a player's motion. Returns None if it is not needed or not possible, False if
+        there is no room for it."""
         if not track.reaches(shown.grid, index):
             return None
         with self._own_fault(track):
@@ -386,7 +387,7 @@ class LiveMotion:
 
     @contextmanager
     def _own_fault(self, track: LiveTrack) -> Iterator[None]:
-        """Confine a failure to this player."""
+        """Confine an exception within the block to one player, whose motion then stops, instead of all."""
         try:
             yield
         except Exception as fault:

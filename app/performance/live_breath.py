@@ -125,7 +125,7 @@ class LiveBreath:
         return self._struck if self._breath is None else self._breath
 
     def play(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:
-        """Begin a note; ``attacked``: with a tongue stroke."""
+        """Begin a note of a live performance; ``attacked`` is False if it is slurred to."""
         self.advance(now_s)
         self._pitch, self._struck = float(pitch), velocity / 127.0
         self._onset_s, self._sounding = now_s, True
@@ -134,23 +134,23 @@ class LiveBreath:
         self._turn(now_s)
 
     def rest(self, now_s: float) -> None:
-        """End the notes: silence begins."""
+        """End the note played live, so that silence begins."""
         self.advance(now_s)
         self._sounding = False
         self._turn(now_s)
 
     def blow(self, now_s: float, breath: float) -> None:
-        """Set the breath, 0..1."""
+        """Set the breath of the live wind controller, 0..1, at a time."""
         self.advance(now_s)
         self._breath = breath
         self._turn(now_s)
 
     def bite(self, bite: float) -> None:
-        """Set the bite, 0..1."""
+        """Set the strength of the bite on the reed from a live wind controller, 0..1."""
         self._bite = bite
 
     def bend(self, bend: float) -> None:
-        """Set the pitch bend, -1..1."""
+        """Set the pitch bend of the live wind controller, -1..1."""
         self._bend = bend
 
     @property
@@ -158,7 +158,7 @@ class LiveBreath:
         return self._sounding or (self._breath is not None and self._breath > SILENT)
 
     def _turn(self, now_s: float) -> None:
-        """Switch between blowing and pausing."""
+        """Switch the blowing on or off, as breath and notes played live require."""
         if self._blown and self._paused_s < math.inf:
             self._begin(now_s)
         elif not self._blown and self._paused_s == math.inf:
@@ -177,7 +177,7 @@ class LiveBreath:
         self._full = self._full.toward(now_s, 0.0, EXHALE_S)
 
     def advance(self, now_s: float) -> None:
-        """Update the state to a time."""
+        """Update the state of breath and lungs to a time, in seconds."""
         elapsed_s = max(now_s - self._now_s, 0.0)
         if math.isinf(elapsed_s):
             elapsed_s = 0.0
@@ -235,7 +235,7 @@ class LiveBreath:
             spring.follow(strengths[name], elapsed_s)
 
     def at(self, now_s: float) -> BreathFrames:
-        """Body and face at a time."""
+        """Return body and face of the live player at a time in seconds."""
         self.advance(now_s)
         nothing, still = np.zeros(FRAMES), Overlapped.nothing(FRAMES)
 

@@ -38,9 +38,8 @@ _ON_WAY = np.linspace(0.0, 1.0, FRAMES)
 
 @dataclass(frozen=True)
 class Hands:
-    """Hands and fingers at a moment (first frame) and on the way to their goals (other frames); fields as in
-    `app.motion.played_frames.PlayedFrames`.
-    """
+    """Hands and fingers of a live player at a moment (first frame) and on the way to their goals (other frames); fields
+    as in `app.motion.played_frames.PlayedFrames`."""
 
     controls: dict[str, FloatArray]
     placed: dict[str, StationBlend]
@@ -67,7 +66,7 @@ def _due_s(control: Control) -> float:
 
 
 class LiveHands:
-    """The hands of one live player.
+    """The hands and fingers of one player who plays live.
 
     Parameters
     ----------
@@ -124,7 +123,7 @@ class LiveHands:
         self._take(now_s, self._grip_of(pitch, column))
 
     def rest(self, now_s: float) -> None:
-        """End the notes: silence begins."""
+        """End the notes played live, so that the hands come to rest."""
         self.advance(now_s)
         if self._before:
             self._end_last(now_s)
@@ -188,7 +187,7 @@ class LiveHands:
         return grip
 
     def _vents(self, fingering: Fingering) -> dict[str, float]:
-        """Controls of a fingering used only for the attack, at their rest values."""
+        """Return the controls that the fingering uses only for the attack, at their rest values."""
         if "attack" not in fingering.tags:
             return {}
         controls = (self._controls[name] for name in fingering.controls)
@@ -226,7 +225,7 @@ class LiveHands:
         return length_s
 
     def _let_go(self, now_s: float) -> None:
-        """Return controls to rest, unhurried."""
+        """Return the controls (keys, slide) to rest at an unhurried pace, since no note is played any more."""
         self._grip = None
         for name, reach in self._reaches.items():
             control = self._controls[name]

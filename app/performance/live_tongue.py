@@ -40,7 +40,7 @@ class _Stroke:
 
 
 class LiveTongue:
-    """Tongue of one live player.
+    """The tongue of one player who plays live.
 
     Two quick strokes use the tip; in a longer run the back makes every other one. Triple tonguing is not detected,
     since later notes are unknown. An attack louder than those before it gets a push.

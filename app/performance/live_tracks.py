@@ -180,7 +180,7 @@ class ShownTracks:
 
 
 def motion_changed_s(playing: PerformanceCurves | Dancing, basis: PerformanceCurves | Dancing) -> FloatArray:
-    """Spans (K, 2) in seconds in which two motions differ."""
+    """Return the K spans (K, 2) in seconds in which two motions differ."""
     if isinstance(playing, PerformanceCurves) and isinstance(basis, PerformanceCurves):
         return playing.changed_s(basis)
     assert not isinstance(playing, PerformanceCurves)

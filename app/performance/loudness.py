@@ -186,18 +186,18 @@ def _span(part: Part) -> tuple[float, float] | None:
 
 
 def _spans(part: Part) -> tuple[FloatArray, FloatArray]:
-    """Onset and end ticks of the notes."""
+    """Return onset and end (N,) of a part's notes in ticks."""
     onsets = np.array([note.onset_tick for note in part.notes], np.float64)
     return onsets, np.array([note.end_tick for note in part.notes], np.float64)
 
 
 def _moves(steps: ControllerSteps, first: float, last: float) -> bool:
-    """Return whether a controller changes between two ticks."""
+    """Return whether a controller changes its value between the ticks ``first`` and ``last``."""
     start = max(int(np.searchsorted(steps.ticks, first, side="right")) - 1, 0)
     values = steps.values[start : int(np.searchsorted(steps.ticks, last))]
     return len(values) > 0 and bool(np.ptp(values) > 0.0)
 
 
 def _means(part: Part, steps: ControllerSteps) -> FloatArray:
-    """Mean value over each note."""
+    """Return the mean value (N,) of a MIDI controller during each note of a part."""
     return step_means(steps.ticks, steps.values, *_spans(part))

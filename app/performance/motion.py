@@ -87,7 +87,7 @@ def _alone(
 
 @lru_cache(maxsize=64)
 def _same(felt_beats: FeltBeats) -> FeltBeats:
-    """Return one shared object for equal values."""
+    """Return one shared object for equal lists of felt beats, so that caches keyed by identity hit."""
     return felt_beats
 
 
@@ -122,9 +122,8 @@ def player_motion(
 
 
 def generated_channel(performance: Performance, player_id: str, channel: str) -> tuple[FloatArray, FloatArray]:
-    """Times and values of a channel, in its unit, without additive curves. Raises AppError if the player cannot be
-    shown.
-    """
+    """Times (N,) and generated values (N,) of an animation channel, in its unit, without the user's additive curves.
+    Raises AppError if the player cannot be shown."""
     performer = performer_of(performance, performance.project.player(player_id))
     curves = performance_curves(performance, performer, danced=False)
     frame = curves.plan.time_frame

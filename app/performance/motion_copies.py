@@ -70,7 +70,7 @@ _Array = tuple[str, list[int], bytes]
 
 
 class _Sent(msgspec.Struct, frozen=True):
-    """A `Motion` in the form sent by a copy of the process."""
+    """A `Motion` as sent between the processes that compute motion: arrays as bytes."""
 
     fps: tuple[int, int]
     first_frame_s: float

@@ -78,7 +78,7 @@ def all_problems(performance: Performance, players: Iterable[Player], without_li
 def _judged(
     performance: Performance, performers: Sequence[Performer], looked: _Looked
 ) -> dict[str, tuple[Problem, ...]]:
-    """Problems of a musician's players, who share the computed motion."""
+    """Check the motion of all instruments that one musician plays, computed once; returns the problems by player id."""
     fps, every = looked
     everyone = [performance_curves(performance, one) for one in performers]
     judges = [ContactJudge(curves, one.character, one.model) for curves, one in zip(everyone, performers, strict=True)]

@@ -94,7 +94,8 @@ class PlayAlong:
         return self._hands.fingering
 
     def note_on(self, time_s: float, pitch: int, velocity: int = 80) -> None:
-        """Begin a note; of several held notes the last one sounds."""
+        """Begin a note played live at ``time_s``; of several held notes the last one sounds. ``pitch`` and ``velocity``
+        as in MIDI."""
         now_s, velocity = self._time(time_s), min(max(velocity, 1), 127)
         attacked = not self._held and now_s - self._ended_s > LEGATO_S
         self._held.pop(pitch, None)
@@ -127,16 +128,16 @@ class PlayAlong:
         self._breath.blow(now_s, 0.0)
 
     def breath(self, time_s: float, value: float) -> None:
-        """Set the breath, 0..1."""
+        """Set the strength of the breath from a live wind controller, 0..1, from ``time_s`` on."""
         self._breath.blow(self._time(time_s), min(max(value, 0.0), 1.0))
 
     def bite(self, time_s: float, value: float) -> None:
-        """Set the bite, 0..1."""
+        """Set the strength of the bite on the reed from a live wind controller, 0..1, from ``time_s`` on."""
         self._time(time_s)
         self._breath.bite(min(max(value, 0.0), 1.0))
 
     def bend(self, time_s: float, value: float) -> None:
-        """Set the pitch bend in whole tones."""
+        """Set the pitch bend of the live wind controller in whole tones from ``time_s`` on."""
         self._time(time_s)
         self._breath.bend(value)
 

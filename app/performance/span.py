@@ -1,4 +1,4 @@
-"""Spans of frames of a performance."""
+"""Spans of a performance in frames, such as the bars that an export writes."""
 
 from __future__ import annotations
 
@@ -19,9 +19,8 @@ _WHOLE = 1e-6
 
 
 class FrameSpan(msgspec.Struct, frozen=True):
-    """Frames ``first`` .. ``first + count - 1`` of the whole performance, whose frame 0 is the start of its time
-    frame.
-    """
+    """A span of frames, ``first`` .. ``first + count - 1`` of the whole performance, whose frame 0 is the start of its
+    time frame."""
 
     fps: Fraction
     first: int
@@ -40,7 +39,7 @@ class FrameSpan(msgspec.Struct, frozen=True):
 
 
 def whole_span(frame: TimeFrame, fps: Fraction) -> FrameSpan:
-    """All frames of a performance."""
+    """Return the span of all frames of a performance at a frame rate."""
     return cut_span(frame, fps, frame.first_frame_s, frame.end_s)
 
 

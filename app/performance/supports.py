@@ -39,7 +39,7 @@ _MADE: IdentityCache[Supports | None] = IdentityCache(128)
 
 @dataclass(frozen=True, eq=False)
 class HeldInstrument:
-    """An instrument as a musician plays it; without a grip as long as no one has found one."""
+    """An instrument as a musician plays it; the grip is None until it has been computed."""
 
     player: Player
     instrument: InstrumentMap
@@ -102,12 +102,13 @@ def still_pose(player: PlayerBody, lowered: float = 0.0) -> Motion:
 
 
 def worn(instrument: InstrumentMap, posture: PostureName) -> tuple[Support, ...]:
-    """The straps that an instrument hangs on in a posture."""
+    """Return the straps on which an instrument hangs in a posture."""
     return tuple(one for one in instrument.hold.supports if posture in one.postures)
 
 
 def still_joints(character: Character, instrument: InstrumentMap, body: Body, posture: PostureName) -> FloatArray:
-    """``world_from_joint`` (J, 3, 4) of who keeps still, arms as in the T-pose, in the player's frame."""
+    """Return ``world_from_joint`` (J, 3, 4) of all J joints of a player who keeps still, arms as in the T-pose, in the
+    player's frame."""
     skeleton, hold = character.skeleton, instrument.hold
     shape = carrying(body, hold.possible(posture), hold.carriage(posture))
     place, still = stance(skeleton, shape), BodyMotion.still(shape)
@@ -122,7 +123,8 @@ def still_joints(character: Character, instrument: InstrumentMap, body: Body, po
 
 
 def joints_of(character: Character, motion: Motion) -> FloatArray:
-    """``world_from_joint`` (F, J, 3, 4) of a motion, in the player's frame."""
+    """Return the transforms ``world_from_joint`` (F, J, 3, 4) of J joints in the F frames of a motion, in the player's
+    frame."""
     turns = quaternion.normalize(motion.rotations)
     return forward(character.skeleton, turns, motion.hips_m.astype(np.float64)).matrices()
 

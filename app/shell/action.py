@@ -1,4 +1,4 @@
-"""Rows of the action table."""
+"""A row of the table of actions: id, text, shortcut, menu and function."""
 
 from __future__ import annotations
 

@@ -214,7 +214,7 @@ class ActionTable(QObject):
     # Shortcuts
 
     def keys(self, action_id: str) -> str:
-        """Shortcuts of an action as text."""
+        """Return the shortcuts of an action as text: the user's, else the default ones."""
         own = self.settings.shortcut(action_id)
         return self.rows[action_id].shortcut if own is None else own
 
@@ -228,7 +228,7 @@ class ActionTable(QObject):
         self.shortcuts_changed.emit()
 
     def conflicts(self, action_id: str, keys: str) -> tuple[str, ...]:
-        """Ids of actions in the same scope that use one of these shortcuts."""
+        """Ids of other actions in the same scope that use one of the shortcuts ``keys``."""
         requested = written(keys)
         context = self.rows[action_id].context
         return tuple(

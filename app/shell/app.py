@@ -175,7 +175,7 @@ class Program(QObject):
         apply_theme(self._application, self.session.tokens)
 
     def end(self) -> None:
-        """Stop all background work."""
+        """Stop all background work (video, recorder, threads) before the program ends."""
         self.editor.video.close()
         self.recorder.close()
         self.editor.streamer.close()

@@ -26,7 +26,7 @@ Texts = Callable[[], tuple[str, tuple[str, ...]]]
 
 
 class Banner(Retranslated, QFrame):
-    """Shows one question at a time."""
+    """Bar above the panels that asks one question at a time."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -65,7 +65,7 @@ class Banner(Retranslated, QFrame):
         answer()
 
     def retranslate(self) -> None:
-        """Update texts and colours."""
+        """Set texts and colours again after a change of language or theme."""
         tokens = self._session.tokens
         self.setStyleSheet(f"#banner {{ background: {tokens.raised}; border-bottom: 1px solid {tokens.warning}; }}")
         self._mark.setPixmap(pixmap("warning", 18, tokens.warning, self.devicePixelRatioF()))

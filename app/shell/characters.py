@@ -56,7 +56,7 @@ def show_characters(editor: Editor) -> None:
 
 
 def ask_for_character(editor: Editor) -> None:
-    """Ask for a character's file, and read it."""
+    """Ask for the file of a character, and add it to the user's characters."""
     name = tr("files.characters")
     kinds = f"{name} ({' '.join(f'*{suffix}' for suffix in SUFFIXES)})"
     path = editor.questions.open_file(tr("files.add_character"), editor.files.folder, kinds)
@@ -193,7 +193,7 @@ def _keep(editor: Editor, path: Path, draft: CharacterDraft, give: bool) -> None
 
 
 def _change(editor: Editor, id: str, entry: CharacterEntry, draft: CharacterDraft) -> None:
-    """Store changed settings of a character."""
+    """Store the changed title, joints, morphs, height and hidden meshes of the user's character ``id``."""
     morphs = {face: dict(parts) for face, parts in draft.morphs.items()}
     title = shortened(" ".join(draft.title.split()), MOST_TITLE)
     now = msgspec.structs.replace(

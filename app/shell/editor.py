@@ -70,5 +70,5 @@ class EditorAction(ActionRow[Editor]):
 
 
 def is_open(editor: Editor) -> bool:
-    """Return whether a project is open."""
+    """Return whether a project is open in the editor."""
     return editor.files.is_open

@@ -63,5 +63,5 @@ class FocusMark(QWidget):
         return False
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Fill the line."""
+        """Paint the line in the accent colour that marks the panel with the keyboard focus."""
         QPainter(self).fillRect(self.rect(), QColor(self._session.tokens.accent))

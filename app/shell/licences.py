@@ -44,7 +44,7 @@ class ThirdPartyWork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Package(msgspec.Struct, frozen=True):
-    """An installed package; its licence is empty if unknown."""
+    """A Python package of the installation, for the list of licences; its licence is empty if unknown."""
 
     name: str
     version: str
@@ -54,7 +54,7 @@ class Package(msgspec.Struct, frozen=True):
 
 
 class _Fact(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Information that is missing in a package's metadata."""
+    """Licence information stored by us because a package's metadata lacks it."""
 
     licence: str = ""
     source: str = ""
@@ -73,7 +73,7 @@ def _facts() -> _Facts:
 
 
 def data() -> tuple[ThirdPartyWork, ...]:
-    """Return the third parties' works among the program's own files."""
+    """Return the works of third parties among the program's own files, for the list of licences."""
     return _facts().data
 
 

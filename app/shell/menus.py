@@ -59,7 +59,7 @@ class Menu(Retranslated, QMenu):
 
 
 class Menus:
-    """The menus of a menu bar."""
+    """The menus of the menu bar, filled from the table of actions."""
 
     def __init__(self, bar: QMenuBar, table: ActionTable) -> None:
         self._bar = bar

@@ -39,7 +39,7 @@ class NoticeList(QFrame):
         self._text = ""
 
     def open_over(self, anchor: QWidget, log: tuple[tuple[Message, Severity], ...]) -> None:
-        """Show the newest messages above a widget."""
+        """Show the newest messages of the log in a popup above a widget."""
         while (item := self._rows.takeAt(0)) is not None:
             widget = item.widget()
             if widget is not None:

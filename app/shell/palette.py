@@ -163,7 +163,7 @@ class _Row(QStyledItemDelegate):
     def paint(
         self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
     ) -> None:
-        """Draw one row."""
+        """Draw one command of the palette: title, menu and shortcut, dimmed if it is not available."""
         tokens = self._session.tokens
         style: Any = option
         chosen = bool(style.state & QStyle.StateFlag.State_Selected)
@@ -194,5 +194,5 @@ class _Row(QStyledItemDelegate):
         painter.restore()
 
     def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
-        """Return the same size for every row."""
+        """Return the size of a row, the same for all."""
         return QSize(WIDTH_PX - 20, ROW_PX)

@@ -26,11 +26,12 @@ class DialogQuestions:
     """Implementation of `app.editor.questions.Questions` with dialogs."""
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
-        """See `Questions.open_file`."""
+        """Ask for an existing file, starting in ``folder``; None if cancelled."""
         return ask_for_file(_parent(), title, Path(folder), filters)
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
-        """See `Questions.save_file`."""
+        """Ask for a file to write, and before overwriting one; returns the path with one of the suffixes, None if
+        cancelled."""
         while True:
             chosen = ask_where_to_save(_parent(), title, Path(proposal), filters)
             if chosen is None:
@@ -42,7 +43,7 @@ class DialogQuestions:
             proposal = str(path)
 
     def unsaved(self, name: str) -> Answer:
-        """See `Questions.unsaved`."""
+        """Ask whether to save the changes of the project ``name``; returns the answer."""
         role = ask(
             _parent(),
             "unsaved",
@@ -55,7 +56,7 @@ class DialogQuestions:
         return "save" if role == Role.AcceptRole else "discard" if role == Role.DestructiveRole else "cancel"
 
     def stop_writing(self, works: tuple[Message, ...]) -> bool:
-        """See `Questions.stop_writing`."""
+        """Ask whether to stop the listed works, which still write files; returns True if confirmed."""
         role = ask(
             _parent(),
             "stop_writing",
@@ -72,7 +73,7 @@ class DialogQuestions:
     def import_midi(
         self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
     ) -> ImportRequest | None:
-        """See `Questions.import_midi`."""
+        """Show the import dialog for the tracks of a MIDI file; returns the decisions, None if cancelled."""
         from widgets.dialogs.import_midi import ImportDialog
 
         dialog = ImportDialog(contents, all_maps(), tokens, tasks, _parent(), read_again)
@@ -82,7 +83,7 @@ class DialogQuestions:
             dialog.deleteLater()
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
-        """See `Questions.remove_character`."""
+        """Ask whether to remove a character that the named players use; returns True if confirmed."""
         role = ask(
             _parent(),
             "remove_character",

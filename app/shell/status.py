@@ -159,7 +159,7 @@ class StatusLine(Retranslated, QStatusBar):
     # Notices
 
     def report(self, message: Message, severity: Severity) -> None:
-        """Show a message for a while."""
+        """Show a message in the status line for a while, and add it to the log."""
         # A drag to where nothing can go says so with every move of the mouse.
         if not self._log or self._log[-1] != (message, severity):
             self._log.append((message, severity))

@@ -241,7 +241,7 @@ class Window(Retranslated, QMainWindow):
         self._report_title()
 
     def show_panel(self, name: str, shown: bool) -> None:
-        """Show or hide a panel."""
+        """Show or hide the dock panel with a name; a shown one is raised and receives the keyboard."""
         dock = self.docks[name]
         dock.setVisible(shown)
         if shown:
@@ -277,7 +277,7 @@ class Window(Retranslated, QMainWindow):
     # What commands ask
 
     def show_palette(self) -> None:
-        """Open the command palette."""
+        """Open the command palette at the top right of the window."""
         self.palette_popup.open_at(self.mapToGlobal(QPoint(self.width() - 8, self.menuBar().height() + 2)))
 
     def show_help(self, about: QWidget) -> None:
@@ -340,7 +340,7 @@ class Window(Retranslated, QMainWindow):
     # Qt
 
     def keyPressEvent(self, event: QEvent) -> None:
-        """Leave full screen on Escape."""
+        """Leave full screen when Escape is pressed."""
         if event.key() == Qt.Key.Key_Escape and self.is_full_screen:  # type: ignore[attr-defined]
             self.set_full_screen(False)
             return
@@ -358,7 +358,7 @@ class Window(Retranslated, QMainWindow):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:
-        """Open the dropped file."""
+        """Open the file that was dropped on the window."""
         path = dropped_file(event)
         if path is not None:
             event.acceptProposedAction()

@@ -218,7 +218,7 @@ class Workspaces(QObject):
             dock.hide()
 
     def keep(self) -> None:
-        """Store the current layout."""
+        """Store the layout of the window's panels as the current workspace's."""
         if self._shown:
             layout = base64.b64encode(self._window.saveState(LAYOUT_VERSION).data()).decode()
             states = {name: panel.save_state() for name, panel in self._panels.items()}

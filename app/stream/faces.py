@@ -45,7 +45,8 @@ class FaceLayout:
     shares: FloatArray | None = None
 
     def values(self, weights: Mapping[str, float]) -> FloatArray:
-        """Return the values 0..1 to send, in the order of the names."""
+        """Return the values (N,), 0..1, of the N names that a receiver expects, from weights of ARKit shapes by
+        name."""
         own = np.array([weights.get(morph, 0.0) for morph in self.morphs])
         values: FloatArray = np.clip(own if self.shares is None else self.shares @ own, 0.0, 1.0)
         return values

@@ -28,7 +28,7 @@ _WORD: Final = 4
 
 @dataclass(frozen=True)
 class Head:
-    """A message without its floats.
+    """An OSC message without its floats: the address and the arguments that are equal in every frame.
 
     Attributes
     ----------

@@ -41,7 +41,7 @@ class Address:
     at: SocketAddress
 
     def port(self, port: int) -> Address:
-        """Return the address with another port."""
+        """Return the same host address with another port."""
         return Address(self.host, self.family, (self.at[0], port, *self.at[2:]))
 
 
@@ -154,7 +154,7 @@ class Sender:
         return outcome
 
     def close(self) -> None:
-        """Close the connection."""
+        """Close the socket to the receiving program."""
         self._socket.close()
 
     def _not_sent(self, error: OSError) -> StreamError:

@@ -106,7 +106,8 @@ class Sent:
         return self._packets.filled(np.concatenate([*values, self._face.values(pose.morphs)]))
 
     def _local(self, pose: Pose) -> tuple[AnyFloatArray, AnyFloatArray]:
-        """Return positions and rotations of the bones, each relative to the nearest sent bone above it."""
+        """Return positions (B, 3) and rotations (B, 4) of the sent bones, each relative to the nearest sent bone above
+        it."""
         rotations = quaternion.normalize(pose.rotations[self._joints])
         positions_m = self._offsets_m.copy()
         positions_m[self._hips_place] = pose.hips_m
@@ -121,7 +122,8 @@ class Sent:
 
 
 def _transforms(positions_m: AnyFloatArray, rotations: AnyFloatArray) -> AnyFloatArray:
-    """Return positions and rotations in Unity's coordinate system, alternating."""
+    """Return positions (B, 3) and rotations (B, 4) in Unity's coordinate system as one row of numbers, seven for each
+    bone."""
     return np.concatenate([unity_positions(positions_m), unity_rotations(rotations)], axis=1).ravel()
 
 

@@ -32,7 +32,7 @@ MOST_DANCERS: Final = 32
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of ``suisou choreography``."""
     actions = add_actions(command, required=True)
     _add_learn(actions)
     _add_generate(actions)
@@ -43,7 +43,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 @dataclass(frozen=True)
 class PairFiles:
-    """Files of a pair of motion and music as typed."""
+    """Paths of a pair of motion and music, with the options typed for it."""
 
     motion: Path
     music: Path
@@ -171,7 +171,8 @@ def learn(arguments: argparse.Namespace) -> int:
 
 
 def _read_pairs(files: Sequence[PairFiles], progress: Progress) -> tuple[list[ReadPair], list[tuple[str, AppError]]]:
-    """Return the pairs that could be read, and the names of the other motions with the reasons."""
+    """Read pairs of motion and music. Returns those that could be read, and the name of each other motion with its
+    error."""
     from app.choreography.learn import require_usable
     from app.choreography.read_pair import read_pair
 
@@ -333,7 +334,7 @@ def _source(model: ChoreographyModel, name: str | None) -> int | None:
 
 
 def _dancers_files(target: Path, dancers: int) -> list[Path]:
-    """Return the output file of each dancer."""
+    """Return the output file of each dancer: the target itself for one, numbered files for several."""
     if target.suffix.lower() != ".bvh":
         target = Path(f"{target}.bvh")
     if dancers == 1:

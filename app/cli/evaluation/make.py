@@ -67,7 +67,7 @@ def variants(typed: str) -> tuple[Variant, ...]:
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of the command that makes an evaluation."""
     add_source_options(command)
     command.add_argument("--to", type=Path, required=True, metavar="DIR")
     _add_variants_options(command)

@@ -11,7 +11,7 @@ from app.cli.terminal import say
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of the command that measures variants of an evaluation."""
     add_file_options(command)
     command.set_defaults(run=measures, settings=[])
 

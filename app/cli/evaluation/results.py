@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Declare the options of the command that evaluates viewers' answers."""
     command.add_argument("files", type=Path, nargs="+", metavar="FILE.csv")
     command.add_argument("--key", type=Path, metavar="KEY.json")
     command.add_argument("--to", type=Path, metavar="DIR")

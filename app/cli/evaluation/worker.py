@@ -12,7 +12,7 @@ from app.messages import text
 
 
 def main() -> None:
-    """Make the requested evaluation."""
+    """Make the evaluation that the parent process requests; entry point of the worker process."""
     channel: MessageChannel[EvaluationJob] = channel_to_parent(EvaluationJob, "evaluation")
     job = channel.receive()
     stopped = threading.Event()

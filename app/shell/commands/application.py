@@ -14,7 +14,7 @@ from app.shell.workspaces import WORKSPACES
 
 
 def preferences(editor: Editor, page: str = "general") -> None:
-    """Show a page of the preferences."""
+    """Open the preferences dialog on a page."""
     from app.shell.preferences import show_preferences
 
     show_preferences(editor, page)

@@ -15,7 +15,7 @@ def add(editor: Editor) -> None:
 
 
 def bring(editor: Editor, path: Path) -> None:
-    """Add the character of a file."""
+    """Add the character in a file to the user's characters."""
     from app.shell.characters import bring_character
 
     bring_character(editor, path)

@@ -65,12 +65,12 @@ def has_something(session: Session) -> bool:
 
 
 def has_player(session: Session) -> bool:
-    """Return whether a player is active."""
+    """Return whether a player is active, so that commands about players apply."""
     return session.player is not None
 
 
 def has_everyone(session: Session) -> bool:
-    """Return whether the piece has players."""
+    """Return whether the piece has any players."""
     return bool(session.project.players)
 
 

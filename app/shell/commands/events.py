@@ -52,9 +52,8 @@ def _playhead_tick(session: Session) -> int:
 
 
 def _places(session: Session) -> list[tuple[PlayerPlan, int]]:
-    """Return the places for an added event: the first selected note of each player, else the playhead for the active
-    player.
-    """
+    """Return player plan and tick at which a command adds an event: the first selected note of each player, else the
+    playhead for the active player."""
     found = [(player.id, notes[0].onset_tick) for player, notes in notes_by_player(session).items()]
     if not found and session.player is not None:
         found = [(session.player.id, _playhead_tick(session))]
@@ -62,9 +61,8 @@ def _places(session: Session) -> list[tuple[PlayerPlan, int]]:
 
 
 def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
-    """Return the ranges for an added event: the selected notes of each player, the selected range, or a few beats from
-    the playhead on.
-    """
+    """Return player plan, first and last tick over which a command adds an event: the selected notes of each player,
+    the selected range, or a few beats from the playhead on."""
     found = [
         (player.id, notes[0].onset_tick, max(note.end_tick for note in notes))
         for player, notes in notes_by_player(session).items()

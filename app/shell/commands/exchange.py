@@ -138,7 +138,7 @@ def export_midi(editor: Editor) -> None:
 
 
 def export_files(editor: Editor) -> None:
-    """Open the export dialog."""
+    """Open the dialog for exporting animation files, and start the export when it is confirmed."""
     folder = editor.settings.export_folder or str(Path(editor.files.folder) / "export")
     from widgets.dialogs.export_files import ExportDialog  # it brings all formats with it
 
@@ -202,7 +202,7 @@ def _can_export(editor: Editor) -> bool:
 
 
 def toggle_stream(session: Session, on: bool = True) -> None:
-    """Start or stop the live stream of poses."""
+    """Switch the live stream of poses to other programs on or off."""
     session.streaming.set(on=not session.streaming.on)
 
 

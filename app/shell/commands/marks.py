@@ -32,7 +32,7 @@ notes).
 
 
 def toggle(session: Session, kind: str, text: str = "") -> None:
-    """Write a mark over the selected notes of each player, or remove it if all have it."""
+    """Write a musical mark over the selected notes of each player, or remove it if all have it."""
     toggle_mark(session, {player.id: notes for player, notes in notes_by_player(session).items()}, kind, text)
 
 

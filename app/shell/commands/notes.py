@@ -41,7 +41,7 @@ def _notes_of(session: Session, player_ids: tuple[str, ...]) -> frozenset[str]:
 
 
 def select_none(session: Session) -> None:
-    """Deselect everything."""
+    """Clear the selection of notes, events and marks."""
     session.select(Selection())
 
 

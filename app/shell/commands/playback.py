@@ -180,7 +180,7 @@ def _onsets_s(session: Session) -> set[float]:
 
 
 def _selected_s(session: Session) -> tuple[float, float] | None:
-    """Return the start and end of the selection in seconds."""
+    """Return start and end of the selection in seconds; None if nothing is selected."""
     ticks, tempo_map = selected_ticks(session), session.project.score.tempo_map
     return (tempo_map.seconds(float(ticks[0])), tempo_map.seconds(float(ticks[1]))) if ticks is not None else None
 

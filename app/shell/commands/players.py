@@ -57,7 +57,7 @@ def separate(session: Session) -> None:
 
 
 def clear_mute_and_solo(session: Session) -> None:
-    """End every mute and solo."""
+    """Clear mute and solo of all players, as one undoable step."""
     everyone = [player.id for player in session.project.players]
     session.attempt(
         edit_of_players(session.project, "edit.unmute", everyone),
@@ -87,7 +87,7 @@ def toggle_posture(session: Session) -> None:
 
 
 def arrange(session: Session) -> None:
-    """Place all players on the automatic arc."""
+    """Place all players automatically on arcs around the conductor."""
     session.attempt(Message("edit.arrange_players"), edit.arrange)
 
 

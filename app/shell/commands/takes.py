@@ -27,7 +27,7 @@ def _takes(session: Session) -> tuple[Take, ...]:
 
 
 def _chosen(session: Session) -> tuple[Player, Take] | None:
-    """Return the selected take and its player."""
+    """Return the take selected in the editor with its player; None if there is none."""
     player, take_id = session.player, session.selection.take
     found = [take for take in _takes(session) if take.id == take_id]
     return (player, found[0]) if player is not None and found else None

@@ -11,7 +11,7 @@ from app.shell.editor import Editor, EditorAction
 
 
 def remove_video(session: Session) -> None:
-    """Remove the video from the project."""
+    """Remove the reference video from the project, as one undoable step."""
     session.attempt(Message("edit.remove_video"), lambda project: set_video(project, None))
 
 

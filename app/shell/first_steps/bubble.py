@@ -120,7 +120,7 @@ class Bubble(Retranslated, QFrame):
         self.adjustSize()
 
     def apply_theme(self) -> None:
-        """Apply the theme's colours."""
+        """Colour the bubble by the theme."""
         tokens = self._session.tokens
         self.setStyleSheet(
             f"#first_steps {{ background: {tokens.raised}; border: 1px solid {tokens.accent}; border-radius: 7px; }}"

@@ -118,7 +118,7 @@ TARGETS: Final[Mapping[str, TourTarget]] = {
 
 
 class FirstSteps(QObject):
-    """The tour of one editor.
+    """The introductory tour, which points at parts of the editor's window one after the other.
 
     Parameters
     ----------
@@ -273,7 +273,7 @@ class FirstSteps(QObject):
     # Qt overrides
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Move the bubble when the window moves."""
+        """Move the bubble of the tour when the window changes its size."""
         if event.type() == QEvent.Type.Resize:
             self._place()
         return False

@@ -104,7 +104,7 @@ def anchor_of(heading: str) -> str:
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of all guides, as the contents list them."""
+    """Return the names of all guides in the order of the table of contents."""
     found = {path.stem for path in FOLDER.glob("*.md")}
     found -= {name for name in found if "_" in name and name.rpartition("_")[0] in found}
     return (*(name for name in ORDER if name in found), *sorted(found - set(ORDER)))
@@ -129,7 +129,7 @@ def guide(name: str, language: str) -> Guide:
 
 
 def sections(markdown: str) -> tuple[GuideSection, ...]:
-    """Return the headings of a Markdown text with the text below each."""
+    """Divide a Markdown text into its headings with the text below each."""
     document = QTextDocument()
     document.setMarkdown(markdown, QTextDocument.MarkdownFeature(FEATURES))
     found: list[GuideSection] = []

@@ -1,4 +1,4 @@
-"""The text view of a guide."""
+"""Text view in which a guide of the help is read."""
 
 from __future__ import annotations
 
@@ -68,11 +68,11 @@ class GuidePage(QTextBrowser):
 
     @property
     def guide(self) -> Guide | None:
-        """The guide on display."""
+        """The guide that is displayed; None before the first one."""
         return self._guide
 
     def show_guide(self, guide: Guide) -> None:
-        """Show a guide from its beginning."""
+        """Display a guide from its beginning."""
         self._guide = guide
         self._pictures = {}
         self.setExtraSelections([])
@@ -101,7 +101,7 @@ class GuidePage(QTextBrowser):
         return begun[-1] if begun else 0
 
     def mark(self, words: str) -> None:
-        """Highlight the matches of a search."""
+        """Highlight all places in the guide that match the words of a search."""
         tokens, marked = self._session.tokens, []
         shade = QTextCharFormat()
         ground = QColor(tokens.accent)
@@ -124,7 +124,7 @@ class GuidePage(QTextBrowser):
         self._keep_place(self._apply_size)
 
     def apply_theme(self) -> None:
-        """Apply the theme's colours."""
+        """Colour the guide by the theme, keeping the scroll position."""
         if self._guide is not None:
             self._keep_place(self._dress)
 

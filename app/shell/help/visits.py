@@ -25,7 +25,7 @@ class Visits:
 
     @property
     def here(self) -> Place | None:
-        """The section on display."""
+        """The guide's section that is displayed; None before the first one."""
         return self.places[self.at] if self.places else None
 
     @property
