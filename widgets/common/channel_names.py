@@ -50,7 +50,7 @@ def channel_name(channel: str) -> str:
 
 
 def body_groups() -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield the names of body parts, each with its channels."""
+    """Yield the translated name of each body part with its animation channels."""
     for part, channels in groupby(BODY_CHANNELS, key=lambda channel: channel.partition(".")[0]):
         yield part_name(part), tuple(channels)
 

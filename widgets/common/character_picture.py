@@ -133,7 +133,7 @@ def picture(
 
 
 def _colours(mesh: Mesh) -> FloatArray:
-    """Colours (T, 3) of triangles, of textures in their middle."""
+    """Return the colours (T, 3) of T triangles, those of textures taken in the triangle's middle."""
     base = np.array([material.base_color[:3] for material in mesh.materials], np.float64)
     result: FloatArray = base[mesh.triangle_materials]
     for number, material in enumerate(mesh.materials):
@@ -146,7 +146,7 @@ def _colours(mesh: Mesh) -> FloatArray:
 
 
 def _frame(shown: Seen, positions: FloatArray, crop: Crop) -> tuple[float, float, float]:
-    """Return the lowest and highest point and half the width to draw."""
+    """Return the lowest and the highest y, and half the width, of the part of the figure to draw."""
     if crop == "body":
         return float(positions[:, 1].min()), float(positions[:, 1].max()), float(np.abs(positions[:, 0]).max())
     joint, crown = shown.head_m
@@ -166,13 +166,13 @@ def _unit(vectors: FloatArray) -> FloatArray:
 
 
 def _across(triangles: IndexArray, positions: FloatArray) -> FloatArray:
-    """Normals (T, 3) of triangles, as long as twice their areas."""
+    """Return the normals (T, 3) of T triangles, as long as twice their areas."""
     corners = positions[triangles]
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
 
 def _facing(triangles: IndexArray, positions: FloatArray) -> FloatArray:
-    """Return unit normals (V, 3) of the vertices from the triangles around them."""
+    """Return the unit normals (V, 3) of V vertices from the triangles around them."""
     across = _across(triangles, positions)
     return _unit(
         np.stack(
@@ -186,7 +186,8 @@ def _facing(triangles: IndexArray, positions: FloatArray) -> FloatArray:
 
 
 def _in_front(points: FloatArray, triangles: IndexArray, width: int, height: int) -> IntArray:
-    """Return the index of the visible triangle in each pixel, -1 for none.
+    """Return for each pixel (height, width) the index of the visible triangle, -1 for none; ``points`` are x, y in
+    pixels and depth.
 
     Each triangle is drawn as closely spaced points, nearer ones over farther ones.
     """
@@ -217,7 +218,8 @@ def _in_front(points: FloatArray, triangles: IndexArray, width: int, height: int
 def _painted(
     front: IntArray, points: FloatArray, positions: FloatArray, normals: FloatArray, shown: Seen, size: tuple[int, int]
 ) -> npt.NDArray[np.uint8]:
-    """Return colours (pixels, 4) with smooth shading from the vertex normals."""
+    """Return colours (pixels, 4), RGBA, with smooth shading from the vertex normals; ``front`` is the visible triangle
+    in each pixel."""
     width, height = size
     hit = np.flatnonzero(front >= 0)
     owners = front[hit]
@@ -235,7 +237,7 @@ def _painted(
 
 
 def _shares(corners: FloatArray, pixels: IndexArray, width: int) -> FloatArray:
-    """Return the barycentric coordinates (P, 3) of pixel centres in their triangles (P, 3, 2)."""
+    """Return the barycentric coordinates (P, 3) of the centres of P pixels in their triangles (P, 3, 2)."""
     middle = np.stack([pixels % width, pixels // width], axis=1) + 0.5
     one, two, at = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], middle - corners[:, 0]
     area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]

@@ -42,7 +42,7 @@ class Chip(QAbstractButton):
         return self._outlined
 
     def show_state(self, checked: bool, by_hand: bool, outlined: bool) -> None:
-        """Set whether it is chosen, whether the user chose it, and whether the generator chose it."""
+        """Display whether the choice is made, whether by the user, and whether the generator made it."""
         self.setChecked(checked)
         if (by_hand, outlined) != (self._by_hand, self._outlined):
             self._by_hand, self._outlined = by_hand, outlined
@@ -50,7 +50,7 @@ class Chip(QAbstractButton):
             self.update()
 
     def show_text(self, text: str, note: str) -> None:
-        """Show another text and note."""
+        """Replace the chip's text and its note."""
         if (text, note) != (self.text(), self._note):
             self._note = note
             self.setText(text)

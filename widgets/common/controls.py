@@ -155,7 +155,7 @@ class Retranslated(_Mixin):
         """Update all texts that are not bound by `texted`."""
 
     def word(self) -> None:
-        """Set all texts."""
+        """Set all texts of the widget again, in the present language."""
         for widget, what, wording in self._bound:
             _set(self if widget is None else widget, what, wording)
         self.retranslate()
@@ -281,7 +281,7 @@ class IconButton(Retranslated, QToolButton):
         self.texted(self, tip=tip_id, name=tip_id)
 
     def show_picture(self, picture: str) -> None:
-        """Show another picture."""
+        """Replace the icon of the button by the one with the name ``picture``."""
         self._picture = picture
         self._draw()
 

@@ -115,12 +115,12 @@ class FingeringDiagram(QWidget):
         session.theme_changed.connect(self.update)
 
     def set_editable(self, editable: bool) -> None:
-        """Set whether keys can be clicked."""
+        """Set whether a click on a key in the diagram changes the fingering."""
         self._editable = editable
 
     @property
     def values(self) -> Mapping[str, float]:
-        """The value of every control shown."""
+        """Value of every displayed control (key, valve, slide) by name."""
         return self._values
 
     def show_fingering(self, instrument: InstrumentMap, controls: Mapping[str, float]) -> None:
@@ -138,7 +138,7 @@ class FingeringDiagram(QWidget):
         self.update()
 
     def spoken(self) -> str:
-        """The fingering in words."""
+        """Return the displayed fingering in words, for screen readers."""
         if self._instrument is None:
             return ""
         if self._is_chart:
@@ -191,7 +191,7 @@ class FingeringDiagram(QWidget):
 
     @property
     def chart_place(self) -> ChartPlace:
-        """The chart's place in the picture."""
+        """Place and size of the key chart in the diagram's pixels."""
         assert self._instrument is not None
         chart = key_chart(self._instrument)
         hole_px = HOLE_PX * min((self.width() - 2 * MARGIN_PX) / self._chart_px().width(), 1.0)
@@ -296,7 +296,7 @@ class FingeringDiagram(QWidget):
             painter.drawText(below, Qt.AlignmentFlag.AlignRight, length)
 
     def _paint_corrections(self, painter: QPainter, tokens: Tokens, top: float) -> None:
-        """Draw the controls for intonation, two per line."""
+        """Draw the controls for intonation below the diagram, two per line, from the height ``top``."""
         painter.setFont(self._small())
         wide = (self.width() - 24.0) / 2.0
         for number, control in enumerate(self._correcting()):

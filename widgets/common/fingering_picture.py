@@ -36,7 +36,7 @@ class ChartPlace:
     squeeze: float = 1.0
 
     def box(self, key: ChartedKey) -> QRectF:
-        """The box of a key, pixels."""
+        """Return the rectangle of a key in pixels."""
         y = self.top_px + key.y * self.hole_px
         size = HOLE * self.hole_px
         if abs(key.x) < COLUMN:
@@ -65,7 +65,7 @@ class ChartColours:
 
 
 def chart_size(chart: KeyChart, hole_px: float) -> QSizeF:
-    """The size of a whole chart, unsqueezed."""
+    """Return width and height in pixels of a whole key chart, if holes are ``hole_px`` wide."""
     left, right = chart_sides(chart, ChartPlace(0.0, 0.0, hole_px))
     return QSizeF(left + right, (chart.bottom - chart.top) * hole_px)
 

@@ -11,7 +11,7 @@ _BETWEEN = re.compile("[,、，]")
 
 
 def tag_words() -> dict[str, str]:
-    """Return the words for the tags in bundled maps."""
+    """Return the translated words for the tags of fingerings that bundled maps use, by tag."""
     return {
         "alternate": tr("fingering_tag.alternate"),
         "trill": tr("fingering_tag.trill"),

@@ -47,7 +47,7 @@ class FlowLayout(QLayout):
         return max(y - self.spacing(), area.y()) - room.y() + margins.bottom()
 
     def _lines(self, width_px: int) -> list[list[tuple[QLayoutItem, QSize]]]:
-        """The items of each line, with their sizes; hidden items are left out."""
+        """Divide the visible items into lines of at most ``width_px``; returns each item with its size."""
         lines: list[list[tuple[QLayoutItem, QSize]]] = []
         used_px = 0
         for item in self._items:

@@ -14,10 +14,10 @@ from widgets.common.layouts import in_row
 
 @runtime_checkable
 class ShowsHelp(Protocol):
-    """A window with the guides."""
+    """A window that can show the guide's section about one of its widgets."""
 
     def show_help(self, about: QWidget) -> None:
-        """Show the guide's place for a widget."""
+        """Show the guide's section about a widget."""
 
 
 def ask_for_help(about: QWidget) -> None:

@@ -63,7 +63,7 @@ def _text(name: str) -> str:
 
 
 def source(name: str, colour: str) -> bytes:
-    """A drawing as SVG in a colour."""
+    """Return the SVG text of the icon ``name`` in a colour."""
     return _text(name).replace("currentColor", colour).encode()
 
 

@@ -17,7 +17,7 @@ def language() -> str:
 
 
 def instrument_name(instrument: InstrumentMap) -> str:
-    """Return the name of an instrument."""
+    """Return the name of an instrument in the user's language."""
     return instrument.name.ja if language() == "ja" else instrument.name.en
 
 

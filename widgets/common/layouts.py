@@ -126,7 +126,7 @@ class Scrolled(QScrollArea):
 
 
 def panel(layout: QLayout) -> QWidget:
-    """Return a widget with a layout."""
+    """Return a widget that contains a layout."""
     widget = QWidget()
     widget.setLayout(layout)
     return widget

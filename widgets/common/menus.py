@@ -1,4 +1,4 @@
-"""Menus of actions from the table."""
+"""Menus built from the table of actions."""
 
 from __future__ import annotations
 

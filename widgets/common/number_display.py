@@ -80,7 +80,7 @@ class NumberDisplay(QWidget):
 
     @property
     def default(self) -> float:
-        """Value after a reset."""
+        """Value that a reset of the number restores."""
         return self._default
 
     @property

@@ -116,7 +116,7 @@ class NumberSlider(NumberDisplay):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def set_range(self, minimum: float, maximum: float) -> None:
-        """Allow values from ``minimum`` to ``maximum``."""
+        """Allow only values from ``minimum`` to ``maximum``."""
         self._minimum, self._maximum = minimum, maximum
         self._ends = self._fills or (minimum, maximum)
         self.update()

@@ -1,4 +1,4 @@
-"""Reading and writing of numbers for the user."""
+"""Reads and writes numbers in the user's number format."""
 
 from __future__ import annotations
 

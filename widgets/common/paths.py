@@ -38,7 +38,7 @@ def path_of(url: QUrl) -> Path | None:
 
 
 def url_of(path: Path) -> QUrl:
-    """The URL of a path."""
+    """Return the file URL of a path, also for names that are not valid text."""
     path = path.absolute()
     if sys.platform == "win32":
         return QUrl.fromLocalFile(str(path))
@@ -46,7 +46,7 @@ def url_of(path: Path) -> QUrl:
 
 
 def dropped_paths(event: QDropEvent) -> list[Path]:
-    """The files of a drop."""
+    """Return the paths of the local files that were dropped on a widget."""
     return [path for url in event.mimeData().urls() if (path := path_of(url)) is not None]
 
 

@@ -33,7 +33,7 @@ def pitch_names(display: PitchDisplay) -> tuple[str, ...]:
 
 
 def _syllables() -> tuple[str, ...]:
-    """Syllables for C to B, in the editor's language."""
+    """Syllables (do, re, ...) for the notes C to B, in the editor's language."""
     return tuple(tr("pitch.do_re_mi_fa_so").split())
 
 
@@ -77,7 +77,7 @@ def _german() -> Iterator[tuple[str, int]]:
 
 
 def _named() -> Iterator[tuple[str, int]]:
-    """Letters and syllables with each accidental, and the semitones of each above C."""
+    """Yield the names of notes (letters and syllables) with each accidental, and the semitones of each above C."""
     for steps in (STEPS, _syllables()):
         for step, semitones in zip(steps, _STEP_SEMITONES, strict=True):
             for accidental, more in _ACCIDENTALS.items():

@@ -88,7 +88,7 @@ class ComboBox(QComboBox):
         self.setItemDelegate(QStyledItemDelegate(self))
 
     def showPopup(self) -> None:
-        """Open the list."""
+        """Open the list of options, whose keys are kept from shortcuts while it is open."""
         super().showPopup()
         self.view().installEventFilter(self)
 

@@ -36,7 +36,7 @@ class SectionHeader(QWidget):
         return self._open
 
     def set_open(self, is_open: bool) -> None:
-        """Fold or unfold the section."""
+        """Fold or unfold the section that the header belongs to; emits ``toggled`` if this changes it."""
         if is_open != self._open:
             self._open = is_open
             self.update()
@@ -162,5 +162,5 @@ class Section(QWidget):
         return self.header.is_open
 
     def set_open(self, is_open: bool) -> None:
-        """Fold or unfold the section."""
+        """Fold or unfold the section's contents."""
         self.header.set_open(is_open)

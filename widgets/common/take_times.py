@@ -6,13 +6,13 @@ from PySide6.QtCore import QDateTime, QLocale, Qt
 
 
 def when_text(recorded: str) -> str:
-    """Day and time; empty if unknown."""
+    """Return day and time at which a take was recorded, in the user's format; empty if unknown."""
     moment = _moment(recorded)
     return QLocale().toString(moment, QLocale.FormatType.ShortFormat) if moment.isValid() else ""
 
 
 def clock_text(recorded: str) -> str:
-    """The time alone; empty if unknown."""
+    """Return the time of day at which a take was recorded, in the user's format; empty if unknown."""
     moment = _moment(recorded)
     return QLocale().toString(moment.time(), QLocale.FormatType.ShortFormat) if moment.isValid() else ""
 

@@ -1,1 +1,1 @@
-"""Dialogs."""
+"""The editor's dialogs."""

@@ -64,7 +64,7 @@ _FINGERS: Final[Mapping[str, tuple[tuple[float, float], float, tuple[float, floa
 
 @cache
 def places() -> Mapping[str, tuple[float, float]]:
-    """Place of each joint: from the middle and from the top, in heights of the drawing."""
+    """Position of each joint on the drawing of a body: from the middle and from the top, in heights of the drawing."""
     found = dict(_BODY)
     for finger, (first, degrees, along) in _FINGERS.items():
         way = (-math.sin(math.radians(degrees)), -math.cos(math.radians(degrees)))
@@ -116,19 +116,19 @@ class BodyMap(QWidget):
         return self._joint
 
     def show_states(self, states: Mapping[str, State]) -> None:
-        """Show the reliability of each joint's bone."""
+        """Display in colour how reliable the bone of each joint is."""
         if states != self._states:
             self._states = dict(states)
             self.update()
 
     def choose(self, joint: str) -> None:
-        """Mark a joint, without a signal."""
+        """Mark a joint as selected without emitting a signal."""
         if joint != self._joint:
             self._joint = joint
             self.update()
 
     def place(self, joint: str) -> QPointF:
-        """Centre of a joint's dot."""
+        """Return the centre of a joint's dot in pixels."""
         box = self._box()
         x, y = places()[joint]
         return QPointF(box.center().x() + x * box.height(), box.top() + y * box.height())
@@ -138,7 +138,7 @@ class BodyMap(QWidget):
         return QRectF((self.width() - height * ASPECT) / 2, (self.height() - height) / 2, height * ASPECT, height)
 
     def _at(self, position: QPointF) -> str:
-        """The joint under the mouse."""
+        """Return the name of the joint whose dot is under the mouse; empty if none."""
         near = [(math.hypot(*(self.place(joint) - position).toTuple()), joint) for joint in self._states]
         distance, joint = min(near, default=(math.inf, ""))
         return joint if distance <= max(_TARGET * self._box().height(), 12.0) else ""
@@ -146,7 +146,7 @@ class BodyMap(QWidget):
     # Drawing
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """The body, the hands, the dots."""
+        """Draw the outline of the body and the hands, and a dot for each joint."""
         tokens, box = self._session.tokens, self._box()
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -245,7 +245,7 @@ class BodyMap(QWidget):
             super().keyPressEvent(event)
 
     def _next(self, x: float, y: float) -> str:
-        """The nearest joint in a direction."""
+        """Return the name of the nearest joint in the direction (x, y) from the selected one, for the arrow keys."""
         if not self._joint:
             return next(iter(self._states), "")
         at = places()[self._joint]
@@ -272,7 +272,7 @@ class BodyMap(QWidget):
 
 
 def joints() -> tuple[str, ...]:
-    """Return the selectable joints in the skeleton's order."""
+    """Names of the joints that can be selected on the picture, in the skeleton's order."""
     return tuple(joint.name for joint in load_skeleton().joints if joint.name != "root")
 
 

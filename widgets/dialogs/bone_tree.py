@@ -75,7 +75,7 @@ class BoneTree(QWidget):
         self.tree.scrollToItem(self._items[bone])
 
     def set_headers(self, headers: Sequence[str]) -> None:
-        """Set the column headings."""
+        """Set the column headings of the tree of bones."""
         self.tree.setHeaderLabels(list(headers))
         header = self.tree.header()
         header.setStretchLastSection(False)

@@ -186,7 +186,7 @@ class CharacterDialog(Retranslated, QDialog):
 
     @property
     def draft(self) -> CharacterDraft:
-        """The current step of the history."""
+        """The draft of the character as edited so far."""
         return self._steps.now
 
     @property
@@ -195,7 +195,7 @@ class CharacterDialog(Retranslated, QDialog):
         return self._joint
 
     def choose(self, joint: str) -> None:
-        """Look at a joint."""
+        """Select a joint, whose bone is then shown and can be changed."""
         if joint == self._joint:
             return
         self._joint = joint
@@ -237,7 +237,7 @@ class CharacterDialog(Retranslated, QDialog):
             self._changed()
 
     def undo(self) -> None:
-        """Undo the last change."""
+        """Undo the last change of the character's draft."""
         self._steps.undo()
         self._changed()
 

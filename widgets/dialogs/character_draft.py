@@ -68,7 +68,7 @@ def found_by_itself(figure: Figure, title: str) -> CharacterDraft:
 
 @dataclass(frozen=True, eq=False)
 class Mapped:
-    """Joints and face shapes of a figure with a draft's corrections, and the joint of each used bone."""
+    """Joints and face shapes found in a figure with the corrections of a draft, and the joint of each used bone."""
 
     draft: CharacterDraft
     joints: JointMapping
@@ -112,7 +112,7 @@ def nothing_shown(figure: Figure, draft: CharacterDraft) -> bool:
 
 
 class DraftHistory:
-    """Undo history of drafts."""
+    """Undo history of the drafts of a character."""
 
     def __init__(self, first: CharacterDraft) -> None:
         self._done, self._undone = [first], list[CharacterDraft]()
@@ -127,7 +127,7 @@ class DraftHistory:
 
     @property
     def now(self) -> CharacterDraft:
-        """The present draft."""
+        """The draft of the character after the last change or undo."""
         return self._done[-1]
 
     @property
@@ -154,7 +154,7 @@ class DraftHistory:
         return self.now != before
 
     def undo(self) -> None:
-        """Undo the last step."""
+        """Return to the draft before the last change."""
         if self.can_undo:
             self._undone.append(self._done.pop())
             self._gesture, self._of_gesture = None, False
@@ -227,7 +227,7 @@ def _props(figure: Figure, made: Mapped) -> list[str]:
 
 
 def joint_name(joint: str) -> str:
-    """A joint in the user's language."""
+    """Return the name of a joint in the user's language."""
     for side, sign in (("left", tr("joint.l")), ("right", tr("joint.r"))):
         if joint.startswith(side):
             return sign.format(part=joint_name(joint.removeprefix(side)))

@@ -82,7 +82,7 @@ class CharactersDialog(Retranslated, QDialog):
         return "" if item is None else str(item.data(Qt.ItemDataRole.UserRole))
 
     def refresh(self) -> None:
-        """Update the list."""
+        """Update the list of characters, keeping the selection."""
         before = self.chosen
         self.list.clear()
         for id in character_library().own:

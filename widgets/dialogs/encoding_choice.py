@@ -52,6 +52,6 @@ class EncodingChoice(Retranslated, ComboBox):
         self.texted(self, tip="import_dialog.encoding_tip", items=titles)
 
     def show_encoding(self, encoding: str | None) -> None:
-        """Show the current encoding."""
+        """Select the entry of an encoding without emitting a change."""
         with QSignalBlocker(self):
             self.setCurrentIndex(max(self.findData(encoding), 0))

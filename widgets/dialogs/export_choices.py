@@ -1,4 +1,4 @@
-"""Combo boxes of the export dialog."""
+"""Combo boxes of the export dialog, such as texture size and table of bone names."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def bone_name_profiles(dialog: Retranslated) -> ComboBox:
 
 
 def texture_sizes(dialog: Retranslated, chosen: TextureSize) -> ComboBox:
-    """A choice of `TEXTURE_SIZES`, in their order."""
+    """Return the choice of the largest texture size in an export, from `TEXTURE_SIZES`, with ``chosen`` selected."""
     box = dialog.texted(named(ComboBox(), "export_textures"), tip="export_dialog.textures_tip")
     dialog.texted(box, options={str(px): _size_text(px) for px in TEXTURE_SIZES})
     box.setCurrentIndex(TEXTURE_SIZES.index(chosen))
@@ -31,7 +31,8 @@ def texture_sizes(dialog: Retranslated, chosen: TextureSize) -> ComboBox:
 
 
 def levels_of_detail(dialog: Retranslated, chosen: LevelChoice) -> ComboBox:
-    """A choice of `LEVEL_CHOICES`, in their order."""
+    """Return the choice of the number of levels of detail in an export, from `LEVEL_CHOICES`, with ``chosen``
+    selected."""
     box = dialog.texted(named(ComboBox(), "export_levels"), tip="export_dialog.levels_tip")
     dialog.texted(box, options={str(count): _level_text(count) for count in LEVEL_CHOICES})
     box.setCurrentIndex(LEVEL_CHOICES.index(chosen))

@@ -43,7 +43,7 @@ class FaceChooser(Retranslated, QWidget):
 
     @property
     def options(self) -> FaceOptions:
-        """The chosen options."""
+        """The chosen options for the face: names of its curves, and the parts to export."""
         parts = tuple(part for part in FACE_PARTS if self._parts[part].isChecked())
         names = CURVE_NAMES[self._names.currentIndex()] if self._names.isVisibleTo(self) else CURVE_NAMES[0]
         return FaceOptions(names, parts)

@@ -199,7 +199,7 @@ class ExportDialog(WorkingDialog):
 
     @property
     def player_ids(self) -> tuple[str, ...]:
-        """The ticked players and dancers."""
+        """Ids of the ticked players and dancers."""
         items = (self._players.item(row) for row in range(self._players.count()))
         return tuple(
             str(item.data(Qt.ItemDataRole.UserRole)) for item in items if item.checkState() == Qt.CheckState.Checked
@@ -207,7 +207,7 @@ class ExportDialog(WorkingDialog):
 
     @property
     def keys(self) -> KeyChoice:
-        """The chosen rule for frames with keys."""
+        """The chosen rule for the frames that get keys in the export."""
         return KEY_CHOICES[self._keys.currentIndex()]
 
     @property
@@ -222,7 +222,7 @@ class ExportDialog(WorkingDialog):
 
     @property
     def chosen_bars(self) -> ExportedBars:
-        """The bars chosen, and their lead-in."""
+        """The range of bars to export, and the lead-in before it."""
         return ExportedBars(self._range.bars, self._lead_in.value())
 
     def _request(self) -> ExportRequest:

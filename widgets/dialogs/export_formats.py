@@ -16,7 +16,7 @@ _COLUMNS = 2
 
 
 def _missing() -> dict[Format, Message]:
-    """Return the reasons why formats are not available."""
+    """Return by format why it is not available on this computer; available ones are missing."""
     missing: dict[Format, Message] = {}
     for name, kind in FILE_FORMATS.items():
         try:
@@ -66,7 +66,7 @@ class FormatChooser(Retranslated, QWidget):
 
     @property
     def formats(self) -> frozenset[Format]:
-        """The ticked kinds of file."""
+        """The file formats ticked for the export."""
         return frozenset(name for name, box in self._boxes.items() if box.isChecked())
 
     @property

@@ -50,7 +50,7 @@ class RigChooser(Retranslated, QWidget):
 
     @property
     def options(self) -> RigOptions:
-        """The chosen options."""
+        """The chosen options for the skeleton: attachment of the instrument, root bone, rest pose and so on."""
         return RigOptions(
             ATTACHMENTS[self._instrument.currentIndex()],
             ROOT_BONES[self._root_bone.currentIndex()],

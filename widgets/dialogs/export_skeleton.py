@@ -88,7 +88,7 @@ class SkeletonChooser(Retranslated, QWidget):
 
     @property
     def choice(self) -> SkeletonChoice:
-        """The chosen skeleton."""
+        """The skeleton chosen for the export."""
         return CHOICES[self._box.currentIndex()]
 
     def set_destination(self, destination: Destination) -> None:
@@ -199,7 +199,8 @@ def _fits(checked: CheckedTarget) -> bool:
 def _comparison(
     requested: Requested, players: tuple[Player, ...], choice: SkeletonChoice, asset: Path
 ) -> Callable[[Progress, StopRequested], Found]:
-    """Return the function that compares, independent of Qt."""
+    """Return the function that a thread runs to compare the players' skeletons with one of the user's file; it uses no
+    Qt."""
 
     def work(progress: Progress, stop_requested: StopRequested) -> Found:
         try:

@@ -80,7 +80,7 @@ class FaceMapPage(Retranslated, QWidget):
         return self._face
 
     def choose(self, face: str) -> None:
-        """Look at a face."""
+        """Select a facial expression in the list."""
         self.list.setCurrentItem(self._items[face])
 
     def show_parts(self, parts: Mapping[str, Mapping[str, float]], own: frozenset[str]) -> None:

@@ -33,7 +33,7 @@ class FingeringDraft:
 
     @property
     def table(self) -> edit.Table:
-        """The present table of fingerings."""
+        """The table of fingerings after the last change or undo."""
         return self.states[self.at]
 
     @property
@@ -43,7 +43,7 @@ class FingeringDraft:
 
     @property
     def problems(self) -> tuple[tuple[str, str], ...]:
-        """Return the reasons why the map would be refused."""
+        """Reasons why the instrument's map would be refused with the edited table."""
         if self._judged is None or self._judged[0] is not self.table:
             self._judged = (self.table, edit.problems_of(self.instrument, self.table))
         return self._judged[1]

@@ -84,7 +84,7 @@ class FollowRecordingDialog(Retranslated, QDialog):
 
     @property
     def options(self) -> FollowOptions:
-        """The chosen options."""
+        """The options chosen for following a recording: notes, dynamics, and recordings of single players."""
         dynamics = self._dynamics.isChecked()
         stems = dict(self._stems) if dynamics else {}
         return FollowOptions(notes=self._notes.isChecked(), dynamics=dynamics, stems=stems)
@@ -118,6 +118,6 @@ class FollowRecordingDialog(Retranslated, QDialog):
         self._show()
 
     def accept(self) -> None:
-        """Start following the recording."""
+        """Close the dialog and request that the recording be followed with the chosen options."""
         self.requested.emit(self.options)
         super().accept()

@@ -32,7 +32,7 @@ class InstrumentCell(QWidget):
         self._column = in_column(whole, of=self, margins=0, spacing=2)
 
     def show_players(self, boxes: Sequence[tuple[str, ComboBox]]) -> None:
-        """Show boxes for further players with captions below the first one."""
+        """Replace the boxes that choose the instruments of further players, each with a caption."""
         for row in self._rows:
             self._column.removeWidget(row)
             row.hide()

@@ -56,7 +56,7 @@ _BY_PIECE = "\0by_piece"
 
 
 class _ReadAgain(NamedTuple):
-    """A file read with another text encoding, and the consequences of the choices for it."""
+    """A MIDI file read with another text encoding, with the import rows that follow from it."""
 
     encoding: str | None
     contents: PieceContents
@@ -147,7 +147,7 @@ class ImportDialog(Retranslated, QDialog):
 
     @property
     def rows(self) -> tuple[ImportRow, ...]:
-        """The rows; empty until the file has been read."""
+        """The import rows with the user's choices; empty until the file has been read."""
         return self._table.rows
 
     @property
@@ -193,7 +193,7 @@ class ImportDialog(Retranslated, QDialog):
         self._fill()
 
     def _choose_encoding(self, encoding: str | None) -> None:
-        """Read the file's texts again."""
+        """Read the MIDI file again with its texts in another encoding (None: guessed), keeping the decisions."""
         read_again, maps, closing = self._read_again, self._maps, self._closing
         contents, rows, usual = self._table.contents, self._table.rows, self._usual
         if read_again is None:

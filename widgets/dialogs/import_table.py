@@ -108,7 +108,7 @@ class ImportTable(Retranslated, QTableWidget):
         )
 
     def fill(self) -> None:
-        """Show the rows anew."""
+        """Rebuild the table's rows from the import rows."""
         self.setRowCount(0)
         self.setRowCount(len(self.rows))
         self._filled = 0
@@ -119,7 +119,7 @@ class ImportTable(Retranslated, QTableWidget):
         self._fill_more(_ROWS_AT_ONCE)
 
     def show_outcome(self, outcome: ImportPreview) -> None:
-        """Show the instruments of the rows."""
+        """Display in each row the instrument that results from the import choices."""
         self.outcome = outcome
         for place in range(self._filled):
             self._show_instruments(place)

@@ -169,12 +169,12 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._show()
 
     def choose(self, id: str) -> None:
-        """Show the map of an instrument."""
+        """Select an instrument in the list and display its table of fingerings."""
         self._fill_list(id)
 
     @property
     def draft(self) -> FingeringDraft | None:
-        """The draft of the selected instrument."""
+        """The edited fingering table of the selected instrument; None if none is selected."""
         item = self._list.currentItem()
         return None if item is None else self._draft_of(str(item.data(_PLACE)))
 
@@ -307,7 +307,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         header.setSectionResizeMode(LABEL, QHeaderView.ResizeMode.Stretch)
 
     def _chosen(self) -> tuple[int, int] | None:
-        """Written pitch and rank of the chosen row."""
+        """Written pitch and rank of the fingering selected in the table; None if no row is."""
         item = self._table.item(self._table.currentRow(), LABEL)
         return None if item is None else tuple(item.data(_PLACE))
 
@@ -493,7 +493,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         return _SIZE
 
     def reject(self) -> None:
-        """Handle Escape like closing."""
+        """Close the dialog on Escape as by its button, with the question about unsaved changes."""
         self.close()
 
     def closeEvent(self, event: QCloseEvent) -> None:
@@ -507,7 +507,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         event.accept()
 
     def ask(self, count: int) -> str:
-        """``"save"``, ``"discard"`` or ``"cancel"``."""
+        """Ask about unsaved changes of ``count`` instruments: ``"save"``, ``"discard"`` or ``"cancel"``."""
         role = ask(
             self,
             "instruments_unsaved",
@@ -541,7 +541,7 @@ class _Completing(QStyledItemDelegate):
     def createEditor(
         self, parent: QWidget, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
     ) -> QWidget:
-        """A line to type in."""
+        """Return a line edit that completes the typed text from the choices of the cell's column."""
         line = QLineEdit(parent)
         completer = QCompleter(self._choices(index.column()), line)
         completer.setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)

@@ -275,7 +275,7 @@ class HitChart(Retranslated, QWidget):
             self.update()
 
     def show_measured(self, found: LatencyMeasurement | None) -> None:
-        """Show the present measurement."""
+        """Display a measurement of the MIDI latency; None clears the chart."""
         if found != self.found:
             self.found = found
             self.update()

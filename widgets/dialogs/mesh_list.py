@@ -40,7 +40,7 @@ class MeshList(Retranslated, QWidget):
         in_column(self.texted(wrapped(Label()), text="mesh_list.help"), (self.list, 1), of=self, margins=(0, 8, 0, 0))
 
     def show_hidden(self, hidden: Collection[str]) -> None:
-        """Show which meshes are hidden."""
+        """Check the meshes in the list except the hidden ones."""
         self.list.blockSignals(True)
         for name, item in self._items.items():
             item.setCheckState(0, Qt.CheckState.Unchecked if name in hidden else Qt.CheckState.Checked)

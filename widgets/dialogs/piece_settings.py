@@ -260,7 +260,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
 
 
 class _Beats(QDoubleSpinBox):
-    """A number without trailing zeros."""
+    """A field for a number, which it shows without trailing zeros."""
 
     def textFromValue(self, value: float) -> str:
         return self.locale().toString(value, "g", 6)

@@ -142,7 +142,7 @@ class PlayblastDialog(WorkingDialog):
         in_column(self._form, (self._state, 1), self._under_way, self._progress, buttons, of=self)
 
     def start(self) -> None:
-        """Begin the film."""
+        """Start making the film with the chosen options."""
         if self._running or not self._start.isEnabled():
             return
         self._performance = self._session.performance

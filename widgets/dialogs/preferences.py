@@ -34,7 +34,7 @@ from widgets.dialogs.shortcuts import ShortcutRow, ShortcutsPage
 
 @dataclass(frozen=True)
 class Choice:
-    """A setting with several possible values.
+    """A setting of the preferences with several possible values.
 
     Attributes
     ----------
@@ -168,13 +168,13 @@ class PreferencesDialog(Retranslated, QDialog):
         self._found.setText("\n\n".join([*found, *(f"⚠ {text}" for text in wrong)]))
 
     def show_page(self, page: str) -> None:
-        """``"general"``, ``"shortcuts"`` or ``"instruments"``."""
+        """Switch to a page of the dialog: ``"general"``, ``"shortcuts"`` or ``"instruments"``."""
         self.tabs.setCurrentIndex({"shortcuts": 1, "instruments": 2}.get(page, 0))
         if page == "shortcuts":
             self.shortcuts.search.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def refresh(self) -> None:
-        """Update the displayed values."""
+        """Display the present values of all settings."""
         for choice in self._choices:
             values = [value for value, _ in choice.options]
             chosen = values.index(choice.chosen())

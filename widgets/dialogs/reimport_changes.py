@@ -269,7 +269,7 @@ class ReimportChanges(Retranslated, QWidget):
         return tr("reimport_dialog.and").join(found)
 
     def _texts(self, row: _Row, change: PartChange) -> tuple[str, str]:
-        """Return a change's position and description."""
+        """Return the texts of two columns for a change: its place in the score, and its description."""
         former, now = self._before.metre_map, self._outcome.project.metre_map
         there, here = former.label(change.tick), now.label(change.tick_now)
         before, after = change.before, change.now
@@ -314,7 +314,7 @@ class ReimportChanges(Retranslated, QWidget):
             self._begin()
 
     def retranslate(self) -> None:
-        """Word the rows again."""
+        """Set the texts of all rows again after a change of language."""
         self._apply_filter(self._filter.currentData() or _ALL)
 
 

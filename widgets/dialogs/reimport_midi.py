@@ -161,7 +161,7 @@ class ReimportDialog(Retranslated, QDialog):
         return (*self._conflicts, *self._list("reimport_orphans", lost, orphans))
 
     def _list(self, name: str, heading: Label, items: Sequence[Callable[[], str]]) -> tuple[Label, QListWidget]:
-        """Return a list with its heading, both hidden if it is empty."""
+        """Return a list of texts with a heading above it, both hidden if there are none."""
         below = named(QListWidget(), name)
         below.addItems([""] * len(items))
         below.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
@@ -173,7 +173,7 @@ class ReimportDialog(Retranslated, QDialog):
 
     @property
     def removed(self) -> tuple[str, ...]:
-        """Ids of the players without a part that the user removes."""
+        """Ids of those players left without a part whom the user chose to remove."""
         items = (self._gone.item(row) for row in range(self._gone.count()))
         return tuple(
             item.data(Qt.ItemDataRole.UserRole) for item in items if item.checkState() == Qt.CheckState.Checked
@@ -186,7 +186,7 @@ class ReimportDialog(Retranslated, QDialog):
 
     @property
     def taken(self) -> Reimport:
-        """The re-import of the selected players."""
+        """The result of the re-import with the players that the user keeps unchanged left out."""
         return self._outcome.keeping(self.kept) if self.kept else self._outcome
 
     def _chosen(self) -> None:
@@ -207,7 +207,7 @@ class ReimportDialog(Retranslated, QDialog):
 
 
 def _shown(shown: bool, *widgets: QWidget) -> tuple[QWidget, ...]:
-    """Return the widgets after hiding them if there is nothing to show."""
+    """Return the widgets, hidden if there is nothing to show in them."""
     for widget in widgets:
         if not shown:
             widget.hide()

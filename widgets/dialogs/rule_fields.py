@@ -20,7 +20,8 @@ SEMITONES: Final = "rules_dialog.unit_semitones"
 
 
 class Field(NamedTuple):
-    """A number of a rule: key in the table, text id, bounds, step, text id of the unit, and initial value."""
+    """Input field for a number of a rule: key in the table, text id, bounds, step, text id of the unit, and initial
+    value."""
 
     name: str
     text_id: str
@@ -110,7 +111,7 @@ class OptionalNumberField:
         return value if value is None or before is None else kept(value, before)
 
     def show_value(self, value: float | None) -> None:
-        """Set the number without a signal."""
+        """Display a number, or the initial value for None, without emitting a signal."""
         self.number.blockSignals(True)
         self.number.setValue(self.field.first if value is None else value)
         self.number.blockSignals(False)
@@ -142,7 +143,7 @@ class Several(QPushButton):
 
     @property
     def chosen(self) -> tuple[str, ...]:
-        """The chosen names, in the order of the list."""
+        """The names chosen in the list, in its order."""
         return self._chosen
 
     def show_choice(self, names: Mapping[str, str], chosen: Sequence[str], none: str) -> None:

@@ -120,7 +120,7 @@ class RulesDialog(Retranslated, QDialog):
 
     @property
     def draft(self) -> Draft:
-        """The rules to be saved."""
+        """The edited rules, as they will be saved."""
         return self._draft
 
     @property
@@ -203,7 +203,7 @@ class RulesDialog(Retranslated, QDialog):
             self._timer.start()
 
     def faults(self) -> list[tuple[int, RuleFault]]:
-        """Faults of the rules, each with the rule's index."""
+        """Return every error in the edited rules with the index of its rule."""
         return [(index, fault) for index, one in enumerate(self._draft) for fault in rule_faults(one.rule)]
 
     def _judge(self) -> None:
@@ -274,7 +274,7 @@ class RulesDialog(Retranslated, QDialog):
 
 
 class _Rules(QListWidget):
-    """The list with keys of its own."""
+    """The list of rules, which handles its own shortcuts."""
 
     keys: Mapping[QKeySequence, Callable[[], None]] = {}
 
@@ -287,7 +287,7 @@ class _Rules(QListWidget):
 
 
 def rule_title(rule: Rule) -> str:
-    """Title of a rule in lists."""
+    """Return the title of a rule for lists: its own, else one with its number."""
     number = rule.name.removeprefix("rule_")
     usual = tr("rules_dialog.rule_number").format(number=number) if number.isdecimal() else ""
     return rule.title.in_language(language()) or usual or rule.name.replace("_", " ").capitalize()

@@ -19,7 +19,7 @@ _TEXT, _PLACE, _KEYS, _CONTEXT = range(4)
 
 @dataclass(frozen=True)
 class ShortcutRow:
-    """An action and its shortcuts.
+    """An action in the table of shortcuts.
 
     Attributes
     ----------
@@ -204,7 +204,7 @@ class ShortcutsPage(Retranslated, QWidget):
 
 
 def native(keys: str) -> str:
-    """Return shortcuts in the system's notation."""
+    """Convert shortcuts from the stored portable text to the system's notation."""
     portable, own = QKeySequence.SequenceFormat.PortableText, QKeySequence.SequenceFormat.NativeText
     parts = (part.strip() for part in keys.split(";"))
     return ", ".join(QKeySequence.fromString(part, portable).toString(own) for part in parts if part)

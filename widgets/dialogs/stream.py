@@ -157,7 +157,7 @@ class StreamDialog(Retranslated, QDialog):
         self._show()
 
     def _state_text(self) -> tuple[str, str]:
-        """Return the state of the stream and its colour."""
+        """Return the text that describes the state of the stream, and its colour."""
         state, tokens = self._state, self._session.tokens
         if state.trouble is not None:
             return sentence(state.trouble, self._session), tokens.error

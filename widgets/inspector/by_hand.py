@@ -46,7 +46,7 @@ class ByHandLine(QWidget):
         self.show()
 
     def text(self) -> str:
-        """The text of the line."""
+        """The displayed text."""
         return self._text.text()
 
     def _retranslate(self) -> None:

@@ -82,7 +82,7 @@ class CorrectionList(Retranslated, QWidget):
     # Showing
 
     def show_corrections(self) -> None:
-        """Update the list."""
+        """Update the list of corrections, if it is visible."""
         if not self.isVisible():
             return
         project, plans = self._session.project, self._session.plans

@@ -250,7 +250,7 @@ class EventSection(Retranslated, QWidget):
         self._by_hand.show_values(before, event_text(score, first, ""))
 
     def _generated_event(self, event: Placed) -> Placed | None:
-        """The generated event in an event's place."""
+        """Return the event that the generator plans in place of a corrected one; None if there is none."""
         if self._plan is None:
             return None
         player_id = self._plan.player_id

@@ -192,7 +192,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self.folded.emit()
 
     def show_expression(self) -> None:
-        """Show the chosen expression."""
+        """Display the weights of the chosen expression."""
         if not self._section.is_open:
             self._preview()
             return

@@ -39,7 +39,7 @@ class FacePicture(Label):
 
     @property
     def weights(self) -> Mapping[str, float] | None:
-        """Weights of the face drawn last."""
+        """Weights of the face drawn last, by morph; None before."""
         return self._weights
 
     def show_face(self, weights: Mapping[str, float] | None) -> None:

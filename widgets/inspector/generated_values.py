@@ -1,4 +1,5 @@
-"""Generated values without a player's corrections, for comparison."""
+"""Computes the generated values of events without a player's corrections, which the inspector shows beside the
+corrected ones."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ class HistoryList(QWidget):
         session.changed.connect(self.show_steps)
 
     def show_steps(self, *_: object) -> None:
-        """Show the present history."""
+        """Update the list of steps that can be undone and redone, if it is visible."""
         if not self.isVisible():
             return
         document = self._session.document

@@ -1,4 +1,4 @@
-"""The inspected notes and events, and their players."""
+"""The selected notes and events that the inspector shows, with their players."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class SelectedNotes:
 
     @cached_property
     def own_ids(self) -> tuple[str, ...]:
-        """Return the ids of the player's notes."""
+        """Ids of the selected notes that belong to the inspected player."""
         return tuple(note.id for note in self.notes)
 
 

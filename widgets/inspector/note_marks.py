@@ -148,7 +148,7 @@ class NoteMarks(Retranslated, QWidget):
 def _alike(
     marks: Collection[Mark], origins: Mapping[Mark, Origin], notes: tuple[Note, ...]
 ) -> dict[tuple[str, str], _Alike]:
-    """Return the marks by kind and text."""
+    """Return the marks grouped by kind and text, with their origin."""
     groups: dict[tuple[str, str], list[Mark]] = {}
     for mark in marks:
         groups.setdefault((mark.kind, mark.text), []).append(mark)
@@ -161,5 +161,5 @@ def _alike(
 
 
 def _named(marks: Collection[Mark]) -> str:
-    """Names of marks, each once."""
+    """Return the names of musical marks, each once, separated by commas."""
     return ", ".join(dict.fromkeys(mark.text if mark.kind == "dynamic" else mark_name(mark.kind) for mark in marks))

@@ -308,7 +308,8 @@ class NoteSection(Retranslated, QWidget):
     def _edit(
         self, name: str, change: Callable[[Project, SelectedNotes], Project], token: object | None = None
     ) -> None:
-        """Edit the displayed notes by a function."""
+        """Edit the displayed notes by a function as one undoable step named by the text id ``name``; steps with the
+        same ``token`` are merged."""
         shown = self._shown
         if shown is None:
             return

@@ -148,7 +148,7 @@ class InspectorPanel(Retranslated, QWidget):
         return msgspec.json.encode(state).decode()
 
     def restore_state(self, state: str) -> None:
-        """Restore what `save_state` returned; any other value is ignored."""
+        """Restore the layout of the panel from the text that `save_state` returned; any other text is ignored."""
         with suppress(FileError):
             saved = decode_json(state.encode("utf-8", "replace"), _State, "")
             self.divide(saved.lists_share, saved.tab, saved.kept)

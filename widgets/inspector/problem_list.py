@@ -49,7 +49,7 @@ MOST_LINES = 300
 
 
 class ProblemGroup(NamedTuple):
-    """Problems of one kind and performer, shown as a row."""
+    """Problems of one kind and performer, which form a row of the list."""
 
     performer: Player | Dancer
     problems: tuple[Problem, ...]

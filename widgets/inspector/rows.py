@@ -42,14 +42,14 @@ class ListRow:
 
 
 class LineModel(QAbstractListModel):
-    """Model of the lines."""
+    """Model of the lines that a `LineList` displays."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.lines: tuple[ListRow, ...] = ()
 
     def show_lines(self, lines: Sequence[ListRow]) -> None:
-        """Show texts, each as a line."""
+        """Replace the displayed lines; the view is reset only if their keys change."""
         new = tuple(lines)
         if new == self.lines:
             return
@@ -182,7 +182,7 @@ class LineList(QListView):
         session.theme_changed.connect(self.viewport().update)
 
     def selected_keys(self) -> tuple[object, ...]:
-        """Keys of the selected lines, from the top."""
+        """Keys of the selected lines, from top to bottom."""
         numbers = sorted(index.row() for index in self.selectionModel().selectedIndexes())
         return tuple(self.lines.lines[number].key for number in numbers)
 

@@ -28,7 +28,7 @@ def amount_field(event: Placed) -> str | None:
 
 
 def event_title(event: Event) -> str:
-    """Title of an event."""
+    """Return the title of an event for the inspector, such as the kind or the expression's name."""
     if isinstance(event, ExpressionEvent):
         return tr("inspector.expression").format(name=expression_name(event.expression))
     if isinstance(event, PoseEvent):

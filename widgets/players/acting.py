@@ -1,4 +1,4 @@
-"""Style and habits of the selected players."""
+"""Choice of the style and the habits of the selected players."""
 
 from __future__ import annotations
 

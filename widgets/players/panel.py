@@ -190,7 +190,7 @@ class PlayersPanel(Retranslated, QWidget):
         return str(self._splitter.sizes()[0]) if self._divided else ""
 
     def restore_state(self, state: str) -> None:
-        """Restore what `save_state` returned; any other value is ignored."""
+        """Restore the division of the panel from the text that `save_state` returned; any other text is ignored."""
         if not state or (state.isascii() and state.isdecimal() and len(state) < 6):
             self.divide(int(state) if state else None)
 

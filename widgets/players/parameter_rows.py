@@ -1,4 +1,4 @@
-"""Controls of parameters as declared: name, range, place."""
+"""Controls for the players' parameters, made from the declarations of the parameters."""
 
 from __future__ import annotations
 

@@ -84,7 +84,7 @@ def duplicate_players(session: Session) -> None:
 
 
 def remove_players(session: Session) -> None:
-    """Send the selected players away."""
+    """Remove the selected players from the project, as one undoable step."""
     chosen = session.players
     session.attempt(
         edit_of_players(session.project, "edit.remove_players", chosen),

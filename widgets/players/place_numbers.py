@@ -34,5 +34,5 @@ def shown_number(place: StagePosition, name: str) -> float:
 
 
 def with_number(place: StagePosition, name: str, shown: float) -> StagePosition:
-    """Return the place with a field set to a displayed value."""
+    """Return a position on stage with one field set to a displayed value; angles are displayed in degrees."""
     return msgspec.structs.replace(place, **{name: math.radians(shown) if name == "turn_rad" else shown})

@@ -24,7 +24,7 @@ class PlayerDelegate(RowDelegate):
     """
 
     def buttons(self, row: QRect) -> tuple[QRect, QRect]:
-        """Places of the buttons mute and solo."""
+        """Rectangles of the buttons for mute and solo in a player's row."""
         top = row.center().y() - BUTTON_PX // 2 + 1
         solo = QRect(row.right() - BUTTON_PX - 3, top, BUTTON_PX, BUTTON_PX)
         return solo.translated(-BUTTON_PX - 2, 0), solo

@@ -74,7 +74,7 @@ class SectionRow:
 
     @property
     def player_ids(self) -> tuple[str, ...]:
-        """Return the ids of the section's players."""
+        """Ids of the players in the section."""
         return tuple(row.id for row in self.players)
 
     def marked(self, field: str) -> bool | None:
@@ -103,16 +103,16 @@ class PlayerModel(QAbstractListModel):
 
     @property
     def rows(self) -> tuple[Row, ...]:
-        """The rows, from the top."""
+        """All visible rows, sections and players, from top to bottom."""
         return self._rows
 
     @property
     def players(self) -> tuple[PlayerRow, ...]:
-        """The rows of players."""
+        """Only the rows of players, from top to bottom."""
         return tuple(row for row in self._rows if isinstance(row, PlayerRow))
 
     def show_rows(self, rows: Sequence[Row]) -> None:
-        """Show rows of sections and players."""
+        """Replace the displayed rows of sections and players; the view is reset only if their ids change."""
         if [row.id for row in rows] != [row.id for row in self._rows]:
             self.beginResetModel()
             self._rows = tuple(rows)
@@ -124,7 +124,7 @@ class PlayerModel(QAbstractListModel):
                 self.dataChanged.emit(self.index(number), self.index(number))
 
     def number(self, id: str) -> int | None:
-        """The row of a player or section."""
+        """Return the row number of the player or section with an id; None if it is not displayed."""
         return next((number for number, row in enumerate(self._rows) if row.id == id), None)
 
     def header_of(self, number: int) -> int | None:

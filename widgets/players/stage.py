@@ -101,7 +101,7 @@ class StageView(QWidget):
         return QFontMetricsF(self.font()).height() + 8.0
 
     def point(self, x_m: float, z_m: float) -> QPointF:
-        """Convert a place of the stage to pixels."""
+        """Convert a position on stage in metres to pixels of the plan."""
         scale, middle_x, middle_z = self._frame()
         height = self.height() - self._audience_px()
         return QPointF(self.width() / 2 + (x_m - middle_x) * scale, height / 2 + (z_m - middle_z) * scale)
@@ -112,7 +112,7 @@ class StageView(QWidget):
         return (position.x() - self.width() / 2) / scale + middle_x, (position.y() - height / 2) / scale + middle_z
 
     def disc_px(self) -> float:
-        """Radius of a player."""
+        """Return the radius in pixels of the disc that stands for a player on the stage plan."""
         return max(self._frame()[0] * DISC_M, LEAST_DISC_PX)
 
     def nose_point(self, player: Player | Dancer) -> QPointF:

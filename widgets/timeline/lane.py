@@ -139,7 +139,7 @@ class Lane(Retranslated, QWidget):
         self.refresh()
 
     def theme_changed(self) -> None:
-        """Handle a changed theme."""
+        """React to a change of the theme; lanes with colours of their own override this."""
 
     def axis_changed(self) -> None:
         """Handle a changed range or zoom; the lane's items are updated without this."""
@@ -151,13 +151,13 @@ class Lane(Retranslated, QWidget):
         """Handle a drag with the left button, or scrolling under the mouse during a drag."""
 
     def release(self, mouse: LaneMouse) -> None:
-        """The left button went up."""
+        """React to the release of the left mouse button; lanes override this."""
 
     def cancel(self) -> None:
         """Cancel a drag on Escape, undoing its effect; neither `drag` nor `release` follows."""
 
     def double_click(self, mouse: LaneMouse) -> None:
-        """Neither `drag` nor `release` follows."""
+        """React to a double click of the left button; lanes override this. Neither `drag` nor `release` follows."""
 
     def hover(self, mouse: LaneMouse | None) -> None:
         """Handle mouse movement without a button; None when the mouse leaves."""
@@ -198,7 +198,7 @@ class Lane(Retranslated, QWidget):
 
     @property
     def plot_rect(self) -> QRectF:
-        """The plot's rectangle in pixels."""
+        """The rectangle of the lane's plot in its own pixels; at least one pixel."""
         return QRectF(0.0, 0.0, float(max(self.plot.width(), 1)), float(max(self.plot.height(), 1)))
 
     @property
@@ -207,7 +207,7 @@ class Lane(Retranslated, QWidget):
         return self._y_range
 
     def set_y_range(self, bottom: float, top: float) -> None:
-        """Change the vertical scale."""
+        """Change the values at the lower and upper edge of the plot, and redraw it."""
         if (bottom, top) != self._y_range:
             self._y_range = (bottom, top)
             self.update_items()
@@ -218,7 +218,7 @@ class Lane(Retranslated, QWidget):
         return (top - value) / (top - bottom) * self.plot_rect.height()
 
     def value_at(self, y_px: float) -> float:
-        """The value at a height."""
+        """Return the value on the lane's vertical scale at a height in pixels."""
         bottom, top = self._y_range
         return top - y_px / self.plot_rect.height() * (top - bottom)
 
@@ -232,7 +232,7 @@ class Lane(Retranslated, QWidget):
         return self.axis.lines(self.session.project.score, self.session.grid)
 
     def update_items(self) -> None:
-        """Redraw everything."""
+        """Redraw all items of the lane."""
         self.plot.redraw()
 
     @property
@@ -406,7 +406,7 @@ class Lane(Retranslated, QWidget):
     # Qt overrides
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        """Unfold a folded lane."""
+        """Unfold the lane if it is folded; otherwise treat the double click as usual."""
         if self._folded and event.button() == Qt.MouseButton.LeftButton:
             self._toggle_fold()
         else:

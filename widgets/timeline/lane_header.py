@@ -59,7 +59,7 @@ class LaneHeader(QWidget):
         self.fold_button.setArrowType(Qt.ArrowType.RightArrow if folded else Qt.ArrowType.DownArrow)
 
     def paint_surface(self, tokens: Tokens) -> None:
-        """Apply the theme's colours."""
+        """Colour the header by the theme."""
         palette = self.palette()
         palette.setColor(QPalette.ColorRole.Window, QColor(tokens.surface))
         palette.setColor(QPalette.ColorRole.WindowText, QColor(tokens.text))

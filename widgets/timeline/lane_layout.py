@@ -105,7 +105,7 @@ class LaneLayout(QObject):
 
     @property
     def state(self) -> LaneState:
-        """The layout in storable form."""
+        """Order, visibility and heights of the lanes, as they are stored."""
         order = tuple(lane.id for lane in self._stack.lanes)
         return LaneState(
             order=order,
@@ -121,7 +121,7 @@ class LaneLayout(QObject):
         )
 
     def set_state(self, state: LaneState) -> None:
-        """Apply a layout, ignoring unknown lanes."""
+        """Apply a stored layout of the lanes; unknown lanes are ignored."""
         self._hidden = set(state.hidden) & self._lanes.keys()
         self._shown = set(state.shown) & self._lanes.keys()
         self._stack.set_order(_completed(state.order, tuple(self._lanes)))
@@ -145,7 +145,7 @@ class LaneLayout(QObject):
         return self.is_shown(lane_id) and not self._lanes[lane_id].folded
 
     def show_lane(self, lane_id: str, shown: bool) -> None:
-        """Show or hide a lane."""
+        """Show or hide the lane with an id; the choice is stored."""
         (self._shown if shown else self._hidden).add(lane_id)
         (self._hidden if shown else self._shown).discard(lane_id)
         self.show_lanes()
@@ -154,7 +154,7 @@ class LaneLayout(QObject):
         self.changed.emit()
 
     def open_lane(self, lane_id: str, is_open: bool) -> None:
-        """Show and unfold a lane, or fold it."""
+        """Show and unfold the lane with an id, or fold it."""
         if is_open and not self.is_shown(lane_id):
             self.show_lane(lane_id, True)
         self._fold(self._lanes[lane_id], not is_open)
@@ -168,7 +168,7 @@ class LaneLayout(QObject):
         lane.set_folded(folded)
 
     def fold_all(self, folded: bool) -> None:
-        """Fold or unfold every lane."""
+        """Fold or unfold every visible lane of the timeline."""
         for id, lane in self._lanes.items():
             if self.is_shown(id):
                 self._fold(lane, folded)
@@ -226,7 +226,7 @@ class LaneLayout(QObject):
 
 
 def _completed(order: tuple[str, ...], known: tuple[str, ...]) -> tuple[str, ...]:
-    """Return an order of all lanes; missing ones follow the same lane as in a new window."""
+    """Return an order of all known lanes: ``order``, with missing lanes behind the same lane as in a new window."""
     result = [id for id in dict.fromkeys(order) if id in known]
     for place, id in enumerate(known):
         if id not in result:
@@ -243,5 +243,5 @@ def lane_state(text: str) -> LaneState | None:
 
 
 def lane_text(state: LaneState) -> str:
-    """A state of the lanes as text."""
+    """Return the stored form of the lanes' layout, JSON."""
     return msgspec.json.encode(state).decode()

@@ -46,7 +46,7 @@ _Bounded: TypeAlias = Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
 
 
 class VisibleRange(NamedTuple):
-    """Range of seconds and pitches that a timeline shows."""
+    """Range of seconds and pitches that a timeline shows, as stored in the settings."""
 
     start_s: _Bounded
     end_s: _Bounded
@@ -166,11 +166,11 @@ class TimelinePanel(Retranslated, QWidget):
 
     @property
     def ghosts(self) -> Ghosts:
-        """Display of the players behind."""
+        """Display of the other players' notes behind those of the active player."""
         return self.roll.ghosts_mode
 
     def set_ghosts(self, ghosts: Ghosts) -> None:
-        """Set the display of other players' notes."""
+        """Set whether and how the notes of other players are drawn behind the active player's."""
         self.roll.set_ghosts(ghosts)
         self.tool_bar.show_state()
         self.arranged.emit()
@@ -197,7 +197,7 @@ class TimelinePanel(Retranslated, QWidget):
         self.axis.zoom(1 / ZOOM_A_CLICK, self._zoom_centre())
 
     def zoom_in_pitch(self) -> None:
-        """Make the notes taller."""
+        """Enlarge the rows of the piano roll, so that notes become taller."""
         self._zoom_pitch(ZOOM_A_KEY)
 
     def zoom_out_pitch(self) -> None:
@@ -215,7 +215,7 @@ class TimelinePanel(Retranslated, QWidget):
             roll.fit_pitch()
 
     def zoom_to_selection(self) -> None:
-        """Zoom to the selection."""
+        """Zoom the time axis to the span of everything selected."""
         span = selected_span(self.session)
         if span is not None:
             air = max(span[1] - span[0], 0.2) * SELECTION_AIR
@@ -256,7 +256,7 @@ class TimelinePanel(Retranslated, QWidget):
         return self.lane_layout.is_open(lane_id)
 
     def open_lane(self, lane_id: str, is_open: bool) -> None:
-        """Show and unfold a lane, or fold it."""
+        """Show and unfold the lane with an id, or fold it."""
         self.lane_layout.open_lane(lane_id, is_open)
 
     def offer_fingerings(self, player_id: str, note_id: str, why: Message) -> None:
@@ -274,7 +274,7 @@ class TimelinePanel(Retranslated, QWidget):
         lane.alternates.show_for(player_id, event, place, sentence(why, self.session, player_id))
 
     def fold_lanes(self, folded: bool) -> None:
-        """Fold or unfold every lane."""
+        """Fold or unfold every lane of the timeline."""
         self.lane_layout.fold_all(folded)
 
     def save_state(self) -> str:

@@ -48,7 +48,7 @@ class PlayerSession:
         return self._player_id
 
     def show(self, player_id: str) -> None:
-        """Show another player."""
+        """Display another player in the panels that use this session."""
         if player_id != self._player_id:
             self._player_id = player_id
             self.players_changed.emit()
@@ -63,7 +63,7 @@ class PlayerSession:
 
     @property
     def players(self) -> tuple[str, ...]:
-        """The displayed player, and the other selected ones."""
+        """Ids of the displayed player, then of the others selected."""
         others = (id for id in self._session.players if id != self._player_id)
         return (self._player_id, *others) if self._player_id else ()
 

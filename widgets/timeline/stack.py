@@ -122,7 +122,7 @@ class LaneStack(QScrollArea):
 
     @property
     def lanes(self) -> tuple[Lane, ...]:
-        """All lanes from the top, including hidden ones."""
+        """All lanes from top to bottom, including hidden ones."""
         return tuple(self._order)
 
     @property

@@ -132,7 +132,7 @@ class PlayerLanes(QObject):
 
     @property
     def roll(self) -> PianoRoll:
-        """The piano roll of the player."""
+        """The piano roll among the lanes of the player."""
         roll = self.lanes[PianoRoll.id]
         assert isinstance(roll, PianoRoll)
         return roll
@@ -221,7 +221,7 @@ class StackedPlayers(Retranslated, QWidget):
 
     @property
     def shown(self) -> tuple[PlayerLanes, ...]:
-        """The players' lanes, from the top."""
+        """The visible players' lanes, from top to bottom."""
         return tuple(self._places[: len(self._ids)])
 
     @property

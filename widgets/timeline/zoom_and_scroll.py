@@ -38,7 +38,7 @@ class WheelTurn(NamedTuple):
 
 
 def wheel_turn(event: QWheelEvent) -> WheelTurn:
-    """Read a turn of the wheel."""
+    """Return direction, notches and modifier keys of a turn of the mouse wheel."""
     delta, keys = event.angleDelta(), event.modifiers()
     # With Alt held, some platforms turn the wheel sideways.
     sideways = not delta.y() and not keys & Qt.KeyboardModifier.AltModifier
@@ -83,7 +83,7 @@ class TimeAxis(QObject):
 
     @property
     def limits_s(self) -> tuple[float, float]:
-        """Range that can be scrolled to."""
+        """First and last second that can be scrolled to."""
         return self._view.limits_s
 
     @property
@@ -101,11 +101,11 @@ class TimeAxis(QObject):
     @overload
     def x_px(self, seconds: FloatArray) -> FloatArray: ...
     def x_px(self, seconds: float | FloatArray) -> float | FloatArray:
-        """Convert times to pixels; numbers or arrays of any shape."""
+        """Convert seconds to x pixels of the axis; numbers or arrays of any shape."""
         return self._view.x_px(seconds)
 
     def seconds(self, x_px: float) -> float:
-        """The time at a place."""
+        """Return the time in seconds at an x position of the axis."""
         return self._view.seconds(x_px)
 
     def lines(self, score: Score, grid: Grid) -> Lines:
@@ -124,11 +124,11 @@ class TimeAxis(QObject):
         self._become(self._view.widened(width_px))
 
     def show(self, start_s: float, end_s: float) -> None:
-        """Show a range within the limits."""
+        """Show a range of seconds, within the limits of zoom and scrolling."""
         self._become(self._view.showing(start_s, end_s))
 
     def fit(self) -> None:
-        """Show the whole piece."""
+        """Zoom the time axis out to the whole piece."""
         self._become(self._view.showing(*self._whole_s))
 
     def zoom(self, factor: float, at_s: float) -> None:
@@ -144,7 +144,7 @@ class TimeAxis(QObject):
         self.pan(-by_px / self.px_per_s)
 
     def turn_wheel(self, turn: WheelTurn, x_px: float) -> None:
-        """Scroll, or with Ctrl zoom about a place."""
+        """Scroll in time by a turn of the wheel, or with Ctrl zoom about the position ``x_px``."""
         if turn.with_ctrl:
             self.zoom(ZOOM_A_NOTCH**turn.notches, self.seconds(x_px))
         else:

@@ -51,7 +51,7 @@ _SPACING_PX = 3
 
 
 class TransportBar(Retranslated, QWidget):
-    """The bar below the menu bar.
+    """Transport bar below the menu bar: playing, position, tempo and snapping.
 
     Parameters
     ----------

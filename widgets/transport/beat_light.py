@@ -29,7 +29,7 @@ class BeatLight(QWidget):
         session.theme_changed.connect(self.update)
 
     def show_time(self, playhead_s: float) -> None:
-        """Set the performance time in seconds."""
+        """Light up the beat at the playhead's time in seconds."""
         state = self._at(playhead_s)
         if state != self.state:
             self.state = state

@@ -56,7 +56,7 @@ class ClockField(NumberSlider):
 
 
 class FramesField(NumberSlider):
-    """The frame of the playhead."""
+    """Field that shows and sets the playhead's position as a frame number."""
 
     def __init__(self, session: Session) -> None:
         super().__init__(session, -1e7, 1e8, default=0.0, step=1.0, decimals=0, slides=False)

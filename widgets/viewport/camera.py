@@ -46,7 +46,7 @@ class Camera:
 
     @property
     def eye_m(self) -> FloatArray:
-        """Position of the camera (3,)."""
+        """Position (3,) of the camera in the world, metres."""
         return np.asarray(self.target_m) + self.distance_m * self.backward
 
     @property
@@ -82,7 +82,7 @@ class Camera:
         return self.distance_m + 80.0
 
     def view(self) -> FloatArray:
-        """Return ``eye_from_world`` (4, 4)."""
+        """Return the matrix ``eye_from_world`` (4, 4)."""
         rotation = np.stack([self.right, self.up, self.backward])
         matrix = np.eye(4)
         matrix[:3, :3] = rotation
@@ -103,7 +103,7 @@ class Camera:
         )
 
     def clip_from_world(self, aspect: float) -> FloatArray:
-        """Projection times view (4, 4)."""
+        """Return projection times view as a matrix (4, 4) for a picture of the given aspect (width / height)."""
         return self.projection(aspect) @ self.view()
 
     def pixels_per_metre(self, height_px: float, distance_m: float | None = None) -> float:
@@ -126,7 +126,7 @@ class Camera:
         return pixels, depth
 
     def ray(self, x_px: float, y_px: float, width_px: float, height_px: float) -> tuple[FloatArray, FloatArray]:
-        """Origin and unit direction of the line of sight through a pixel."""
+        """Return origin (metres) and unit direction (3,) in the world of the line of sight through a pixel."""
         scale = math.tan(math.radians(self.fov_deg) / 2.0) / (0.5 * height_px)
         direction = -self.backward + scale * ((x_px - 0.5 * width_px) * self.right + (0.5 * height_px - y_px) * self.up)
         return self.eye_m, direction / np.linalg.norm(direction)
@@ -224,5 +224,5 @@ def _wrapped(angle_rad: float) -> float:
 
 
 def triple(vector: FloatArray) -> tuple[float, float, float]:
-    """A vector as plain numbers."""
+    """Convert a vector (3,) to a tuple of Python floats."""
     return float(vector[0]), float(vector[1]), float(vector[2])

@@ -35,7 +35,7 @@ def bookmark_of(eye: Eye, name: str, player_id: str) -> CameraBookmark:
 
 
 def camera_of(bookmark: CameraBookmark) -> Camera:
-    """The camera of a bookmark."""
+    """Return the camera that a bookmark stores."""
     return Camera(bookmark.target_m, bookmark.yaw_rad, bookmark.pitch_rad, bookmark.distance_m, bookmark.fov_deg)
 
 
@@ -94,5 +94,5 @@ class BookmarkedCamera:
             self._session.viewport.set_view(bookmark.view)
 
     def ask_name(self, bookmark: CameraBookmark) -> None:
-        """Type another name over the picture."""
+        """Open a field over the picture for another name of the bookmark."""
         self._header.ask_name(bookmark)

@@ -55,11 +55,11 @@ class Eye:
 
     @property
     def flying(self) -> bool:
-        """True during a flight."""
+        """True while the camera moves to a new view."""
         return self._flight is not None
 
     def choose(self, view: View) -> None:
-        """Set the view."""
+        """Choose a named view (such as the front) for the camera, and forget the user's own moves and shift."""
         self.view, self.touched, self._framed = view, False, None
         self._shift_m = np.zeros(3)
 
@@ -68,7 +68,7 @@ class Eye:
         self.touched, self._shift_m = True, shift_m
 
     def jump(self, camera: Camera) -> None:
-        """Set the camera without a flight."""
+        """Set the camera at once, without moving there smoothly."""
         self.camera, self._flight, self._framed = camera, None, None
 
     def fly(self, camera: Camera, now_s: float) -> None:
@@ -88,7 +88,7 @@ class Eye:
         return True
 
     def centred(self, middle_m: FloatArray) -> FloatArray:
-        """Return the target for a followed point, with the user's shift."""
+        """Return the point (3,) that the camera looks at: a followed point moved as the user has shifted the view."""
         shifted: FloatArray = middle_m + self._shift_m
         return shifted
 

@@ -103,7 +103,7 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         return perf_counter() - self._drawn_s
 
     def draw_now(self) -> None:
-        """Draw immediately."""
+        """Draw the picture immediately instead of with the next repaint."""
         self.native.repaint()
 
     def _draw(self, width: int, height: int) -> None:
@@ -149,7 +149,7 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
 
 
 def pixels(image: QImage) -> npt.NDArray[np.uint8]:
-    """An RGBA8888 picture as (height, width, 4)."""
+    """Return an RGBA8888 picture as an array (height, width, 4)."""
     rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
     return rows[:, : 4 * image.width()].reshape(image.height(), image.width(), 4).copy()
 

@@ -107,12 +107,13 @@ def dancer_kit(dancer: Dancer) -> RenderAssets:
 
 
 def dancing_member(dancer: Dancer, assets: RenderAssets) -> Member:
-    """A dancer at their place."""
+    """Describe a dancer at the place on stage as a member of the stage to be drawn."""
     return Member(dancer.id, assets, placed(dancer.stage), None, dancer.id, dances_on_foot=True)
 
 
 def stand_of(player: Player, assets: RenderAssets, number: int) -> FloatArray | None:
-    """Return the top of the stand for one of a musician's instruments, counted from 0; None while unknown."""
+    """Return the position (3,) of the top of the stand on which an unused instrument lies, in the player's frame;
+    ``number`` counts the musician's instruments from 0. None while unknown."""
     found = lies_at(player, find_map(player.instrument_id), number)
     if found is None:
         return None
@@ -151,7 +152,7 @@ def placed(stage: StagePosition) -> FloatArray:
 
 
 def seat(skeleton: Skeleton, posture: Posture) -> FloatArray | None:
-    """Return the middle of a seat's top in a posture; None if standing."""
+    """Return the middle (3,) of the top of the seat in a posture, in the player's frame; None if standing."""
     if posture.seat_height_shank <= 0.0:
         return None
     rest = rest_positions(skeleton)
@@ -190,7 +191,8 @@ class SkeletonBatch:
         self._bind = np.array([character.joint_from_mesh for character in characters])
 
     def joints(self, rotations: FloatArray, hips_m: FloatArray) -> FloatArray:
-        """``world_from_joint`` (P, J, 3, 4) of joints' rotations (P, J, 4) and places of the hips (P, 3)."""
+        """Return the transforms ``world_from_joint`` (P, J, 3, 4) of J joints of P performers from their rotations (P,
+        J, 4) and the places of the hips (P, 3)."""
         local = np.empty((*rotations.shape[:2], 3, 4))
         local[..., :3] = quaternion.to_matrix(rotations[:, self._order])
         local[..., 3] = self._offsets_m
@@ -204,7 +206,8 @@ class SkeletonBatch:
         return world[:, self._back]
 
     def skinning(self, joints: FloatArray) -> FloatArray:
-        """``world_from_mesh`` (P, J, 3, 4) of joints' transforms."""
+        """Return the matrices (P, J, 3, 4) that move the mesh of P performers with their J joints:
+        ``world_from_mesh``."""
         matrices: FloatArray = joints @ self._bind
         return matrices
 
@@ -275,7 +278,7 @@ class Stage:
 
     @staticmethod
     def _of_musician(members: Sequence[Member], musician_id: str) -> list[int]:
-        """Rows of everything a musician plays."""
+        """Return the rows of the stage that belong to a musician: the body and every instrument."""
         return [row for row, member in enumerate(members) if member.musician_id == musician_id]
 
     def pose(self, poses: Mapping[str, Pose | None]) -> bool:
@@ -344,7 +347,7 @@ class Stage:
         return [row for row in rows if row is not None]
 
     def joint_m(self, row: int, name: str) -> FloatArray:
-        """Position of a joint (3,)."""
+        """Position (3,) of a joint of the member ``row`` in the world, metres."""
         skeleton = self.members[row].assets.character.skeleton
         place: FloatArray = self.joints[row, skeleton.index(name), :, 3]
         return place

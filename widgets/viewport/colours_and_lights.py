@@ -16,7 +16,7 @@ Color = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class ViewportLook:
-    """Colours 0..1 in display values (backdrop, floor, lines), and lights in linear units."""
+    """Colours of the 3D view, 0..1 in display values (backdrop, floor, lines), and its lights in linear units."""
 
     top: Color
     horizon: Color
@@ -52,7 +52,7 @@ class Emphasis:
 
 
 def direction(x: float, y: float, z: float) -> Color:
-    """Return a unit vector."""
+    """Scale a vector to length 1."""
     length = float(np.linalg.norm((x, y, z)))
     return x / length, y / length, z / length
 
@@ -62,7 +62,7 @@ KEY = direction(-0.55, 1.0, 0.72)
 
 
 def rgb(text: str) -> Color:
-    """Return ``#rrggbb`` as values 0..1."""
+    """Convert a colour ``#rrggbb`` to red, green and blue 0..1."""
     return int(text[1:3], 16) / 255.0, int(text[3:5], 16) / 255.0, int(text[5:7], 16) / 255.0
 
 
@@ -82,7 +82,7 @@ def is_dark(tokens: Tokens) -> bool:
 
 @lru_cache(maxsize=4)
 def look_of(tokens: Tokens) -> ViewportLook:
-    """The picture in a theme."""
+    """Return colours and lights of the 3D view for a theme."""
     surface, sunken, raised = rgb(tokens.surface), rgb(tokens.sunken), rgb(tokens.raised)
     text, accent = rgb(tokens.text), rgb(tokens.accent)
     if is_dark(tokens):

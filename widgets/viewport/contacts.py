@@ -38,7 +38,7 @@ class ContactReading:
 
     @property
     def finger(self) -> str:
-        """Return ``"left.index"`` for ``"left.index.pad"``."""
+        """Hand and finger of the touching part: ``"left.index"`` for ``"left.index.pad"``."""
         return self.part.rpartition(".")[0]
 
     @property

@@ -100,7 +100,8 @@ def _moving(instrument: InstrumentMap) -> list[str]:
 
 
 def _moving_fingers(stage: Stage, row: int) -> tuple[FloatArray, FloatArray]:
-    """Return wrists (F, 3) and joints (F, 3, 3) of the playing fingers."""
+    """Return for the playing fingers of a player the wrists (fingers, 3) and the joints (fingers, 3, 3) in the world,
+    metres."""
     names = _moving(stage.members[row].assets.map)
     wrists = [f"{hand}Hand" for name in names for hand in _HANDS if name.startswith(hand)]
     joints_m = np.array([[stage.joint_m(row, f"{name}{bone}") for bone in _BONES] for name in names])
@@ -108,7 +109,8 @@ def _moving_fingers(stage: Stage, row: int) -> tuple[FloatArray, FloatArray]:
 
 
 def _past_instrument(stage: Stage, row: int, points_m: FloatArray, towards: FloatArray) -> FloatArray:
-    """Return whether points (P, 3) are visible past the instrument from each direction: (D, P), 0 or 1."""
+    """Return for D directions and P points (P, 3) whether each point is visible past the instrument from there: (D, P),
+    0 or 1."""
     lines = points_m.mean(axis=0) + _EYE_M * towards[:, None] - points_m
     steps = np.arange(_SKIN_M, _EYE_M, _STEP_M)
     on_line = points_m[:, None] + _unit(lines)[:, :, None] * steps[:, None]
@@ -129,7 +131,8 @@ def _unit(vectors: FloatArray) -> FloatArray:
 
 
 def _towards(towards_deg: Sequence[Direction], turn_rad: float) -> FloatArray:
-    """Unit vectors (D, 3) to the eye."""
+    """Return unit vectors (D, 3) towards the viewer for D directions (yaw, pitch) in degrees, turned with the
+    player."""
     yaw, pitch = np.radians(np.array(towards_deg, np.float64)).T
     yaw = yaw + turn_rad
     return np.stack([np.cos(pitch) * np.sin(yaw), np.sin(pitch), np.cos(pitch) * np.cos(yaw)], axis=1)

@@ -160,7 +160,8 @@ def in_the_way(view: View, stage: Stage, rows: Sequence[int], camera: Camera) ->
 
 
 def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
-    """The box around players with their instruments, from the floor up."""
+    """Least and greatest corner (3,), in the world in metres, of a box around players with their instruments, from the
+    floor up."""
     points = []
     for row in rows:
         assets = stage.members[row].assets
@@ -181,9 +182,8 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
 
 
 def _bust(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
-    """Return the box around players from the hips up, centred regardless of their arms; from the floor up if they
-    dance.
-    """
+    """Return least and greatest corner (3,) of a box around players from the hips up, centred regardless of their arms;
+    from the floor up if they dance."""
     low, high = bounds(stage, rows)
     if any(stage.members[row].assets.held is None for row in rows):
         return low, high
@@ -198,13 +198,13 @@ def _bust(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
 
 
 def turn_rad(stage: Stage, row: int) -> float:
-    """Direction a player faces, from +Z towards +X."""
+    """Return the direction in which a player faces, radians from +Z towards +X."""
     forward = front_direction(stage, row)
     return math.atan2(forward[0], forward[2])
 
 
 def front_direction(stage: Stage, row: int) -> FloatArray:
-    """The player's front, a unit vector."""
+    """Horizontal unit vector (3,) in the world to which a player faces."""
     return stage.members[row].world_from_player[:, 2]
 
 

@@ -88,7 +88,7 @@ def supports_geometry(supports: Supports, first_bone: int) -> Geometry:
 
 
 def _moving_with(geometry: Geometry, first_bone: int) -> Geometry:
-    """Return a geometry with its bone indices increased."""
+    """Return a geometry with its bone indices increased by ``first_bone``, for the shared table of all bones."""
     surfaces = geometry.surfaces.copy()
     surfaces["a_bones"] += first_bone * (surfaces["a_weights"] > 0.0)
     return replace(geometry, surfaces=surfaces)
@@ -136,14 +136,15 @@ def crowd(parts: Sequence[tuple[int, Geometry]]) -> Crowd:
 
 
 def crowd_edges(parts: Sequence[tuple[int, Geometry]]) -> npt.NDArray[np.uint32]:
-    """Return every edge of a crowd's parts once (E, 2); edges of repeated geometries are computed once."""
+    """Return the E edges (E, 2) of all parts of a crowd as vertex indices, each once; edges of repeated geometries are
+    computed once."""
     known = {id(part): edges(part) for part in {id(part): part for _, part in parts}.values()}
     starts = np.cumsum([0, *(len(part.shape) for _, part in parts)])
     return np.concatenate([known[id(part)] + np.uint32(start) for (_, part), start in zip(parts, starts, strict=False)])
 
 
 def edges(geometry: Geometry) -> npt.NDArray[np.uint32]:
-    """Every edge between two vertices once (E, 2)."""
+    """Return the E edges (E, 2) between two vertices, each once."""
     triangles = geometry.triangles.astype(np.int64)
     pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     count = len(geometry.shape)
@@ -288,7 +289,8 @@ class _Whole:
         return Geometry(shape, surfaces, corners, int((~last).sum()), face, surface_of, self._uvs[order], groups)
 
     def _surfaces(self, order: IntArray) -> tuple[npt.NDArray[np.void], npt.NDArray[np.uint16] | None]:
-        """`Geometry.surfaces` of some vertices, and `Geometry.surface_of`."""
+        """Return the surfaces (colour, texture and the like) of the vertices in ``order``, as in `Geometry.surfaces`;
+        where vertices share them, each once, with the row for every vertex."""
         if self._bends:
             return self._surface[order], None
         rows = numbers(self._surface)[order]
@@ -309,9 +311,8 @@ class _Whole:
         return MorphTargets(count, names, tuple(targets), rest)
 
     def _clustered(self, cell_m: float, thin_share: float) -> tuple[IntArray, IntArray]:
-        """Return the kept vertices and the triangles between them: the first vertex in each cell and surface is
-        kept.
-        """
+        """Return the kept vertices (K,) and the triangles between them (T, 3) of a coarser mesh: the first vertex in
+        each cell and surface is kept. ``cell_m`` 0 keeps all."""
         if cell_m <= 0.0:
             return np.arange(len(self._shape)), self._triangles
         wide = np.maximum(np.minimum(cell_m * self._coarser, thin_share * self._thickness), LEAST_CELL_M)[:, None]
@@ -328,7 +329,7 @@ class _Whole:
         return np.unique(triangles), triangles
 
     def _all_morphs(self) -> dict[str, tuple[IntArray, SingleArray, SingleArray]]:
-        """Every morph over all meshes: vertices, displacements, and changes of their normals."""
+        """Return every morph over all meshes by name: vertex indices, displacements, and changes of the normals."""
         names = list(dict.fromkeys(morph.name for split in self._splits for morph in split.mesh.morphs))
         result: dict[str, tuple[IntArray, SingleArray, SingleArray]] = {}
         welds = {index: Weld(split) for index, split in enumerate(self._splits) if split.mesh.morphs}
@@ -357,12 +358,12 @@ def _is_plain(mesh: Mesh) -> bool:
 
 
 def _thickness_m(mesh: Mesh) -> float:
-    """The smallest side of a mesh's box."""
+    """Return the smallest side of the box around a mesh, in metres."""
     return float((mesh.positions_m.max(axis=0) - mesh.positions_m.min(axis=0)).min())
 
 
 def _strongest(joints: npt.NDArray[np.int32], weights: SingleArray) -> tuple[npt.NDArray[np.int32], SingleArray]:
-    """The few strongest bones of every vertex, their weights summing to 1."""
+    """Return the `BONES_PER_VERTEX` strongest joints of every vertex (V, K) with their weights, which sum to 1."""
     if joints.shape[1] > BONES_PER_VERTEX:
         order = np.argsort(-weights, axis=1, kind="stable")[:, :BONES_PER_VERTEX]
         joints, weights = np.take_along_axis(joints, order, 1), np.take_along_axis(weights, order, 1)

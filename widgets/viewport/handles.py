@@ -53,7 +53,7 @@ class Handle:
 
 
 def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
-    """The handles of a player in the present pose."""
+    """The handles by which the present pose of the player ``row`` can be dragged; none if hidden."""
     if not stage.shown[row]:
         return ()
     frame = stage.members[row].world_from_player
@@ -87,7 +87,8 @@ def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
 
 
 def _turns(arm_m: FloatArray, **axes: FloatArray) -> tuple[tuple[Angle, FloatArray], ...]:
-    """Return the motion of an arm's end for rotations about axes through its other end."""
+    """Return for each named angle the motion (3,) of an arm's end, metres per radian, when it turns about the angle's
+    axis through its other end."""
     return tuple((cast(Angle, angle), np.cross(axis, arm_m)) for angle, axis in axes.items())
 
 
@@ -105,7 +106,7 @@ def _elbow(stage: Stage, row: int, target: PoseTarget, outwards: FloatArray, up:
 
 @lru_cache(maxsize=64)
 def _bell(model: InstrumentModel) -> FloatArray:
-    """Return the far end of the instrument's fixed part in its frame: usually the middle of the bell."""
+    """Return the far end (3,) of the instrument's fixed part in its own frame: usually the middle of the bell."""
     root = model.node_names.index(ROOT)
     places = np.concatenate([mesh.positions_m[mesh.joints[:, 0] == root] for mesh in model.meshes])
     far = places[:, 2] > places[:, 2].max() - 0.01
@@ -116,7 +117,8 @@ def _bell(model: InstrumentModel) -> FloatArray:
 def dragged(
     handle: Handle, camera: Camera, right_px: float, down_px: float, height_px: float, lean: bool
 ) -> dict[Angle, float]:
-    """Return the angles in degrees for a drag in the picture.
+    """Return the change of each joint angle, degrees, when a handle is dragged by ``right_px`` and ``down_px`` in a
+    picture ``height_px`` high; ``lean`` (Alt) changes the angles in `Handle.leans`, if any.
 
     The handle follows the pointer as well as its rotations allow: least squares in the picture, excluding rotations
     towards the viewer.
@@ -144,7 +146,7 @@ def dragged(
 
 @dataclass(frozen=True)
 class CorrectionSpan:
-    """Span of a correction in ticks, with its fades."""
+    """Span in ticks in which a pose correction holds, with the length of its fades."""
 
     start_tick: int
     end_tick: int
@@ -216,7 +218,7 @@ def with_correction(project: Project, player_id: str, before: PoseCorrection, af
 
 
 def without_corrections(project: Project, player_id: str, corrections: Sequence[Correction]) -> Project:
-    """The project without some pose corrections."""
+    """Return the project without the given pose corrections of a player."""
     return edit.take_back(project, player_id, corrections)
 
 

@@ -126,7 +126,7 @@ class ViewportHeader(Retranslated, QWidget):
         self._folded.hide()
 
     def _add_shown(self) -> dict[Shown, QAction]:
-        """Add the menu of the additional display options."""
+        """Add a menu of additional things to display, and return its actions."""
         menu = named(QMenu(self), "viewport_show_menu")
         self._show.setMenu(menu)
         self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
@@ -180,7 +180,7 @@ class ViewportHeader(Retranslated, QWidget):
         field.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _typed(self, before: str) -> None:
-        """Set the typed name."""
+        """Rename the camera bookmark ``before`` to the typed name."""
         field = self._name
         if field is None:
             return
@@ -203,7 +203,7 @@ class ViewportHeader(Retranslated, QWidget):
         self._fold()
 
     def refresh(self) -> None:
-        """Update the checked states."""
+        """Check the buttons and menu rows as the state of the 3D view requires."""
         state = self._session.viewport
         self._views[state.view].setChecked(True)
         self._view_rows[state.view].setChecked(True)
@@ -252,7 +252,7 @@ class ViewportHeader(Retranslated, QWidget):
 
     @property
     def _others(self) -> tuple[QToolButton, ...]:
-        """Return the buttons that are always visible."""
+        """Buttons that stay visible when the header is narrow."""
         return self._cameras, self._pose, self._frame, self._show, self._full
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
@@ -274,6 +274,6 @@ class ViewportHeader(Retranslated, QWidget):
         super().showEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Fold or unfold the views."""
+        """Fold the buttons of the views into a menu when the header becomes too narrow, and unfold them again."""
         super().resizeEvent(event)
         self._fold()

@@ -38,7 +38,8 @@ SHADING, HELD = len(_BONES), len(_BONES) + 2
 
 @dataclass(frozen=True, eq=False)
 class _Anatomy:
-    """Joints of a character's capsules, positions in their frames, and radii: (L, 2), (L, 2, 3), (L,)."""
+    """The L capsules that stand for a character's limbs: their joints (L, 2), the ends' positions in the joints' frames
+    (L, 2, 3), and radii (L,)."""
 
     joints: IndexArray
     offsets_m: FloatArray
@@ -140,7 +141,8 @@ class LimbCapsules:
 
 
 def hit(capsules: FloatArray, origin: FloatArray, direction: FloatArray) -> tuple[int, float] | None:
-    """Return the first row of capsules (N, L, 2, 4) that a ray hits, with the distance; None if there is none."""
+    """Return the first of N bodies of L capsules (N, L, 2, 4: two ends with radius) that a ray hits, with the distance;
+    None if there is none."""
     if not capsules.size:
         return None
     a, b = capsules[..., 0, :3], capsules[..., 1, :3]

@@ -70,5 +70,5 @@ class Weld:
         return total[self._whole]
 
     def turned(self, moves: SingleArray) -> SingleArray:
-        """Change of the normals under displacements (V, 3)."""
+        """Return the change (V, 3) of the normals of V vertices under displacements (V, 3)."""
         return (self._normals(self._positions + moves) - self._rest).astype(np.float32)

@@ -85,7 +85,7 @@ class Offscreen:
         return stage is not None and bool(stage.rows(player_ids) if player_ids else stage.members)
 
     def close(self) -> None:
-        """Free the viewport."""
+        """Close the 3D view and free its graphics memory."""
         self._panel.close()
         self._panel.deleteLater()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
@@ -168,7 +168,7 @@ class _MadePoses:
         self._live, self._stop_requested, self._posed = live, stop_requested, posed
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
-        """See `app.editor.poses.PoseSource.poses`."""
+        """Return the pose of each player at a time, computed already (see `app.editor.poses.PoseSource.poses`)."""
         poses = self._live.poses(player_ids, time_s)
         return [self._seen(*one, time_s) for one in zip(player_ids, poses, strict=True)]
 
@@ -176,7 +176,7 @@ class _MadePoses:
         return pose if pose is None or self._posed is None else self._posed(player_id, time_s, pose)
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """See `app.editor.poses.PoseSource.pose_now`. Raises Cancelled."""
+        """Return a player's pose at a time, waiting until it is computed. Raises Cancelled if stopped."""
         live = self._live
         live.request(time_s, 0.0)
         while not live.is_seen:

@@ -34,7 +34,7 @@ CLOSE_MM, NEAR_MM = 2.0, 4.0
 
 @dataclass(frozen=True, eq=False)
 class NameTag:
-    """A player's name over the head."""
+    """A player's name to be painted over the head."""
 
     text: str
     color: str
@@ -45,7 +45,7 @@ class NameTag:
 
 @dataclass(frozen=True, eq=False)
 class OverlayMarks:
-    """Everything that is painted over the picture."""
+    """Names, skeletons, contact points and handles to be painted over the 3D picture."""
 
     names: Sequence[NameTag] = ()
     skeletons: Sequence[tuple[int, str]] = ()
@@ -79,7 +79,7 @@ def paint(
 
 
 def over_heads_m(stage: Stage, rows: Sequence[int], upwards: FloatArray) -> FloatArray:
-    """A little over players' heads (R, 3), over meaning upwards in the picture."""
+    """Return points (R, 3) a little above the heads of R players, where above is upwards in the picture."""
     heads = stage.joints[rows, stage.heads[rows]]
     places_m: FloatArray = heads[..., :3] @ CROWN_M + heads[..., 3] + NAME_UP_M * upwards
     return places_m
@@ -126,7 +126,7 @@ def _paint_touches(
     tokens: Tokens,
     names: Sequence[QRectF],
 ) -> None:
-    """Paint contact points with their distances, without overlapping names."""
+    """Paint contact points of fingers with their distances from where they should be, without overlapping names."""
     requested, depths = camera.project(np.array([touch.requested_m for touch in touches]), *size)
     found, _ = camera.project(np.array([touch.found_m for touch in touches]), *size)
     font = _font(painter, 9.0)
@@ -201,9 +201,8 @@ def _paint_handles(
 
 
 def clear_of(box: QRectF, at: QPointF, taken: Sequence[QRectF], size: tuple[float, float]) -> QRectF:
-    """Return a rectangle placed beside a handle within the picture with the least overlap: preferably above it, else
-    below, beside, or some heights farther.
-    """
+    """Return the rectangle ``box`` placed beside a handle at ``at``, inside the picture and with the least overlap with
+    ``taken``: preferably above, else below, beside, or farther away."""
     far = HANDLE_RADIUS_PX + 4.0
     picture = QRectF(0.0, 0.0, *size)
     best, least = box, float("inf")
@@ -225,7 +224,7 @@ def _area(box: QRectF) -> float:
 
 
 def faces(stage: Stage, camera: Camera, size: tuple[float, float]) -> list[QRectF]:
-    """Squares around the heads of everyone in sight."""
+    """Return squares in pixels around the heads of all visible performers, which labels should not cover."""
     rows = [row for row in np.flatnonzero(stage.shown) if stage.members[row].has_body]
     if not rows:
         return []
@@ -242,7 +241,8 @@ def faces(stage: Stage, camera: Camera, size: tuple[float, float]) -> list[QRect
 def _placed_names(
     painter: QPainter, names: Sequence[NameTag], camera: Camera, size: tuple[float, float]
 ) -> list[tuple[NameTag, QRectF]]:
-    """Return the names to paint with their rectangles."""
+    """Return the name tags with room in the picture and their rectangles in pixels, nearest first; a tag that would
+    cover a nearer one is left out."""
     places, depths = camera.project(np.array([name.at_m for name in names]), *size)
     metrics = {bold: QFontMetricsF(_font(painter, 9.0, bold)) for bold in (False, True)}
     placed: list[tuple[NameTag, QRectF]] = []

@@ -39,13 +39,13 @@ class Layer(QWidget):
             self.update()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Keep the size of the widget below."""
+        """Keep the layer as large as the widget below it."""
         if event.type() == QEvent.Type.Resize:
             self.setGeometry(self._below.rect())
         return super().eventFilter(watched, event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the contents."""
+        """Paint the layer's contents over the widget below."""
         painter = QPainter(self)
         self._paint(painter, (float(self.width()), float(self.height())))
         painter.end()

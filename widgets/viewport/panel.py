@@ -182,7 +182,7 @@ class ViewportPanel(Retranslated, QWidget):
         return native
 
     def handle_places(self) -> dict[str, QPointF]:
-        """Places of the pose tool's handles in the picture."""
+        """Return the positions of the pose tool's handles in the picture in pixels, by handle."""
         widget, found = self.canvas_widget(), self.scene.handles()
         if widget is None or not found:
             return {}
@@ -227,7 +227,8 @@ class ViewportPanel(Retranslated, QWidget):
         self._update()
 
     def render_image(self, width: int, height: int, time_s: float, view: View | None = None) -> npt.NDArray[np.uint8]:
-        """Return a picture of a moment with the displayed names and marks: see `film`."""
+        """Return an image (height, width, 4) of the stage at ``time_s`` with the displayed names and marks, in the
+        present view unless another is given."""
         return self.film(width, height, (time_s, time_s), view, True)(time_s)
 
     def film(
@@ -395,7 +396,7 @@ class ViewportPanel(Retranslated, QWidget):
         return camera, look_of(session.tokens), emphasis
 
     def _paint(self, painter: QPainter, size: tuple[float, float]) -> None:
-        """Paint over the window's picture."""
+        """Paint names and marks over the picture, or a message instead; ``size`` is width and height in pixels."""
         message, stage = self.scene.message(), self.scene.stage
         if message:
             painter.setPen(QColor(self._session.tokens.text_dim))
@@ -428,7 +429,7 @@ class ViewportPanel(Retranslated, QWidget):
     # The camera
 
     def _tracked(self) -> FloatArray | None:
-        """Return the point that the view keeps in the middle."""
+        """Return the point (3,) in the world that the view keeps in the middle; None if it follows nothing."""
         stage, rows = self.scene.stage, self.scene.rows()
         return tracked(self._eye.view, stage, rows[0]) if stage is not None and rows else None
 
@@ -566,12 +567,12 @@ class ViewportPanel(Retranslated, QWidget):
             self._go(from_other_side(self._eye.destination, turn_rad(stage, rows[0]) if rows else 0.0))
 
     def _dolly(self, steps: float) -> None:
-        """Come nearer, or go away."""
+        """Move the camera towards its target, or away from it for negative ``steps``."""
         self._eye.touched = True
         self._go(dolly(self._eye.destination, steps))
 
     def _frame_asked(self, selected: bool) -> None:
-        """Frame players in the present direction."""
+        """Move the camera so that the players fill the picture, keeping its direction."""
         self._frame(self.scene.visible(selected))
 
     def _frame(self, rows: Sequence[int]) -> None:

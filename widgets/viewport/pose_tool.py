@@ -38,7 +38,7 @@ _NAMES: dict[PoseTarget, Message] = {
 
 @dataclass(eq=False)
 class _Drag:
-    """State of a drag: its start and its present result."""
+    """State of a pose handle that is being dragged: the project at its start, and the present result."""
 
     handle: Handle
     player_id: str
@@ -97,7 +97,8 @@ class PoseTool:
         return True
 
     def drag(self, camera: Camera, right_px: float, down_px: float, height_px: float, fine: bool, lean: bool) -> None:
-        """Continue the drag by some pixels."""
+        """Turn the dragged joints as the pointer moves on by ``right_px`` and ``down_px`` in a view ``height_px`` high;
+        ``fine`` slows it down, ``lean`` (Alt) changes the angles in `Handle.leans`."""
         drag = self._drag
         if drag is None:
             return

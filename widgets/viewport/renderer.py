@@ -265,7 +265,7 @@ class Renderer:
         gloo.set_state(blend=False)
 
     def _levels(self, stage: Stage, camera: Camera, matrix: FloatArray, height_px: float) -> IndexArray:
-        """The level of detail of everyone; -1: not in the picture."""
+        """The level of detail (N,) of everyone: 0 is the finest, -1 outside the picture."""
         middles = self._middles_m
         away = np.linalg.norm(middles - camera.eye_m, axis=1)
         scale = camera.pixels_per_metre(height_px, 1.0) / np.maximum(away - 0.35, 0.2)

@@ -79,11 +79,11 @@ class ViewportScene(QObject):
 
     @property
     def stage(self) -> Stage | None:
-        """The drawn stage."""
+        """The stage that is drawn at present; None while none is loaded."""
         return self._loaded.stage if self._loaded is not None else None
 
     def set_poses(self, poses: PoseSource) -> None:
-        """Set the source of poses."""
+        """Set the object from which the drawn poses come; live playing and previewed faces are added to it."""
         self._poses = WornFaces(self._session, LivePoses(self._session, poses))
 
     # Figures
@@ -160,14 +160,14 @@ class ViewportScene(QObject):
         self.take({player_id: self._poses.pose_now(player_id, time_s) for player_id in asked})
 
     def poses(self) -> dict[str, Pose | None]:
-        """Everyone's pose of now."""
+        """The poses drawn at present by player id; None while one is being computed."""
         stage = self.stage
         if stage is None:
             return {}
         return {member.player_id: pose for member, pose in zip(stage.members, stage.poses, strict=True)}
 
     def take(self, poses: Mapping[str, Pose | None]) -> None:
-        """Set the poses of performers."""
+        """Draw the performers in the given poses, by player id."""
         stage = self.stage
         if stage is not None:
             before = int(stage.shown.sum())
@@ -183,7 +183,7 @@ class ViewportScene(QObject):
         return any(pose is not None and not same(pose, own) for pose, own in zip(found, shown.values(), strict=True))
 
     def lacks(self, time_s: float) -> bool:
-        """Return whether any pose is missing."""
+        """Return whether the pose of any performer at a time is not computed yet."""
         return any(pose is None for pose in self._poses.poses([one.player_id for one in self._members()], time_s))
 
     def _members(self) -> tuple[Member, ...]:
@@ -213,9 +213,8 @@ class ViewportScene(QObject):
         return found[0] if found is not None else None
 
     def rings(self, hovered: int | None = None) -> dict[int, Color]:
-        """Return the rings on the floor: for selected players and the selected dancer in their colours, and a faint one
-        for the row under the mouse.
-        """
+        """Return the colours of the rings on the floor, by row of the stage: around selected players and dancers, and a
+        faint one for the row under the mouse."""
         stage = self.stage
         if stage is None:
             return {}
@@ -227,7 +226,7 @@ class ViewportScene(QObject):
         return rings
 
     def podium(self) -> tuple[float, float, Color] | None:
-        """Return the conductor's place, and the colour that marks it."""
+        """Return X, Z (metres) and colour of the conductor's place; None if there is no conductor."""
         place = self._session.project.conducting
         return None if place is None else (place.x_m, place.z_m, rgb(self._session.tokens.text_dim))
 
@@ -241,12 +240,12 @@ class ViewportScene(QObject):
     # Marks and words
 
     def handles(self) -> tuple[Handle, ...]:
-        """Return the handles of the pose tool while it is active."""
+        """Return the handles of the first displayed player while the pose tool is active; otherwise none."""
         stage, rows = self.stage, self.rows()
         return handles(stage, rows[0]) if self._session.viewport.posing and stage is not None and rows else ()
 
     def marks(self, camera: Camera) -> OverlayMarks:
-        """Marks to paint over the picture."""
+        """Return names, contact points and handles to be painted over the picture."""
         stage, state, session = self.stage, self._session.viewport, self._session
         if stage is None:
             return OverlayMarks()

@@ -53,7 +53,7 @@ class MorphTargets:
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
-    """One level of detail of an object.
+    """Vertices and triangles of an object at one level of detail, as the graphics card receives them.
 
     Attributes
     ----------
@@ -89,12 +89,12 @@ class Geometry:
 
     @property
     def surface(self) -> npt.NDArray[np.void]:
-        """The surface of every vertex: (V,) SURFACE."""
+        """The surface of every vertex, (V,) records of type SURFACE."""
         if self.surface_of is None:
             return self.surfaces
         return numbers(self.surfaces).take(self.surface_of, axis=0).view(SURFACE).reshape(-1)
 
 
 def numbers(records: npt.NDArray[np.void]) -> SingleArray:
-    """Return records of float32 as rows sharing their memory."""
+    """Return records of 32-bit floats as rows (N, columns) that share their memory."""
     return records.view(np.float32).reshape(len(records), -1)

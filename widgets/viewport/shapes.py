@@ -121,14 +121,14 @@ class Solid:
 
     @property
     def shape(self) -> Any:
-        """The vertices at rest."""
+        """The vertices of the solid at rest, as a buffer of the graphics card."""
         if self._shape is None:
             self._shape = gloo.VertexBuffer(self.geometry.shape)
         return self._shape
 
     @property
     def edges(self) -> Any:
-        """The solid's edges, each once."""
+        """The edges of the solid as an index buffer, each once."""
         if self._edges is None:
             self._edges = gloo.IndexBuffer(edges(self.geometry))
         return self._edges

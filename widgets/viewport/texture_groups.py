@@ -13,7 +13,7 @@ from app.rig.mesh import Mesh
 
 
 def textured_looks(meshes: Sequence[Mesh]) -> tuple[Material, ...]:
-    """Return the textured materials of meshes, each once."""
+    """Return those materials of the meshes that have textures, each once."""
     materials = (material for mesh in meshes for material in mesh.materials)
     return tuple(dict.fromkeys(material for material in materials if material.textures.uses))
 

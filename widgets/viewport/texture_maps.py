@@ -44,7 +44,7 @@ class TextureMaps:
         self._bytes = 0
 
     def undress(self, program: Any) -> None:
-        """Set a program to vertex colours."""
+        """Set a shader program to draw in vertex colours, without textures."""
         program["u_textured"] = 0.0
         program["u_color_map"], program["u_surface_map"], program["u_normal_map"] = self._white, self._white, self._flat
 

@@ -122,7 +122,7 @@ class BesideVideo(QSplitter):
             self.setSizes([self.width() // 2] * 2)
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Divide the width when shown."""
+        """Divide the width between video and stage when first shown."""
         super().showEvent(event)
         self._share()
 
@@ -186,7 +186,7 @@ class VideoStrip(Retranslated, QWidget):
         self.refresh()
 
     def refresh(self, change: Change | None = None) -> None:
-        """Show the current state."""
+        """Show or hide the strip and update its picture, as the project's reference video requires."""
         video, state = self._session.project.video, self._session.video
         self.setVisible(video is not None and state.placement != "hidden")
         if video is None:

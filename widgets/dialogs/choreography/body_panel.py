@@ -131,7 +131,7 @@ class BodyPanel(Retranslated, QWidget):
         self._show_choice()
 
     def undo(self) -> None:
-        """Undo the last correction."""
+        """Undo the last correction of the mapping of bones."""
         if self._history.can_undo and self.isEnabled():
             self._history.undo()
             self.changed.emit()
@@ -163,7 +163,7 @@ class BodyPanel(Retranslated, QWidget):
     # Showing
 
     def show_pair(self, found: PairContents, history: DraftHistory) -> None:
-        """Show the body of a pair with corrections."""
+        """Show the skeleton of a pair's motion with the user's corrections, which can be undone."""
         before = self._skeleton
         self._found, self._history, self._skeleton = found, history, found.skeleton
         skeleton = found.skeleton

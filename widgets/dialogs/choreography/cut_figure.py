@@ -62,12 +62,12 @@ class PoseFigure(QWidget):
         return self._pose
 
     def show_pose(self, pose: FloatArray | None) -> None:
-        """Draw another pose, or none."""
+        """Draw a pose given by its points; None draws nothing."""
         self._pose = pose
         self.update()
 
     def _room(self) -> tuple[float, float]:
-        """Height of `HIGHEST`, and place of the floor, in pixels."""
+        """Height of a body of the size `HIGHEST`, and y of the floor, in pixels."""
         wide, high, points = _WIDEST, HIGHEST, self._points()
         if self._is_fitted and len(points):
             wide = max(_LEAST_WIDTH, 2.0 * float(np.abs(points[:, 0]).max()))
@@ -143,11 +143,11 @@ class SkeletonFigure(PoseFigure):
 
     @property
     def skeleton(self) -> SkeletonPose | None:
-        """The drawn skeleton."""
+        """The skeleton that is drawn; None before a motion is shown."""
         return self._skeleton
 
     def show_skeleton(self, skeleton: SkeletonPose | None) -> None:
-        """Draw another skeleton, or none."""
+        """Draw a skeleton in one frame; None draws nothing."""
         self._skeleton = skeleton
         self.update()
 

@@ -99,7 +99,7 @@ class CutPanel(Retranslated, QWidget):
         self.retranslate()
 
     def show_pair(self, draft: PairDraft, found: PairContents, history: CutHistory) -> None:
-        """Show the cuts of a pair."""
+        """Show motion, cuts and undo history of a pair of motion and music."""
         before, read, analysis = self._found, found.read, found.analysis
         self._draft, self._found, self._history = draft, found, history
         self.player.show_pair(draft, found)
@@ -146,7 +146,7 @@ class CutPanel(Retranslated, QWidget):
             self._point(frame)
 
     def _follow(self, time_s: float) -> None:
-        """Show the motion at the playhead."""
+        """Move the playhead of plot and figure to a time in seconds."""
         if self._found.analysis is not None:
             self.plot.show_playhead(time_s)
             self._point(self.plot.frame_of(time_s))

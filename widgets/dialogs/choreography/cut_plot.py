@@ -145,17 +145,17 @@ class CutPlot(QWidget):
 
     @property
     def cuts(self) -> Cuts:
-        """The displayed cuts."""
+        """The cuts of the motion that the plot displays."""
         return self._cuts
 
     @property
     def unfit(self) -> tuple[tuple[int, int], ...]:
-        """Shaded spans of frames that are not learned from."""
+        """Spans (start, stop) of frames that are not learned from, which the plot shades."""
         return self._unfit_spans
 
     @property
     def selected(self) -> CutLine | None:
-        """The selected line, which keys move."""
+        """The selected line of a cut, which the arrow keys move; None if none is."""
         return self._selected
 
     def show_motion(self, curve_rad_s2: FloatArray, fps: Fraction, start_s: float, hits_s: FloatArray) -> None:
@@ -188,17 +188,17 @@ class CutPlot(QWidget):
         self._unfit.setOpts(x0=starts, x1=stops, height=np.full(len(spans), self._top))
 
     def show_hits(self, hits_s: FloatArray) -> None:
-        """Show the music elsewhere."""
+        """Draw the hits of the music at other times (N,) in seconds."""
         self._hits_s = hits_s
         self._items["hits"].setData(*_uprights(hits_s, np.full(len(hits_s), _HITS_PART * self._top)))
 
     def show_playhead(self, time_s: float | None) -> None:
-        """Show the playhead; None to hide it."""
+        """Draw the playhead at a time in seconds; None hides it."""
         times_s = np.array([] if time_s is None else [time_s], np.float64)
         self._items["playhead"].setData(*_uprights(times_s, np.full(len(times_s), self._top)))
 
     def show_cuts(self, cuts: Cuts) -> None:
-        """Show other cuts of the motion."""
+        """Replace the cuts that the plot displays."""
         self._cuts = cuts
         if self._selected is not None and self._selected.number >= len(self._frames(self._selected.kind)):
             self._selected = None
@@ -221,7 +221,7 @@ class CutPlot(QWidget):
         return bounds(self._cuts) if kind == "bound" else tuple(cut.accent for cut in self._cuts)
 
     def fit(self) -> None:
-        """Show the whole motion."""
+        """Zoom the plot out to the whole motion."""
         self._look(self._start_s, self._start_s + max(LEAST_SPAN_S, (len(self._curve) - 1) / float(self._fps)))
 
     def zoom(self, factor: float, at_s: float) -> None:
@@ -248,7 +248,7 @@ class CutPlot(QWidget):
         return self._start_s + np.asarray(frames, np.float64) / float(self._fps)
 
     def x_px(self, frame: float) -> float:
-        """A frame's x in the plot's viewport."""
+        """Return the x position of a frame in pixels of the plot's viewport."""
         point = self.view.mapViewToScene(QPointF(float(self.time_s(frame)), 0.0))
         return float(self.plot.viewportTransform().map(point).x())
 
@@ -306,7 +306,7 @@ class CutPlot(QWidget):
             self.pointed.emit(self._frames(self._selected.kind)[self._selected.number])
 
     def add(self, frame: int) -> None:
-        """Cut at a frame."""
+        """Add a cut of the motion at a frame."""
         cuts = added_bound(self._cuts, frame, self._curve)
         if cuts != self._cuts:
             self._selected = CutLine("bound", bounds(cuts).index(frame))
@@ -468,5 +468,5 @@ class CutPlot(QWidget):
 
 
 def _uprights(times_s: FloatArray, heights: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """X and Y of upright lines, in pairs of a lower and an upper end."""
+    """Return X and Y (2 N,) of vertical lines from 0 to their heights, a lower and an upper end for each."""
     return np.repeat(times_s, 2), np.stack([np.zeros(len(heights)), heights], axis=1).ravel()

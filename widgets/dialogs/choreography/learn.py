@@ -168,12 +168,12 @@ class LearnDialog(WorkingDialog):
 
     @property
     def drafts(self) -> tuple[PairDraft, ...]:
-        """The filled-in fields of all pairs."""
+        """The entries of all pairs of motion and music to learn from."""
         return tuple(row.draft for row in self._rows)
 
     @property
     def _row(self) -> PairRow | None:
-        """Return the selected pair."""
+        """The row of the selected pair; None if none is."""
         item = self.list.currentItem()
         at = -1 if item is None else self.list.indexOfTopLevelItem(item)
         return self._rows[at] if 0 <= at < len(self._rows) else None
@@ -271,7 +271,7 @@ class LearnDialog(WorkingDialog):
     # Learning
 
     def start(self) -> None:
-        """Learn from the pairs."""
+        """Start learning a choreography from the listed pairs."""
         path = self._target
         if self._running or path is None or self._missing():
             return

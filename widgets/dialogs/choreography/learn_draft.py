@@ -47,12 +47,12 @@ class PairDraft(msgspec.Struct, frozen=True):
 
     @property
     def files(self) -> tuple[Path | None, Path | None, Path | None, Fraction | None, Mapping[str, str], str]:
-        """Return the fields whose change requires reading the files again."""
+        """Those fields of the pair whose change requires reading the files again."""
         return self.motion, self.music, self.credits, self.fps, self.joints, self.figure
 
 
 class PairContents(msgspec.Struct, frozen=True):
-    """Contents of a pair's files, or the error; the motion's skeleton is available with some errors too."""
+    """Motion and music read from the files of a pair, or the error; the skeleton is available with some errors too."""
 
     read: ReadPair | None = None
     analysis: Analysis | None = None

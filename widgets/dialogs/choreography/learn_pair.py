@@ -238,7 +238,7 @@ class _WholeLines(QScrollArea):
         self.setWidget(text)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Fit the text again."""
+        """Fit the text to the new width."""
         super().resizeEvent(event)
         self.fit()
 

@@ -22,7 +22,8 @@ from widgets.dialogs.progress_dialog import stopping
 
 @dataclass(frozen=True, eq=False)
 class LearnedChoreography:
-    """A learned and saved choreography with its pairs, and the accuracy with which music predicts its motion."""
+    """A choreography that was learned and saved, with its pairs, and the accuracy with which music predicts its
+    motion."""
 
     path: Path
     model: ChoreographyModel

@@ -53,7 +53,8 @@ class MotionModel(QAbstractListModel):
         self.sources = 0
 
     def show_motions(self, motions: Sequence[BasicMotion], used: Mapping[int, int], sources: int) -> None:
-        """Show basic motions, each as an item."""
+        """Replace the displayed basic motions; ``used`` counts the uses of each, ``sources`` is the number of motion
+        files."""
         self.beginResetModel()
         self.motions, self.used, self.sources = motions, used, sources
         self.endResetModel()

@@ -74,7 +74,7 @@ class PairPlayer(Retranslated, QWidget):
 
     @property
     def position_s(self) -> float:
-        """Time at the playhead."""
+        """Time in seconds at the playhead."""
         return self._playback.position_s()
 
     @property

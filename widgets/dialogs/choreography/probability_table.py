@@ -59,7 +59,7 @@ _NONE: Final = Side((), frozenset(), {})
 
 
 class _TableModel(QAbstractTableModel):
-    """Model of probabilities (R, C) with headings."""
+    """Model of a table of probabilities with R rows and C columns (R, C), with headings."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -136,7 +136,7 @@ class ProbabilityTable(QTableView):
         self.selectionModel().currentChanged.connect(self._point)
 
     def show_table(self, values: FloatArray, rows: Side, columns: Side, sentence: Callable[[int, int], str]) -> None:
-        """Show probabilities (R, C) with a sentence for each, keeping the current cell."""
+        """Show probabilities (R, C) of R rows and C columns with a sentence about each, keeping the current cell."""
         before = self.currentIndex()
         row, column = max(before.row(), 0), max(before.column(), 0)
         self.table.show_table(values, rows, columns, sentence)
@@ -155,7 +155,7 @@ class ProbabilityTable(QTableView):
 
 
 def _mixed(below: str, above: str, share: float) -> QColor:
-    """A share of a colour upon another."""
+    """Return the colour that results from painting ``above`` with the opacity ``share`` on ``below``."""
     one, other = QColor(below), QColor(above)
     red, green, blue = (
         below + (above - below) * share
@@ -165,19 +165,19 @@ def _mixed(below: str, above: str, share: float) -> QColor:
 
 
 def _legible(tokens: Tokens, ground: QColor) -> QColor:
-    """Return the text colour with the greater contrast."""
+    """Return the theme's text colour that contrasts more with a ground."""
     candidates = [QColor(tokens.text), QColor(tokens.accent_text)]
     return max(candidates, key=lambda colour: _contrast(colour, ground))
 
 
 def _contrast(one: QColor, other: QColor) -> float:
-    """WCAG 2.1 contrast ratio."""
+    """Return the contrast ratio of two colours as defined in WCAG 2.1, 1..21."""
     light, dark = sorted((_luminance(one), _luminance(other)), reverse=True)
     return (light + 0.05) / (dark + 0.05)
 
 
 def _luminance(colour: QColor) -> float:
-    """WCAG 2.1 relative luminance."""
+    """Return the relative luminance of a colour, 0..1, as defined in WCAG 2.1."""
     parts = [
         part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
         for part in (colour.redF(), colour.greenF(), colour.blueF())
@@ -240,7 +240,7 @@ class _Header(QHeaderView):
         return table.columns if self.orientation() == Qt.Orientation.Horizontal else table.rows
 
     def _fonts(self) -> tuple[QFont, QFont]:
-        """The fonts of names and of notes."""
+        """The fonts for names of motions (bold) and for the notes below them (small)."""
         bold, small = QFont(self._view.font()), QFont(self._view.font())
         bold.setBold(True)
         small.setPointSizeF(max(small.pointSizeF() - 0.5, LEAST_TEXT_PT))

@@ -315,6 +315,6 @@ def _percent(share: float) -> str:
 
 
 def _most(shares: FloatArray, names: list[str] | tuple[str, ...]) -> str:
-    """The most probable names with their shares."""
+    """Return the names with the largest shares and their percentages, such as "step (40 %)", separated by commas."""
     order = np.argsort(-shares, kind="stable")[:_MOST_NAMED]
     return ", ".join(f"{names[at]} ({100.0 * shares[at]:.0f} %)" for at in order.tolist())

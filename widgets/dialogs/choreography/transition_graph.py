@@ -71,7 +71,7 @@ class TransitionGraph(QWidget):
         self.update()
 
     def arrows(self) -> list[tuple[int, int]]:
-        """Return the learned transitions, the most probable last."""
+        """Return the learned transitions as (from, to) indices of basic motions, the most probable last."""
         if not len(self._transition):
             return []
         least = self._transition.min(axis=1, keepdims=True)

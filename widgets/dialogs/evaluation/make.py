@@ -165,7 +165,7 @@ class EvaluationDialog(WorkingDialog):
         in_column((Scrolled(choices), 1), self._under_way, self._progress, buttons, of=self)
 
     def start(self) -> None:
-        """Begin the evaluation."""
+        """Start making the evaluation with the chosen options."""
         if self._running or not self._start.isEnabled():
             return
         request, project, make = self.request(), self._session.project, self._make

@@ -116,7 +116,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
     # What is shown
 
     def add_files(self, paths: Sequence[Path]) -> None:
-        """Add viewers' files."""
+        """Add files with viewers' answers, each once, and evaluate all again."""
         self._files += [path for path in dict.fromkeys(paths) if path not in self._files]
         self._evaluate()
 
@@ -193,7 +193,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         self._tabs.setCurrentIndex(max(min(front, self._tabs.count() - 1), 0))
 
     def _said(self) -> str:
-        """The conclusions as text."""
+        """Return the conclusions from an evaluation as text."""
         assert self._found is not None
         results = self._found.results
         conclusions = conclude(results)
@@ -245,7 +245,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
 
 
 class _TableView(QWidget):
-    """A table with explanations of its columns."""
+    """A table of results with explanations of its columns."""
 
     def __init__(self, table: ResultTable) -> None:
         super().__init__()
@@ -277,7 +277,7 @@ class _Picture(QWidget):
         self._renderer = QSvgRenderer(self)
 
     def show_svg(self, source: str) -> None:
-        """Show another picture."""
+        """Replace the displayed diagram by an SVG text."""
         self._renderer.load(QByteArray(source.encode()))
         self.setMinimumSize(self._renderer.defaultSize())
         self.update()

@@ -98,7 +98,7 @@ class DancersSection(Retranslated, QWidget):
 
     @property
     def dancer(self) -> Dancer | None:
-        """The selected dancer."""
+        """The dancer selected in the editor; None if none is."""
         return self._session.dancer
 
     def _tool(self, picture: str, tip_id: str, run: Callable[[], object]) -> IconButton:

@@ -154,7 +154,7 @@ class CurvesLane(Lane):
         self._fill_choice()
 
     def curve_name(self, curve: str) -> str:
-        """Name of a curve."""
+        """Return the name of a curve, such as lip tension, in the user's language."""
         names = {
             "tension": self.tr("curves_lane.lip_tension"),
             "effort": self.tr("curves_lane.effort"),
@@ -169,7 +169,7 @@ class CurvesLane(Lane):
         return names[curve]
 
     def set_curve(self, curve: str) -> None:
-        """Bring a curve to the front."""
+        """Choose the curve (such as lip tension) that is drawn in front and edited."""
         self.curve = curve
         self.choice.setCurrentIndex(self.choice.findData(curve))
         self.update_items()
@@ -211,12 +211,12 @@ class CurvesLane(Lane):
         return EventKey(self._plan.player_id if self._plan is not None else "", event.id)
 
     def value_of(self, event: EmbouchureEvent) -> float:
-        """The chosen curve's value of a note."""
+        """Return the value of the displayed curve in an embouchure event."""
         value: float = getattr(event, self.curve) if self.curve in LIPS else 0.0
         return value
 
     def event_at(self, time_s: float) -> EmbouchureEvent | None:
-        """The embouchure at a time."""
+        """Return the embouchure event in force at a time; None if there is none."""
         if self.lips is None:
             return None
         found = self.lips.spans.between(time_s, time_s)
@@ -260,7 +260,7 @@ class CurvesLane(Lane):
         self._drag = DragCurve(self.session, self, mouse, self._plan.player_id, self.curve, starts, height_px)
 
     def _draw(self, mouse: LaneMouse) -> None:
-        """Begin to draw with the pencil."""
+        """Begin to draw the chosen curve with the pencil; only curves of the lips can be drawn."""
         if self.curve not in LIPS:
             self.session.notice(Message("curves.not_drawn", {"curve": self.curve_name(self.curve)}), Severity.WARNING)
         elif self._plan is not None and self.lips is not None:
@@ -331,7 +331,8 @@ class CurvesLane(Lane):
             )
 
     def key(self, event: QKeyEvent) -> bool:
-        """Enter types the value of the selected notes."""
+        """Open the field for the value of the selected notes when Enter is pressed; returns whether the key is used
+        up."""
         if self.lips is None:
             return False
         notes = self.session.selection.notes

@@ -61,7 +61,7 @@ class NumberField(QLineEdit):
         self.selectAll()
 
     def close_field(self) -> None:
-        """Close without a change."""
+        """Close the field, discarding its text."""
         if self.isVisible():
             self.hide()
             self._lane.plot.setFocus()

@@ -60,7 +60,7 @@ def problems_in(problems: tuple[Problem, ...], rooms: tuple[str, ...] = ()) -> t
 
 
 def spans_of(problems: tuple[Problem, ...]) -> TimeSpans:
-    """Spans of the problems."""
+    """Return start and end of the problems, for finding those at a place."""
     return TimeSpans(
         np.array([problem.start_s for problem in problems], np.float64),
         np.array([problem.end_s for problem in problems], np.float64),
@@ -138,7 +138,7 @@ class ProblemsLane(Lane):
         self.update_items()
 
     def problem_at(self, mouse: LaneMouse) -> Problem | None:
-        """The problem nearest to a place, within reach."""
+        """Return the problem nearest to the mouse, within reach; None if there is none."""
         reach_s = REACH_PX / self.axis.px_per_s
         found = self.spans.between(mouse.time_s - reach_s, mouse.time_s + reach_s).tolist()
         # The mark stands at the start: the nearest start wins over a long problem that only passes by.

@@ -111,18 +111,18 @@ class RegionLane(Lane):
         return ()
 
     def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
-        """Draw one region in its rectangle."""
+        """Draw one region in its rectangle; every kind of lane overrides this."""
         raise NotImplementedError
 
     def paint_rows(self, painter: QPainter, exposed: QRectF) -> None:
-        """Draw the background of the regions."""
+        """Draw the background of the rows before the regions; lanes override this."""
 
     def is_calm(self, region: Region) -> bool:
         """Return whether `paint_rows` has drawn a region already."""
         return False
 
     def add_at(self, mouse: LaneMouse) -> None:
-        """A double click on an empty place."""
+        """React to a double click on an empty place; lanes to which events can be added override this."""
 
     def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
         """Add the lane's own entries to the context menu."""
@@ -135,17 +135,17 @@ class RegionLane(Lane):
 
     @property
     def regions(self) -> list[Region]:
-        """The displayed regions by start."""
+        """The regions displayed in the lane, by start."""
         return self._table.regions
 
     @property
     def rows(self) -> int:
-        """The number of rows."""
+        """Number of rows in which the lane displays regions."""
         return self._row_count
 
     @property
     def lasso(self) -> QRectF | None:
-        """The rectangle being drawn to select."""
+        """The rectangle that is being drawn to select regions; None otherwise."""
         return rect(self._drag.lasso) if self._drag is not None and self._drag.lasso is not None else None
 
     @property
@@ -157,7 +157,7 @@ class RegionLane(Lane):
         return row_box(row, self._row_count, self.plot_rect.height(), self.least_row_px, self._scrolled_px)
 
     def wheel(self, mouse: LaneMouse, steps: float) -> bool:
-        """Scroll the rows if they do not fit."""
+        """Scroll the rows if they do not fit; returns whether the event is used up."""
         height = self.row_box(0)[1]
         if most_scrolled(self._row_count, height, self.plot_rect.height()) <= 0.5:
             return False
@@ -180,11 +180,11 @@ class RegionLane(Lane):
         """Update after the rows were scrolled."""
 
     def place(self, region: Region) -> PixelRect:
-        """Box of a region, pixels."""
+        """Return the rectangle of a region in pixels of the plot."""
         return region_box(region, self.axis, self.row_box(region.row))
 
     def box(self, region: Region) -> QRectF:
-        """Box of a region, pixels."""
+        """Return the rectangle of a region in pixels of the plot, as Qt's type."""
         return rect(self.place(region))
 
     def visible(self, left_px: float, right_px: float) -> Iterable[Region]:
@@ -375,7 +375,7 @@ class RegionLane(Lane):
             self.plot.setToolTip(self.tip(region) if region is not None else "")
 
     def tip(self, region: Region) -> str:
-        """Describe a region under the mouse."""
+        """Return the text that describes a region under the mouse."""
         lines = [region.label or self.kind_name(region.kind)]
         if region.removed:
             lines = [self.kind_name(region.kind), self.tr("region_lane.deleted")]
@@ -384,7 +384,7 @@ class RegionLane(Lane):
         return "\n".join(lines)
 
     def kind_name(self, kind: str) -> str:
-        """Name of a kind of event."""
+        """Return the name of a kind of event; lanes override this to translate it."""
         return kind
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:

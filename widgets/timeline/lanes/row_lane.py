@@ -42,12 +42,12 @@ class RowLane(Lane):
 
     @property
     def row_px(self) -> float:
-        """Height of a row."""
+        """Height of a row in pixels."""
         least, most = self.row_limits_px
         return min(max(self.rows_rect.height() / max(self.count_rows(), 1), least), most)
 
     def row_rect(self, number: int) -> QRectF:
-        """A row, pixels of the plot."""
+        """Return the rectangle of the row ``number`` in pixels of the plot, scrolled."""
         top = self.strip_px - self._scrolled_px + number * self.row_px
         return QRectF(0.0, top, self.plot_rect.width(), self.row_px)
 

@@ -1,1 +1,1 @@
-"""Drawing of the composer's marks in the timeline."""
+"""Draws the composer's marks (dynamics, articulations, slurs) in the timeline."""

@@ -44,7 +44,7 @@ def _letters(text: str, height_px: float, rgba: int, ratio: float) -> Pictured:
 
 
 class _Dynamics(LaneItem["DynamicsLane"]):
-    """Draws the visible dynamics."""
+    """Draws the visible dynamics marks of the lane."""
 
     def __init__(self, lane: DynamicsLane) -> None:
         super().__init__(lane)
@@ -124,7 +124,7 @@ class DynamicsLane(Lane):
         return min(max((self.plot_rect.height() - 8.0) / LINES_OF_LETTER, LEAST_LETTER_PX), MOST_LETTER_PX)
 
     def placed(self, span_s: tuple[float, float] | None = None) -> tuple[PlacedDynamic, ...]:
-        """Return the marks within a time span, or the visible ones."""
+        """Return the dynamics marks with their positions within a span of seconds, or the visible ones."""
         of_player, tempo, player = self.marks.of_player, self.session.project.score.tempo_map, self.session.player
         if not len(of_player.at_ticks) or player is None:
             return ()
@@ -159,13 +159,13 @@ class DynamicsLane(Lane):
         )
 
     def set_shown(self, shown: bool) -> None:
-        """Show or hide the marks."""
+        """Show or hide the dynamics marks."""
         if shown != self.marks.shown:
             self.marks.shown = shown
             self.update_items()
 
     def show_marks(self) -> None:
-        """Draw the marks again."""
+        """Redraw the dynamics marks after a change."""
         self.update_items()
 
     def project_changed(self, change: Change) -> None:
@@ -185,7 +185,7 @@ class DynamicsLane(Lane):
     # The mouse
 
     def at(self, mouse: LaneMouse) -> tuple[Mark, Zone] | None:
-        """Return the mark under the mouse, and the part of it."""
+        """Return the dynamics mark under the mouse and the grabbed part of it; None if there is none."""
         for placed in reversed(self.placed()):
             zone = placed.zone_at(mouse.x_px, mouse.y_px)
             if zone is not None:

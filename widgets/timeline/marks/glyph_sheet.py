@@ -44,12 +44,12 @@ class MarkColours(NamedTuple):
     held: int | None
 
     def of(self, number: int) -> QColor:
-        """Colour of a mark."""
+        """Return the colour of the mark with an index: the accent colour if it is selected."""
         return QColor(self.tokens.accent) if number in self.selected else shade(self.tokens.text, CALM)
 
 
 def paint_marks(painter: QPainter, placed: PlacedMarks, colours: MarkColours, font: QFont) -> None:
-    """Draw marks at their positions."""
+    """Draw musical marks at their computed positions: arcs, glyphs, texts, and signs of changes by hand."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
     painter.setPen(Qt.PenStyle.NoPen)
     _paint_arcs(painter, placed, colours)
@@ -126,7 +126,7 @@ def _paint_texts(painter: QPainter, placed: PlacedMarks, colours: MarkColours, f
 
 
 def _paint_hands(painter: QPainter, placed: PlacedMarks, colour: QColor) -> None:
-    """Draw the small squares at the user's marks."""
+    """Draw a small square at each mark that the user set by hand."""
     by_hand, arcs = placed.table.of_player.by_hand, placed.arcs
     if not by_hand.any():
         return
@@ -165,7 +165,7 @@ def _slur(x0: float, y0: float, x1: float, y1: float, lift: float) -> QPainterPa
 
 
 def _thick(points: list[tuple[float, float]], half: float = 0.7) -> QPainterPath:
-    """A line from point to point."""
+    """Return the outline of a line through points (x, y), ``half`` pixels wide to both sides."""
     path = _path()
     for (x0, y0), (x1, y1) in pairwise(points):
         length = max(hypot(x1 - x0, y1 - y0), 1e-6)
@@ -179,7 +179,8 @@ def _thick(points: list[tuple[float, float]], half: float = 0.7) -> QPainterPath
 
 
 def _bracket(x0: float, y0: float, x1: float, y1: float, lift: float) -> QPainterPath:
-    """Return a dashed line over notes that are tongued one by one, with a hook at each end."""
+    """Return a dashed line over notes that are tongued one by one, with a hook at each end; ``lift`` is its height
+    above the notes in pixels, negative if below."""
     hook = 4.0 if lift >= 0 else -4.0
     path = _thick([(x0, y0 - lift + hook), (x0, y0 - lift)])
     count = max(int((x1 - x0) // 7), 1)

@@ -33,7 +33,7 @@ def _filled(*corners: Point) -> QPainterPath:
 
 
 def _lines(*lines: tuple[Point, ...], width: float = LINE) -> QPainterPath:
-    """Lines from point to point."""
+    """Return the outline of straight lines through the given points; ``width`` in spaces of the staff."""
     path = QPainterPath()
     for line in lines:
         path.moveTo(*line[0])
@@ -43,7 +43,7 @@ def _lines(*lines: tuple[Point, ...], width: float = LINE) -> QPainterPath:
 
 
 def _curve(start: Point, *points: Point, width: float = LINE) -> QPainterPath:
-    """Cubic curves, three points each."""
+    """Return the outline of a line of a width along cubic Bezier curves, each given by three further points."""
     path = QPainterPath(QPointF(*start))
     for at in range(0, len(points), 3):
         path.cubicTo(*(QPointF(*point) for point in points[at : at + 3]))
@@ -95,7 +95,7 @@ def _turn() -> QPainterPath:
 
 
 def _strokes(count: int) -> QPainterPath:
-    """Strokes of a tremolo."""
+    """Return the outline of ``count`` strokes of a tremolo, one below the other."""
     path = QPainterPath()
     for number in range(count):
         y = -0.35 - 0.62 * number
@@ -104,7 +104,7 @@ def _strokes(count: int) -> QPainterPath:
 
 
 def _trill() -> QPainterPath:
-    """Return the letters tr."""
+    """Return the outline of the letters "tr" of a trill."""
     t = _curve((-0.75, -2.1), (-1.05, -1.2), (-1.35, 0.05), (-0.75, 0.0), (-0.5, -0.02), (-0.3, -0.25), (-0.25, -0.4))
     t.addPath(_lines(((-1.25, -1.35), (-0.2, -1.45)), width=0.28))
     t.addPath(_lines(((0.15, -1.4), (0.05, -0.05))))

@@ -26,7 +26,7 @@ FINE = 0.2
 
 @dataclass(frozen=True)
 class EmbouchureCurves:
-    """A plan's embouchures as arrays (N,), with values recorded within the notes (``traces``)."""
+    """A plan's embouchures as arrays (N,) for drawing, with values recorded within the notes (``traces``)."""
 
     events: tuple[EmbouchureEvent, ...]
     spans: TimeSpans
@@ -45,7 +45,7 @@ def lips(plan: PlayerPlan) -> EmbouchureCurves:
 
 
 def _traces(plan: PlayerPlan, start_s: FloatArray, end_s: FloatArray) -> dict[str, StepCurve]:
-    """Recorded curves while notes sound; nothing in between."""
+    """Recorded lip tension, effort and air of a plan as curves by name, NaN between the notes."""
     traces = plan.traces
     if traces is None:
         return {}

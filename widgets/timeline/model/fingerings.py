@@ -28,7 +28,7 @@ class Fingerings:
 
 
 def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[Control, ...]) -> Fingerings:
-    """A plan's fingerings for drawing."""
+    """Return a plan's fingerings as arrays for drawing: start, end and control values of each."""
     events = plan.grips
     start_s = np.array([event.start_s for event in events], np.float64)
     end_s = np.array([event.end_s for event in events], np.float64)
@@ -41,7 +41,8 @@ def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[C
 
 
 def slide_places(instrument: InstrumentMap, slide: Control) -> tuple[tuple[float, str], ...]:
-    """Return the mean position of each named place of a slide, over the fingerings that only use the slide."""
+    """Return the mean position 0..1 and the name of each named place of a slide, over the fingerings that only use the
+    slide."""
     found: dict[str, list[float]] = {}
     for fingering in instrument.fingerings:
         if set(fingering.controls) <= {slide.name}:

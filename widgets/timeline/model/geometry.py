@@ -47,7 +47,7 @@ class TimeSpans:
         self._furthest_s = np.maximum.accumulate(end_s) if len(end_s) else end_s
 
     def between(self, start_s: float, end_s: float) -> IntArray:
-        """Return the ascending indices of the spans that meet a range."""
+        """Return the ascending indices (K,) of the spans that overlap the range from ``start_s`` to ``end_s``."""
         first = int(np.searchsorted(self._furthest_s, start_s, side="left"))
         last = int(np.searchsorted(self.start_s, end_s, side="right"))
         return first + np.flatnonzero(self.end_s[first:last] >= start_s)
@@ -67,7 +67,7 @@ class StepCurve:
         self.time_s, self.value = time_s, value
 
     def columns(self, start_s: float, end_s: float, width_px: int) -> tuple[FloatArray, FloatArray]:
-        """Return the least and greatest value in every column of pixels; NaN if there is none.
+        """Return the least and the greatest value (width_px,) in every column of pixels; NaN if there is none.
 
         At most two values per column remain to be drawn.
         """

@@ -63,7 +63,7 @@ def snapped(grid: Grid, score: Score, tick: float, free: bool) -> int:
 
 
 def moved_edge(start: int, end: int, at_start: bool, tick: int, least: int = 1) -> tuple[int, int]:
-    """Return a span with an edge moved, keeping a length of at least ``least``."""
+    """Return a span (start, end) with one edge moved to ``tick``, keeping a length of at least ``least``."""
     return (min(tick, end - least), end) if at_start else (start, max(tick, start + least))
 
 
@@ -160,20 +160,20 @@ class MouseGesture:
         self.began = False
 
     def drag(self, mouse: LaneMouse) -> None:
-        """The mouse moved with the button down."""
+        """React to a mouse move with the button down: begin the drag once it is far enough, then follow it."""
         self.began = self.began or self._far is None or self._far(self.at, mouse)
         if self.began:
             self.follow(mouse)
 
     def release(self, mouse: LaneMouse) -> None:
-        """The button went up."""
+        """React to the release of the mouse button: finish the drag if it began, else treat it as a click."""
         if self.began:
             self.finish(mouse)
         else:
             self.click(mouse)
 
     def follow(self, mouse: LaneMouse) -> None:
-        """Handle a drag to a position."""
+        """Follow the mouse during a drag; every gesture overrides this."""
 
     def finish(self, mouse: LaneMouse) -> None:
         """Handle the end of the drag at a position."""

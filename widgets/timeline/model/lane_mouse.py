@@ -35,7 +35,7 @@ class PixelRect(NamedTuple):
 
 
 def spanned(x0: float, y0: float, x1: float, y1: float) -> PixelRect:
-    """Return the rectangle with two opposite corners."""
+    """Return the rectangle given by two opposite corners in any order."""
     return PixelRect(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1))
 
 

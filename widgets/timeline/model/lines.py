@@ -43,7 +43,7 @@ class LineCache:
         self._lines: Lines | None = None
 
     def get(self, score: Score, grid: Grid, start_s: float, end_s: float, px_per_s: float) -> Lines:
-        """Return `visible_lines`, cached while the inputs are the same."""
+        """Return the grid lines from `visible_lines`; cached as long as the inputs are the same."""
         rest = (grid, start_s, end_s, px_per_s)
         if self._lines is None or self._score is not score or self._rest != rest:
             self._score, self._rest = score, rest
@@ -100,6 +100,7 @@ def _bar_step(score: Score, first: int, last: int, px_per_s: float) -> int:
 
 
 def _between(start: int, end: int, step: float) -> FloatArray:
-    """The lines strictly inside a bar."""
+    """Positions (N,) of the grid lines between two bar lines, ``step`` ticks apart; the bar lines themselves are left
+    out."""
     count = int(np.ceil((end - start) / step - 1e-9))
     return start + step * np.arange(1, count, dtype=np.float64)

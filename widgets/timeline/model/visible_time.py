@@ -34,7 +34,7 @@ class VisibleSpan(Scale, Protocol):
 
 
 class Limited(Scale, Protocol):
-    """A scale whose scrolling is limited."""
+    """A time scale whose scrolling is limited."""
 
     @property
     def limits_s(self) -> tuple[float, float]: ...
@@ -73,11 +73,11 @@ class TimeView(NamedTuple):
     @overload
     def x_px(self, seconds: FloatArray) -> FloatArray: ...
     def x_px(self, seconds: float | FloatArray) -> float | FloatArray:
-        """Convert times to pixels; numbers or arrays of any shape."""
+        """Convert seconds to x pixels of the view; numbers or arrays of any shape."""
         return (seconds - self.start_s) * self.px_per_s
 
     def seconds(self, x_px: float) -> float:
-        """The time at a place."""
+        """Return the time in seconds at an x position of the view."""
         return self.start_s + x_px / self.px_per_s
 
     def within(self, start_s: float, end_s: float) -> TimeView:
@@ -92,7 +92,7 @@ class TimeView(NamedTuple):
         return self._replace(width_px=width_px).showing(self.start_s, self.start_s + width_px / self.px_per_s)
 
     def showing(self, start_s: float, end_s: float) -> TimeView:
-        """Return the view of a range."""
+        """Return the view that shows a range of seconds, within the limits of zoom and scrolling."""
         low, high = self.limits_s
         span = min(max(end_s - start_s, LEAST_SPAN_S), high - low)
         start_s = min(max(start_s, low), high - span)

@@ -1,4 +1,4 @@
-"""A widget with a cached picture."""
+"""A widget that draws itself once into a picture and repaints from that."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class Pictured(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
 
     def ground(self) -> QColor:
-        """Return the background colour."""
+        """Return the background colour; every subclass implements this."""
         raise NotImplementedError
 
     def draw(self, painter: QPainter, room: QRectF) -> None:
-        """Draw everything except the background."""
+        """Draw everything except the background into ``room``; every subclass implements this."""
         raise NotImplementedError
 
     def redraw(self, *_changes: object) -> None:

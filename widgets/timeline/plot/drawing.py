@@ -22,12 +22,12 @@ MARK_PX = 6.0
 
 
 def rect(box: PixelRect) -> QRectF:
-    """Return a rectangle of Qt."""
+    """Convert a rectangle of pixels to one of Qt."""
     return QRectF(box.left, box.top, box.width, box.height)
 
 
 def shade(colour: str, alpha: int = 255) -> QColor:
-    """A token with an opacity of 0..255."""
+    """Return a colour of the theme with an opacity of 0..255."""
     result = QColor(colour)
     result.setAlpha(alpha)
     return result
@@ -71,7 +71,7 @@ def draw_mark(painter: QPainter, tokens: Tokens, x: float, y: float, removed: bo
 def draw_rects(
     painter: QPainter, left: FloatArray, top: FloatArray, width: FloatArray, height: FloatArray, colour: QColor
 ) -> None:
-    """Draw many rectangles in one colour; arrays (N,) of pixels."""
+    """Fill many rectangles in one colour; all arrays have shape (N,) and hold pixels."""
     if len(left):
         painter.setPen(Qt.PenStyle.NoPen)
         fill_rects(painter, left, top, width, height, colour)
@@ -80,7 +80,8 @@ def draw_rects(
 def fill_rects(
     painter: QPainter, left: FloatArray, top: FloatArray, width: FloatArray, height: FloatArray, colour: QColor
 ) -> None:
-    """Draw as `draw_rects` does, outlined with the painter's pen."""
+    """Fill many rectangles in one colour, outlined with the painter's pen; all arrays have shape (N,) and hold
+    pixels."""
     if len(left):
         table = _side_by_side(left, top, width, height)
         painter.setBrush(colour)
@@ -126,7 +127,7 @@ def draw_groups(
 
 
 def draw_lines(painter: QPainter, x0: FloatArray, y0: FloatArray, x1: FloatArray, y1: FloatArray, pen: QPen) -> None:
-    """Draw many lines with one pen; arrays (N,) of pixels."""
+    """Draw many lines from (x0, y0) to (x1, y1) with one pen; all arrays have shape (N,) and hold pixels."""
     if len(x0):
         table = _side_by_side(x0, y0, x1, y1)
         painter.setPen(pen)

@@ -13,7 +13,8 @@ from widgets.timeline.zoom_and_scroll import TimeAxis
 def mouse_at(
     session: Session, axis: TimeAxis, place: QPointF, value: float, modifiers: Qt.KeyboardModifier, screen: QPoint
 ) -> LaneMouse:
-    """Return a point of a plot with its time and value; ``value`` is on the plot's vertical scale."""
+    """Return a position of the mouse in a plot with its time, tick and value; ``value`` is on the plot's vertical
+    scale."""
     score = session.project.score
     time_s = axis.seconds(place.x())
     tick = score.tempo_map.ticks(time_s)

@@ -82,7 +82,7 @@ class LaneItem(Generic[AnyLane]):
         lane.plot.add(self)
 
     def update(self) -> None:
-        """Request a redraw."""
+        """Request that the lane's plot be redrawn."""
         self.lane.plot.redraw()
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
@@ -143,7 +143,7 @@ class Plot(Pictured):
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
 
     def add(self, item: LaneItem[Any]) -> None:
-        """Draw another item on the plot."""
+        """Add an item that the plot draws, in the order of the items' depth."""
         self._items.append(item)
         self._items.sort(key=lambda each: each.z)
         self.redraw()

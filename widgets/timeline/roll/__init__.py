@@ -1,1 +1,1 @@
-"""The piano roll."""
+"""Piano roll: the lane of the timeline with the notes of all players."""

@@ -82,7 +82,7 @@ class Rows(LaneItem[RollView]):
 
 
 class Notes(LaneItem[RollView]):
-    """All players' notes as rectangles."""
+    """Draws the notes of all players as rectangles in the piano roll, those of the active player in front."""
 
     def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 0.0)
@@ -214,7 +214,7 @@ def _draw_points(
     owner: AnyIntArray,
     shades: Sequence[QColor],
 ) -> None:
-    """Notes of a few pixels' width, drawn as pixels: a column for each of the plot's, a row for each pitch."""
+    """Draw notes that are only a few pixels wide as an image: a column for each pixel column, a row for each pitch."""
     bottom, top = lane.y_range
     low, high = int(np.floor(bottom)), int(np.ceil(top))
     pixels = np.zeros((high - low, int(np.ceil(lane.plot_rect.width()))), np.uint32)
@@ -248,7 +248,7 @@ class Lasso(LaneItem[RollView]):
         self.cut: QLineF | None = None
 
     def show(self, rect: QRectF | None, cut: QLineF | None = None) -> None:
-        """Draw the lasso around a rectangle."""
+        """Draw the selection rectangle, or the line of a cut; None hides it."""
         if (rect, cut) != (self.rect, self.cut):
             self.rect, self.cut = rect, cut
             self.update()

@@ -31,7 +31,7 @@ class EntryArrows(LaneItem[RollView]):
 
     @property
     def arrows(self) -> tuple[EntryArrow, ...]:
-        """The drawn arrows; found again only when plans or players change."""
+        """The arrows of cues drawn in the roll; found again only when plans or players change."""
         session = self.lane.session
         player, plans = session.player, session.plans
         if player is None:
@@ -54,14 +54,14 @@ class EntryArrows(LaneItem[RollView]):
         return found is not None
 
     def show(self, drag: EntryDrag | None) -> None:
-        """Draw an arrow as dragged."""
+        """Draw an arrow as the mouse drags it; None ends that."""
         self._drag = drag
         self._hovered = None
         self.update()
 
     @property
     def dragged(self) -> EntryArrow | None:
-        """Return the dragged arrow at its new place."""
+        """The dragged arrow of a cue at its new place; None if none is dragged."""
         return self._drag.shown if self._drag is not None and self._drag.began else None
 
     def drag_text(self, drag: EntryDrag) -> str:

@@ -53,7 +53,7 @@ class RollMarks(LaneItem[RollView]):
 
     @property
     def session(self) -> Session:
-        """The session."""
+        """The editor's session, as the lane has it."""
         return self.lane.session
 
     @property
@@ -66,7 +66,7 @@ class RollMarks(LaneItem[RollView]):
         self.update()
 
     def set_shown(self, shown: bool) -> None:
-        """Show or hide the marks."""
+        """Show or hide the musical marks on the notes."""
         if shown != self.marks.shown:
             self.marks.shown = shown
             self.update()
@@ -85,7 +85,8 @@ class RollMarks(LaneItem[RollView]):
         return self.marks.table(front[0]) if front is not None else None
 
     def _look(self) -> tuple[object, ...]:
-        """Return all inputs of the marks' positions except horizontal scrolling."""
+        """Return everything on which the positions of marks depend, except horizontal scrolling; equal values need no
+        new layout."""
         lane, table, room = self.lane, self._table(), self.lane.plot_rect
         warned = lane.model.warned(table.notes) if table is not None else None
         return table, warned, lane.axis.px_per_s, lane.y_range, room.width(), room.height(), lane.font()
@@ -119,9 +120,8 @@ class RollMarks(LaneItem[RollView]):
     # The mouse
 
     def at(self, mouse: LaneMouse, over_note: bool) -> tuple[Mark, Zone] | None:
-        """Return the mark at a point and the part of it; a note is above slurs, except for the ends of a selected
-        one.
-        """
+        """Return the musical mark under the mouse and the grabbed part of it; a note is above slurs, except for the
+        ends of a selected slur."""
         placed = self.placed
         if placed is None:
             return None
@@ -168,7 +168,7 @@ class RollMarks(LaneItem[RollView]):
         return mark_tip(self.marks.of_player, mark)
 
     def context_menu(self, mouse: LaneMouse, over_note: bool) -> QMenu | None:
-        """The menu of the mark at a place."""
+        """Return the context menu of the musical mark under the mouse; None if there is none."""
         found = self.at(mouse, over_note)
         if found is None:
             return None

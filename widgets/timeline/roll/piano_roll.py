@@ -73,7 +73,7 @@ MENU = (
 
 
 class PianoRoll(Lane):
-    """The piano roll."""
+    """Piano roll: the lane of the timeline in which the notes of all players are shown and edited."""
 
     reported = Signal(str)
     """Signal: description of the object under the mouse, for the tool bar."""
@@ -111,7 +111,7 @@ class PianoRoll(Lane):
 
     @property
     def tool(self) -> Tool:
-        """Tool of the left button."""
+        """Tool that the left mouse button uses in the roll, such as selecting or drawing."""
         return self._tool
 
     @property
@@ -132,16 +132,16 @@ class PianoRoll(Lane):
 
     @property
     def ghosts_mode(self) -> Ghosts:
-        """Display of the players behind."""
+        """Display of the other players' notes behind those of the active player."""
         return self.model.ghosts_mode
 
     def set_ghosts(self, ghosts: Ghosts) -> None:
-        """Set the display of other players' notes."""
+        """Set whether and how the notes of other players are drawn behind the active player's."""
         self.model.ghosts_mode = ghosts
         self.update_items()
 
     def ghosts(self) -> Behind:
-        """The notes of the players behind."""
+        """Return the notes of the other players, drawn pale behind those of the active player."""
         return self.model.ghosts()
 
     def hint(self) -> str:
@@ -155,7 +155,7 @@ class PianoRoll(Lane):
 
     @property
     def playable(self) -> tuple[int, int] | None:
-        """The range of the instrument in front, concert pitches."""
+        """Lowest and highest concert pitch of the active player's instrument; None without one."""
         instrument = self._instrument()
         return (instrument.range.low, instrument.range.high) if instrument is not None else None
 
@@ -171,22 +171,22 @@ class PianoRoll(Lane):
 
     @property
     def plans(self) -> Mapping[str, PlayerPlan]:
-        """Plans by player id."""
+        """The plans of all players by id."""
         return self.session.plans
 
     @property
     def row_px(self) -> float:
-        """Height of a pitch."""
+        """Height in pixels of the row of one pitch."""
         bottom, top = self.y_range
         return self.plot_rect.height() / (top - bottom)
 
     def visible(self, table: TimedNotes, exposed: QRectF) -> IntArray:
-        """Return the indices of notes that may be visible in a part of the plot."""
+        """Return the indices (K,) of the notes that may be visible in the part ``exposed`` of the plot."""
         times = self.axis.seconds(exposed.left()), self.axis.seconds(exposed.right())
         return visible(table, *times, self.y_range)
 
     def boxes(self, table: TimedNotes, rows: IntArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Return left, top, width and height of notes in whole pixels, for sharp edges."""
+        """Return left, top, width and height (N,) in whole pixels of the notes with the indices ``rows``."""
         return boxes(table, rows, self.axis, self.y_range[1], self.row_px)
 
     # Pitch
@@ -243,7 +243,7 @@ class PianoRoll(Lane):
         self._show_pitches(*fitted_pitches(low, high, self.plot_rect.height()))
 
     def scroll_pitch(self, notches: float) -> None:
-        """Scroll up and down."""
+        """Scroll the roll up or down by notches of the wheel."""
         bottom, top = self.y_range
         self.choose_pitches(*kept_pitches(bottom + notches * ROWS_A_NOTCH, top - bottom))
 
@@ -383,7 +383,7 @@ class PianoRoll(Lane):
         QToolTip.hideText()
 
     def double_click(self, mouse: LaneMouse) -> None:
-        """A new note on empty ground."""
+        """Add a note at an empty place of the roll, if the selection tool is active."""
         player, on_note = self.session.player, self.model.note_at(mouse) is not None
         if self._tool is not Tool.SELECT or player is None or on_note:
             return
@@ -415,7 +415,7 @@ class PianoRoll(Lane):
                 self.set_tool(self._tool)
 
     def key(self, event: QKeyEvent) -> bool:
-        """Deselect on Escape."""
+        """Clear the selection when Escape is pressed; returns whether the key is used up."""
         if event.key() == Qt.Key.Key_Escape and self.session.selection:
             self.session.select(Selection())
             return True

@@ -1,1 +1,1 @@
-"""The ruler, and the flags above it."""
+"""The ruler above the lanes, and the flags of markers above it."""

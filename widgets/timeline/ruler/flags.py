@@ -27,7 +27,7 @@ AIR_PX = 5.0
 
 @dataclass(frozen=True)
 class Flag:
-    """The markers of one tick with their place; ``shown`` is the text that fits."""
+    """Flag in the ruler with the markers of one tick; ``shown`` is the text that fits."""
 
     tick: int
     text: str

@@ -29,7 +29,7 @@ class MarkEditor(QLineEdit):
         self.editingFinished.connect(self._editing_finished)
 
     def open(self, kind: str, tick: int, text: str, left_px: float, height_px: int) -> None:
-        """Type the mark at a tick."""
+        """Show the editor at ``left_px`` with the text of the tempo or metre mark at a tick, ready for typing."""
         self._mark = (kind, tick)
         self.setText(text)
         self.setToolTip(
@@ -44,7 +44,7 @@ class MarkEditor(QLineEdit):
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def leave(self, meant: bool) -> None:
-        """Close the field, accepting or discarding its text."""
+        """Close the field; its text is applied if ``meant``, else discarded."""
         if self._mark is None:
             return
         (kind, tick), self._mark = self._mark, None

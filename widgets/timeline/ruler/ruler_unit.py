@@ -16,7 +16,7 @@ _UNITS: Final[dict[TimeDisplay, str]] = {unit: f"unit_button.{unit}" for unit in
 
 
 class UnitButton(Retranslated, QToolButton):
-    """Bars, seconds or frames."""
+    """Button that chooses the unit of the ruler: bars, seconds or frames."""
 
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent)

@@ -36,11 +36,11 @@ class Strip(Pictured):
             self.setFont(font)
 
     def x_px(self, tick: int) -> float:
-        """Convert a tick to pixels."""
+        """Convert a tick to an x position in pixels of the strip."""
         return GUTTER_PX + self.axis.x_px(self.seconds_of(tick))
 
     def seconds_of(self, tick: int) -> float:
-        """Convert a tick to seconds."""
+        """Convert a tick to seconds of the piece."""
         return self.session.project.score.tempo_map.seconds(float(tick))
 
     # Qt overrides

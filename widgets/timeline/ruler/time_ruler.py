@@ -62,7 +62,7 @@ GRIP_PX = 5.0
 
 
 class Ruler(Retranslated, Strip):
-    """The ruler over the lanes."""
+    """Ruler above the lanes with bars, seconds, tempo, metres, markers and the loop."""
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, MARKS_PX + SCALE_PX, parent)
@@ -153,7 +153,7 @@ class Ruler(Retranslated, Strip):
                 painter.drawText(QRectF(x + 4, MARKS_PX, 120.0, SCALE_PX - 3.0), _MIDDLE, text)
 
     def _upright(self, painter: QPainter, seconds: FloatArray, top: float, pen: QPen) -> None:
-        """Lines down to the lower edge."""
+        """Draw vertical lines at given seconds from ``top`` to the ruler's lower edge."""
         x = np.trunc(GUTTER_PX + self.axis.x_px(seconds)) + 0.5
         draw_lines(painter, x, np.full(len(x), top), x, np.full(len(x), float(self.height())), pen)
 
@@ -175,7 +175,7 @@ class Ruler(Retranslated, Strip):
             self._band(painter, *punch, tokens.error, PUNCH_PX, LOOP_PX + 1.0)
 
     def _punch_s(self) -> tuple[float, float] | None:
-        """Return the punch range in seconds; None for an unlimited one."""
+        """Return first and last second of the punch range, in which is recorded; None if it is not limited."""
         recording = self.session.recording
         if not recording.punch or recording.punch_ticks is None:
             return None
@@ -243,7 +243,7 @@ class Ruler(Retranslated, Strip):
         self.session.attempt(*typed(kind, tick, text), origin=self)
 
     def context_menu(self, place: QPointF) -> QMenu:
-        """The menu at a place."""
+        """Return the context menu for a place of the ruler: for the mark there, or for adding one."""
         menu = QMenu(self)
         mark = self._mark_at(place)
         if mark is not None:
@@ -304,7 +304,8 @@ class Ruler(Retranslated, Strip):
         return "seek"
 
     def _take_hold(self, held: str, mouse: LaneMouse, mark: RulerMark | None) -> MouseGesture | None:
-        """Return the gesture that a press starts."""
+        """Return the gesture that a press at the part ``held`` of the ruler starts, such as moving a mark or the
+        loop."""
         session, far, at_start = self.session, along(QApplication.startDragDistance() / 2), held.endswith("_start")
         if mark is not None:
             stays = partial(session.notice, Message("tempo.first_stays"), Severity.WARNING)

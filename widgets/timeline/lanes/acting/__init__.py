@@ -1,1 +1,1 @@
-"""The lane of acting."""
+"""Lane of the timeline with cues, facial expressions, poses and gestures."""

@@ -1,4 +1,4 @@
-"""Drawing of cues, expressions, poses and gestures."""
+"""Draws cues, facial expressions, poses and gestures in the acting lane."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class ActingView(LaneView, Protocol):
 
 
 class ActingPainter:
-    """Draws regions in their boxes."""
+    """Draws cues, expressions, poses and gestures in their rectangles of the acting lane."""
 
     def __init__(self, lane: ActingView) -> None:
         self._lane = lane
@@ -72,7 +72,7 @@ class ActingPainter:
         draw_text(painter, inside.adjusted(10.0, 0.0, -4.0, 0.0), region.label)
 
     def paint_bar(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
-        """Up or down from the middle of the row."""
+        """Draw an event as a bar up or down from the middle of the row, by its amount."""
         middle = box.center().y()
         end = middle - region.amount * (box.height() / 2 - 1.0)
         bar = QRectF(QPointF(box.left(), min(middle, end)), QPointF(box.right() - 1.0, max(middle, end)))
@@ -88,7 +88,7 @@ class ActingPainter:
             draw_text(painter, box.adjusted(10.0, 0.0, -2.0, 0.0), f"{region.amount:+.2f}".replace("-", "−"))
 
     def paint_span(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
-        """A trapezoid as high as it is strong, with its fades as slopes."""
+        """Draw an event as a trapezoid as high as its amount, with its fades as slopes."""
         tokens, scale = self._lane.session.tokens, self._lane.axis.px_per_s
         if box.width() < LEAST_SHAPE_PX:
             top = box.bottom() - max(box.height() * abs(region.amount), 3.0)

@@ -184,7 +184,7 @@ class ActingLane(RegionLane):
         return super().tip(region)
 
     def _guests(self, plan: PlayerPlan) -> list[Region]:
-        """Return the cues that other players give."""
+        """Return regions for the cues that players other than the displayed musician give."""
         performance, project = self.session.performance, self.session.project
         known = {player.id: player.name for player in project.players}
         own = next((player for player in project.players if player.id == plan.player_id), None)
@@ -204,7 +204,7 @@ class ActingLane(RegionLane):
         self._names.update()
 
     def row_names(self) -> list[tuple[str, float]]:
-        """Return the names of the groups and their vertical positions."""
+        """Return the name of each group of rows with the height of its middle in pixels."""
         names = []
         for kind, first, count in self.groups:
             top, height = self.row_box(first)
@@ -365,7 +365,8 @@ class ActingLane(RegionLane):
         self.session.attempt(Message("edit.set_expression"), edit)
 
     def _spans(self, mouse: LaneMouse) -> list[tuple[PlayerPlan, int, int]]:
-        """Span of a new event of the player in front."""
+        """Return the span of a new event at the mouse: the active player's plan, first and last tick; empty without a
+        player."""
         start = self.snap(mouse.tick, mouse)
         end = start + NEW_BEATS * self.session.project.metre_map.felt_ticks_at(start)
         plan = self.session.plan

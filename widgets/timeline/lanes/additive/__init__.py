@@ -1,1 +1,1 @@
-"""The lane of additive curves."""
+"""Lane of the timeline with the user's additive animation curves."""

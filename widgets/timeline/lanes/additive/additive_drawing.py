@@ -1,4 +1,4 @@
-"""Drawing of additive curves."""
+"""Draws additive animation curves in their lane."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class CurvesItem(LaneItem[AdditiveLaneView]):
             painter.drawRect(QRectF(lane.band.left, lane.band.top, lane.band.width, lane.band.height))
 
     def _paint_limits(self, painter: QPainter, exposed: QRectF) -> None:
-        """Shade values beyond the body's range."""
+        """Shade the part of the plot with values beyond the body's range."""
         low, high = self.lane.limits
         ground = shade(self.lane.session.tokens.line, 90)
         top, bottom = self.lane.y_px(high), self.lane.y_px(low)
@@ -135,7 +135,7 @@ class CurvesItem(LaneItem[AdditiveLaneView]):
             painter.drawPolygon([QPointF(left + dx, at + dy) for dx, dy in corners])
 
     def _paint_line(self, painter: QPainter, x: FloatArray, values: FloatArray, pen: QPen) -> None:
-        """Draw a line whose dashes continue along it."""
+        """Draw a curve through values (N,) at x positions (N,) in pixels; dashes continue along the whole line."""
         painter.setPen(pen)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawPolyline(polygon(np.stack((x, self._y(values)), axis=1)))

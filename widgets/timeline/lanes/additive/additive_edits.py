@@ -69,7 +69,7 @@ class CurveEditing(Lane):
         )
 
     def read_curves(self) -> None:
-        """Read the project's curves."""
+        """Read the additive curves of the displayed player and channel from the project."""
         player = self.player_id
         self.curves = () if player is None else model.shown_curves(self.session.project, player, self.channel)
         self.selected = model.still_there(self.curves, self.selected)
@@ -84,7 +84,7 @@ class CurveEditing(Lane):
         self.update_items()
 
     def select_keys(self, keys: frozenset[KeyRef]) -> None:
-        """Select keys and nothing else."""
+        """Select keys of additive curves, and deselect everything else in the editor."""
         self.selected = keys
         self.session.select(Selection())
         self.update_items()
@@ -119,7 +119,7 @@ class CurveEditing(Lane):
     # Edits
 
     def chosen(self) -> tuple[CurveKey, ...]:
-        """Return the selected keys."""
+        """Return the selected keys of the displayed curves."""
         return model.chosen_keys(self.curves, self.selected)
 
     def interpolate(self, interpolation: Interpolation) -> None:
@@ -135,11 +135,11 @@ class CurveEditing(Lane):
         self._edit_keys("edit.set_curve_tangents", edit.flatten_tangents)
 
     def delete(self) -> None:
-        """Delete the selected keys."""
+        """Delete the selected keys of additive curves."""
         self._edit_keys("edit.delete_curve_keys", edit.delete_keys)
 
     def nudge(self, ticks: int, value: float) -> None:
-        """Move the selected keys."""
+        """Move the selected keys of additive curves by ticks and by value, and keep them selected."""
         before = self.selected
         if self._edit_keys("edit.move_curve_keys", partial(edit.move_keys, ticks=ticks, value=value)):
             self.follow_keys(frozenset(KeyRef(key.name, key.tick + ticks) for key in before))
@@ -175,11 +175,11 @@ class CurveEditing(Lane):
         self.text.ask(box, shown.curve.title, lambda typed: take(title=typed), self.tr("additive_lane.rename"))
 
     def enable(self, name: str, enabled: bool) -> None:
-        """Switch a curve on or off."""
+        """Switch an additive curve of the player on or off."""
         self._change_curve(name, enabled=enabled)
 
     def delete_curve(self, name: str) -> None:
-        """Remove a curve with all its keys."""
+        """Remove an additive curve of the player with all its keys."""
         player = self.player_id
         if player is not None:
             self._attempt(Message("edit.delete_curve"), lambda project: edit.delete_curves(project, player, (name,)))

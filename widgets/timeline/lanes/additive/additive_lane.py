@@ -85,11 +85,11 @@ class AdditiveLane(CurveEditing):
 
     @property
     def band(self) -> PixelRect | None:
-        """The rubber band while it is drawn."""
+        """The rectangle of the selection that is being dragged; None otherwise."""
         return self._gesture.box if isinstance(self._gesture, Band) else None
 
     def set_channel(self, channel: str) -> None:
-        """Show the curves of a channel."""
+        """Display the additive curves of another animation channel, and clear the selected keys."""
         if channel != self.channel:
             self.channel, self.selected, self.generated = channel, frozenset(), None
             self.choice.setText(verbatim(channel_name(channel)))
@@ -160,7 +160,7 @@ class AdditiveLane(CurveEditing):
     # The mouse
 
     def hit(self, mouse: LaneMouse) -> Hit | None:
-        """Return the object at a point."""
+        """Return the key, handle or curve under the mouse; None if there is none."""
         return model.hit(self.curves, self.selected, self, mouse.x_px, mouse.y_px)
 
     def press(self, mouse: LaneMouse) -> None:

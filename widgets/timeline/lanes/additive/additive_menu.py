@@ -45,7 +45,7 @@ def fill_channels(menu: QMenu, channel: str, used: Collection[str], chosen: Call
 
 
 def add_key_entries(menu: QMenu, lane: CurveEditing) -> None:
-    """Entries about the selected keys."""
+    """Append to a context menu the entries that act on the selected keys, such as their interpolation."""
     keys = lane.chosen()
     names = {
         "bezier": tr("additive_lane.bezier"),
@@ -71,7 +71,8 @@ def add_key_entries(menu: QMenu, lane: CurveEditing) -> None:
 
 
 def add_curve_entries(menu: QMenu, lane: CurveEditing, curve: AdditiveCurve) -> None:
-    """Entries about a whole curve."""
+    """Append to a context menu the entries that act on a whole additive curve, such as switching it off or deleting
+    it."""
     name = curve.name
     menu.addSeparator()
     enabled = menu.addAction(tr("additive_lane.enabled"))

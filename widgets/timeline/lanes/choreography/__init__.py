@@ -1,1 +1,1 @@
-"""The lane of dances."""
+"""Lane of the timeline with the steps of each dancer's dance."""

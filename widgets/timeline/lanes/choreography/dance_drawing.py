@@ -98,7 +98,8 @@ class DancesItem(LaneItem[DancesView]):
         self._paint_marks(painter, box, dance, here, selected)
 
     def _paint_move(self, painter: QPainter, box: QRectF, dance: DanceSteps, number: int, tick: int) -> None:
-        """Draw a dragged step with its accent at the new place."""
+        """Draw a dragged step of a dance at its new place, with a line at its accent; ``tick`` is the accent's new
+        place."""
         lane, step = self.lane, dance.steps[number]
         accent_s = lane.session.project.score.tempo_map.seconds(float(tick))
         by_s = accent_s - step.accent_s
@@ -110,7 +111,7 @@ class DancesItem(LaneItem[DancesView]):
         painter.drawLine(QPointF(accent, box.top()), QPointF(accent, box.bottom()))
 
     def _paint_accents(self, painter: QPainter, box: QRectF, dance: DanceSteps, here: IntArray, colour: str) -> None:
-        """Draw a line at the accent of each block."""
+        """Draw a short line at the accent of each visible step of a dance; ``here`` are the steps' indices."""
         accents = self.lane.axis.x_px(np.array([dance.steps[at].accent_s for at in here.tolist()]))
         bottom = np.full(len(here), box.bottom())
         draw_lines(painter, accents, bottom - 5.0, accents, bottom, QPen(QColor(colour), 2.0))

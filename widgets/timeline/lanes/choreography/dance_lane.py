@@ -86,12 +86,12 @@ class DanceLane(RowLane):
 
     @property
     def dancers(self) -> tuple[Dancer, ...]:
-        """Dancers from the top row down."""
+        """Dancers in the order of their rows, from top to bottom."""
         return self.session.project.dancers
 
     @property
     def selected_step(self) -> tuple[str, int] | None:
-        """The dancer and the number of the selected step."""
+        """Dancer's id and number of the selected step; None if none is selected."""
         if self._selected_at is None:
             return None
         dancer_id, tick = self._selected_at
@@ -149,7 +149,7 @@ class DanceLane(RowLane):
         return None if row is None else self.dances.get(self.dancers[row].id)
 
     def step_at(self, mouse: LaneMouse) -> tuple[str, int] | None:
-        """The dancer and the number of the step at a place."""
+        """Return the dancer's id and the number of the step under the mouse; None if there is none."""
         dance = self._dance_at(mouse)
         number = dance.step_at(mouse.time_s) if dance is not None and dance.steps else None
         return None if dance is None or number is None else (dance.dancer.id, number)
@@ -185,7 +185,7 @@ class DanceLane(RowLane):
         self.update_items()
 
     def double_click(self, mouse: LaneMouse) -> None:
-        """Open the menu of a step."""
+        """Open the context menu of the step under the mouse."""
         self.moving = None
         menu = self.context_menu(mouse)
         if menu is None:
@@ -222,7 +222,7 @@ class DanceLane(RowLane):
     # Edits
 
     def pin(self, dancer_id: str, number: int, state: int) -> None:
-        """Dance a basic motion in the place of a step."""
+        """Require a basic motion in place of a step of the dance, as one undoable step."""
         tick = self.dances[dancer_id].ticks[number]
         self._attempt(
             Message("edit.pin_dance", {"number": state + 1, "dancer": self._name(dancer_id)}),
@@ -261,7 +261,7 @@ class DanceLane(RowLane):
         )
 
     def take_back(self, dancer_id: str, corrections: Sequence[DanceCorrection]) -> None:
-        """Remove corrections of a dance."""
+        """Remove corrections of a dance as one undoable step, so that the generated motion returns."""
         self._attempt(
             Message("edit.release_dance", {"dancer": self._name(dancer_id)}),
             lambda project: edit.take_back(project, dancer_id, corrections),

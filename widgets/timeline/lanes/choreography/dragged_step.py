@@ -1,4 +1,4 @@
-"""A step of a dance during a drag."""
+"""Mouse gesture that drags a step of a dance to another accent of the music."""
 
 from __future__ import annotations
 

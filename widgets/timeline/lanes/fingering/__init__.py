@@ -1,1 +1,1 @@
-"""The lane of fingerings."""
+"""Lane of the timeline with the fingering of every note."""

@@ -58,7 +58,7 @@ class Alternates(QFrame):
         return " · ".join([*parts, *words_of_tags(fingering.tags)])
 
     def is_pinned(self, player_id: str, event: FingeringEvent) -> bool:
-        """True if the user chose the fingering."""
+        """True if the user chose the fingering of the event."""
         return bool(corrections_of(self._session.project, player_id, (event.id,)))
 
     def show_for(self, player_id: str, event: FingeringEvent, place: QPoint, why: str = "") -> None:
@@ -145,7 +145,7 @@ class Alternates(QFrame):
         )
 
     def fill_menu(self, menu: QMenu, player_id: str, event: FingeringEvent) -> None:
-        """Add the choices to a menu as entries."""
+        """Add the alternative fingerings of a note to a menu as entries that choose them."""
         instrument = self._instrument(player_id)
         for fingering in self.choices(player_id, event):
             note, words = self.note_text(fingering), fingering_words(instrument, fingering.label, language())

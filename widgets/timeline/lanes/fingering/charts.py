@@ -43,7 +43,7 @@ class ShownFingerings(NamedTuple):
 
 
 class _Picture(NamedTuple):
-    """A drawn chart, its extent left of the column's middle, and its width, in pixels."""
+    """A drawn fingering chart: its pixels, its extent left of the column's middle, and its width."""
 
     pixels: QPixmap
     left_px: float
@@ -78,7 +78,7 @@ class FingeringCharts:
         return MARGIN_PX + (y - self.chart.top) * self.hole_px
 
     def rows(self) -> list[tuple[str, float]]:
-        """Signs of the column's holes and their heights."""
+        """Signs of the holes in the chart's column with their heights in pixels."""
         return [(key.control.label if not key.sign else key.sign, self.y_px(key.y)) for key in self.chart.column]
 
     # Drawing

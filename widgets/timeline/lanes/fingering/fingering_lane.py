@@ -255,7 +255,7 @@ class FingeringLane(Lane):
         return len(self._pressable) / (len(self._pressable) + 4.0)
 
     def bar_box(self, row: int) -> tuple[float, float]:
-        """Top and height of the bar of a pressable control."""
+        """Return top and height in pixels of the bar for the pressable control with the index ``row``."""
         room = (self.plot_rect.height() - LABEL_PX - 4.0) * self._bars_share
         most = MOST_BAR_PX if not self._slides else SMALL_BAR_PX
         height = min(room / max(len(self._pressable), 1), most)
@@ -270,11 +270,11 @@ class FingeringLane(Lane):
 
     @property
     def mutes(self) -> tuple[MuteEvent, ...]:
-        """The muted passages of the player in front."""
+        """Passages in which the active player uses a mute."""
         return () if self._plan is None else self._plan.mutes
 
     def event_at(self, time_s: float) -> FingeringEvent | None:
-        """The fingering at a time."""
+        """Return the fingering event at or near a time; None if there is none."""
         if self.data is None:
             return None
         reach_s = NEAR_PX / self.axis.px_per_s

@@ -1,1 +1,1 @@
-"""The lane of the recording."""
+"""Lane of the timeline with the waveform of the audio recording."""

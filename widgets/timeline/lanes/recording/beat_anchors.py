@@ -85,7 +85,7 @@ class Anchors:
         return anchors(lane.session.project, lane.axis, lane.lines())
 
     def at(self, mouse: LaneMouse) -> Anchor | None:
-        """Return the handle under the mouse."""
+        """Return the handle of a beat under the mouse; None if there is none."""
         return anchor_at(self.visible(), mouse, self._lane.plot_rect.height())
 
     def paint(self, painter: QPainter, exposed: QRectF) -> None:

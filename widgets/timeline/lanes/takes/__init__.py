@@ -1,1 +1,1 @@
-"""The lane of takes."""
+"""Lane of the timeline with a player's recorded takes."""

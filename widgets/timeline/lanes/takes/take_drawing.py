@@ -35,7 +35,7 @@ class TakesView(LaneView, Protocol):
 
 
 class TakesItem(LaneItem[TakesView]):
-    """Draws all rows."""
+    """Draws the rows of all takes: notes, comp, breath and faults."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane
@@ -60,7 +60,7 @@ class TakesItem(LaneItem[TakesView]):
         painter.drawText(box, Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap, lane.empty_text())
 
     def _boxes(self, spans: tuple[CompSpan, ...], top: float, height: float) -> list[tuple[CompSpan, QRectF]]:
-        """Return the rectangles of visible spans."""
+        """Return the rectangles of those spans of the comp that are visible on the time axis."""
         axis, clock = self.lane.axis, self.lane.session.project.score.tempo_map
         found = []
         for span in spans:
@@ -135,7 +135,7 @@ class TakesItem(LaneItem[TakesView]):
             draw_rects(painter, left[picked], top[picked], np.maximum(right - left - 0.5, 1.0)[picked], heights, fill)
 
     def _paint_left_out(self, painter: QPainter, row: TakeRow, box: QRectF, exposed: QRectF) -> None:
-        """Hollow, and struck through."""
+        """Draw the notes that cleaning leaves out of a take, hollow and struck through."""
         axis = self.lane.axis
         shown = row.left_out.between(axis.seconds(exposed.left()), axis.seconds(exposed.right()))
         if not len(shown):
@@ -155,7 +155,7 @@ class TakesItem(LaneItem[TakesView]):
             draw_lines(painter, x0, y0, x1, y1, pen)
 
     def _pitch_px(self, pitches: FloatArray, box: QRectF) -> tuple[FloatArray, float]:
-        """Return the tops and the height of notes in pixels."""
+        """Return the tops (N,) and the common height of notes in a row of takes, in pixels."""
         low, high = self.lane.model.pitches
         step = (box.height() - 2 * MARGIN_PX) / (high - low + 1)
         height = max(step, LEAST_NOTE_PX)

@@ -78,7 +78,7 @@ class TakeHeads(Retranslated, QWidget):
         self.update()
 
     def name_of(self, row: TakeRow) -> str:
-        """Name of a row."""
+        """Return the name of a row: that of its take, or a text for the notes before the first take."""
         return self.tr("take_heads.before") if row.take is None else row.take.name
 
     def tip(self, row: TakeRow) -> str:

@@ -131,11 +131,11 @@ class TakesLane(RowLane):
 
     @property
     def comp(self) -> tuple[CompSpan, ...]:
-        """The spans of the comp, each with its take."""
+        """The spans of the comp (the part assembled from takes), each with its take."""
         return self.model.comp
 
     def shown_comp(self) -> tuple[CompSpan, ...]:
-        """The comp as it would be if the swipe ended now."""
+        """Return the comp (the part assembled from takes) as it would be if the swipe ended now."""
         return self.model.shown_comp()
 
     def shown_spans(self, take_id: str) -> tuple[CompSpan, ...]:
@@ -155,12 +155,12 @@ class TakesLane(RowLane):
         self.heads.update()
 
     def row_at(self, y_px: float) -> TakeRow | None:
-        """The row at a height."""
+        """Return the take's row at a height in pixels; None outside."""
         number = self.row_number_at(y_px)
         return None if number is None else self.rows[number]
 
     def show_row(self, take_id: str) -> None:
-        """Scroll to a take."""
+        """Scroll the lane to the row of a take."""
         number = self.number_of(take_id)
         if number is not None:
             top, bottom = number * self.row_px, (number + 1) * self.row_px
@@ -170,7 +170,7 @@ class TakesLane(RowLane):
     # Edits
 
     def choose(self, take_id: str) -> None:
-        """Select a take."""
+        """Select a take and scroll to its row."""
         self.session.select(Selection(take=take_id))
         self.show_row(take_id)
 

@@ -105,7 +105,7 @@ class ShownCurve:
         return self.shape[-1].end_s
 
     def values(self, times_s: FloatArray) -> FloatArray:
-        """Values at ascending times."""
+        """Values (N,) of the curve at ascending seconds (N,)."""
         return sampled_rows(self.table, times_s)
 
     def beyond_s(self, limits: tuple[float, float]) -> list[tuple[float, float]]:
@@ -120,7 +120,8 @@ class ShownCurve:
         return [(float(times_s[first]), float(times_s[last - 1]) + BEYOND_STEP_S) for first, last in turns.tolist()]
 
     def handles(self, at: int) -> Iterable[tuple[Side, float, float]]:
-        """Yield side, time and value of a key's handles, which it has next to Bézier segments."""
+        """Yield side, time (seconds) and value of the handles of the key with an index, which it has next to Bézier
+        segments."""
         start_s = float(self.key_s[at])
         for segment in self.shape:
             if segment.eased:
@@ -133,7 +134,7 @@ class ShownCurve:
 
 
 def shown_curves(project: Project, player_id: str, channel: str) -> tuple[ShownCurve, ...]:
-    """A player's curves of a channel, from the first."""
+    """Return a player's additive curves of a channel that have keys, in order of time."""
     clock = project.score.tempo_map
     found = [ShownCurve.of(curve, clock) for curve in curves_of(project, player_id, channel) if curve.keys]
     return tuple(sorted(found, key=lambda shown: (shown.start_s, shown.curve.name)))
@@ -214,7 +215,7 @@ def joined(curves: Sequence[ShownCurve], project: Project, tick: int, active: st
 def keys_in(
     curves: Sequence[ShownCurve], plane: Plane, left: float, top: float, right: float, bottom: float
 ) -> frozenset[KeyRef]:
-    """The keys in a box of pixels."""
+    """Return the keys of additive curves inside a rectangle of pixels."""
     return frozenset(
         KeyRef(shown.curve.name, key.tick)
         for shown in curves
@@ -232,7 +233,7 @@ def by_curve(keys: Iterable[KeyRef]) -> dict[str, frozenset[int]]:
 
 
 def chosen_keys(curves: Sequence[ShownCurve], selected: Collection[KeyRef]) -> tuple[CurveKey, ...]:
-    """The selected keys in order of time."""
+    """Return the selected keys of additive curves in order of time."""
     found = [key for shown in curves for key in shown.curve.keys if KeyRef(shown.curve.name, key.tick) in selected]
     return tuple(sorted(found, key=lambda key: key.tick))
 
@@ -244,7 +245,7 @@ def still_there(curves: Sequence[ShownCurve], selected: Collection[KeyRef]) -> f
 
 
 def clip_text(channel: str, keys: Sequence[CurveKey]) -> bytes:
-    """Keys for the clipboard."""
+    """Return the text that holds copied keys of a channel on the clipboard."""
     return msgspec.json.encode(_Clip(channel, tuple(keys)))
 
 

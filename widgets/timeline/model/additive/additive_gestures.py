@@ -122,7 +122,7 @@ class DragHandle(EditGesture):
 
 
 def _tangents(shown: ShownCurve, at_key: int, clock: TempoMap) -> dict[Side, Tangent]:
-    """Return the handles of a key including automatic ones."""
+    """Return the Bezier handles of a key by side, relative to it, also where they are computed automatically."""
     key = shown.curve.keys[at_key]
     return {
         side: Tangent(max(abs(round(clock.ticks(time_s)) - key.tick), 1), value - key.value)

@@ -53,7 +53,7 @@ class MarkDrag(MouseGesture):
 
     @property
     def shown(self) -> Mark:
-        """The mark at its new place."""
+        """The dragged mark at its new place, or at the old one before it moves."""
         preview = self._plane.marks.preview
         return preview[1] if preview is not None else self.mark
 

@@ -132,7 +132,7 @@ class MarkTable:
         np.add.at(self.under_slurs, at.note[inner], heights[inner])
 
     def _places(self, numbers: IntArray) -> tuple[IntArray, IntArray]:
-        """Return the indices of the first and last notes of marks, -1 if a note does not exist."""
+        """Return the indices (N,) of the first and of the last note of each mark, -1 if a note does not exist."""
         marks, index, count = self.of_player.marks, self.notes.index, len(numbers)
         chosen = [marks[number] for number in numbers.tolist()]
         first = np.fromiter(map(index.get, (mark.note_id for mark in chosen), repeat(-1)), np.int64, count)
@@ -162,14 +162,16 @@ class MarkTable:
 
 
 def _within(heights: FloatArray, starts: IntArray, stack: IntArray) -> FloatArray:
-    """Return the cumulative heights before each mark in its stack."""
+    """Return for each mark (N,) the sum of the heights below it in its own stack; ``stack`` is each mark's stack,
+    ``starts`` each stack's first mark."""
     before = np.cumsum(heights) - heights
     result: FloatArray = before - before[starts][stack]
     return result
 
 
 def _nested(first: IntArray, last: IntArray) -> IntArray:
-    """Return the number of levels of other spans within each span; ascending by the first note, longer ones first."""
+    """Return for each span (N,) the number of levels of other spans nested in it; spans ascend by the first note,
+    longer ones first."""
     levels = [0] * len(first)
     opened: list[tuple[int, int]] = []
     ends = last.tolist()

@@ -48,7 +48,7 @@ _HEIGHT: Final = 4 * _T * (1 - _T)
 
 
 def arc_height(share: FloatArray) -> FloatArray:
-    """Return the height of a slur relative to its maximum at a share 0..1 of its width."""
+    """Return the height (N,) of a slur relative to its maximum at a share 0..1 of its width."""
     height: FloatArray = np.interp(share, _ALONG, _HEIGHT)
     return height
 
@@ -77,7 +77,7 @@ class Arcs(NamedTuple):
     is_bracket: BoolArray
 
     def y_at(self, arc: IntArray, x: FloatArray) -> FloatArray:
-        """Heights of some arcs at places of theirs."""
+        """Height (N,) in pixels of each slur or bracket with the index ``arc`` at the position ``x``."""
         x0, x1, y0, y1 = self.x0[arc], self.x1[arc], self.y0[arc], self.y1[arc]
         share = np.clip((x - x0) / np.maximum(x1 - x0, 1e-6), 0.0, 1.0)
         rise = np.where(self.is_bracket[arc], 1.0, arc_height(share))
@@ -106,7 +106,7 @@ class Glyphs(NamedTuple):
 
 
 class PlacedMarks(NamedTuple):
-    """The drawn marks of a player in a section of the plot."""
+    """The musical marks of a player with their positions in the visible section of the plot."""
 
     table: MarkTable
     unit_px: float
@@ -115,7 +115,7 @@ class PlacedMarks(NamedTuple):
     arcs: Arcs
 
     def box_of_glyph(self, place: int) -> PixelRect:
-        """Room of a glyph."""
+        """Return the rectangle in pixels that a glyph occupies, for hits by the mouse."""
         mark = self.table.of_player.marks[int(self.glyphs.mark[place])]
         look, unit = LOOKS[mark.kind], self.unit_px
         x, y, x_end, y_end = (float(column[place]) for column in self.glyphs[1:])
@@ -242,7 +242,7 @@ class _Placing:
         self.outer_y = self.inner_y.copy()
 
     def placed(self, glyphs: slice, arcs: IntArray) -> PlacedMarks:
-        """The marks with their places for drawing."""
+        """Return the positions of the glyphs and arcs with the given indices, for drawing."""
         placed_arcs = self._arcs(arcs)
         return PlacedMarks(self.table, self.unit, self.room.line_px, self._glyphs(glyphs), placed_arcs)
 
@@ -312,7 +312,8 @@ class _Placing:
 
 
 class _Cleared(NamedTuple):
-    """Ends and heights of slurs above their notes, and their deviation from the usual shape in pixels."""
+    """Curves of slurs raised to be clear of their notes: ends, heights, and deviation from the usual shape, in
+    pixels."""
 
     x0: FloatArray
     y0: FloatArray

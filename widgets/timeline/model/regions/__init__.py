@@ -1,1 +1,1 @@
-"""Events as regions of a lane."""
+"""Events of players as regions (spans with fades) that a lane displays and drags."""

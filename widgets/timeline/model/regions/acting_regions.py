@@ -40,7 +40,7 @@ BASE = "expression:neutral"
 
 
 class Names(NamedTuple):
-    """Names of expressions and kinds in the user's language."""
+    """Functions that return names of expressions, kinds of gestures, poses and so on in the user's language."""
 
     expression: Callable[[str], str]
     kind: Callable[[str], str]
@@ -97,7 +97,7 @@ def cue_region(event: CueEvent, name: str, pattern: str) -> Region:
 
 
 def expression_region(player_id: str, event: ExpressionEvent, names: Names) -> Region:
-    """Return the region of an expression."""
+    """Return the region that displays a facial expression event in the lane."""
     return Region(
         player_id, event.id, "expression", event.start_tick, event.end_tick, event.start_s, event.end_s,
         amount=event.strength, label=names.expression(event.expression), reason=event.reason,
@@ -107,7 +107,7 @@ def expression_region(player_id: str, event: ExpressionEvent, names: Names) -> R
 
 
 def gesture_region(player_id: str, event: GestureEvent, names: Names) -> Region:
-    """Return the region of a gesture."""
+    """Return the region that displays a gesture event in the lane."""
     label = names.gesture(event.name) if event.part == "tracks" else names.kind(event.kind)
     return Region(
         player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
@@ -117,7 +117,7 @@ def gesture_region(player_id: str, event: GestureEvent, names: Names) -> Region:
 
 
 def pose_region(player_id: str, event: PoseEvent, names: Names) -> Region:
-    """Return the region of a pose."""
+    """Return the region that displays a pose event in the lane."""
     return Region(
         player_id, event.id, "pose", event.start_tick, event.end_tick, event.start_s, event.end_s,
         label=names.pose(event.target), reason=event.reason, by_hand=event.corrected, steady=True,
@@ -126,7 +126,7 @@ def pose_region(player_id: str, event: PoseEvent, names: Names) -> Region:
 
 
 def style_region(player_id: str, event: StyleEvent, names: Names) -> Region:
-    """Bars in another style."""
+    """Return the region that displays a span of bars played in another style."""
     return Region(
         player_id, event.id, STYLE, event.start_tick, event.end_tick, event.start_s, event.end_s,
         label=names.style(event.style), reason=event.reason, by_hand=event.corrected, steady=True,
@@ -135,9 +135,8 @@ def style_region(player_id: str, event: StyleEvent, names: Names) -> Region:
 
 
 def strip(regions: Sequence[Region], kind: str) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return starts, ends and amounts of events drawn as a strip; curves of sway and lean include changed events but
-    not added ones.
-    """
+    """Return starts (N,), ends (N,) and amounts (N,) of the events of a kind drawn as a strip; curves of sway and lean
+    include changed events but not added ones."""
     chosen = [
         region
         for region in regions

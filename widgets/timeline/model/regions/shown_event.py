@@ -71,7 +71,7 @@ class Region(msgspec.Struct):
 
     @property
     def key(self) -> EventKey:
-        """Key in the selection."""
+        """Key by which the selection refers to the region's event."""
         return EventKey(self.player_id, self.event_id)
 
 

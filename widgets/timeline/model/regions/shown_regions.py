@@ -38,7 +38,7 @@ def row_box(row: int, count: int, room_px: float, least_px: float, scrolled_px: 
 
 
 def most_scrolled(count: int, height_px: float, room_px: float) -> float:
-    """Largest scroll offset of the rows, pixels."""
+    """Return the largest scroll offset, pixels, of ``count`` rows in a room of ``room_px``."""
     return max(max(count, 1) * height_px - room_px, 0.0)
 
 
@@ -52,7 +52,7 @@ def region_box(region: Region, scale: Scale, row: tuple[float, float]) -> PixelR
 
 
 def fade_handles(region: Region, box: PixelRect, scale: Scale) -> tuple[Handle, Handle]:
-    """Handles of the fades."""
+    """Names and positions (x, y in pixels) of the handles by which fade-in and fade-out of a region are dragged."""
     fade_in, fade_out = region.fade_in_s * scale.px_per_s, region.fade_out_s * scale.px_per_s
     if region.fades_outside:
         y = box.bottom - HANDLE_PX
@@ -126,7 +126,8 @@ class RegionTable:
         yield from preview.values()
 
     def _distinct(self, found: IntArray, scale: Scale) -> AnyIntArray:
-        """Return the regions that can be distinguished: of narrow ones in a column of pixels, the strongest.
+        """Return the indices of the regions that can be told apart: of narrow ones in the same column of pixels only
+        the strongest.
 
         At small zoom thousands share a column, and each takes as long to draw as a wide one.
         """
@@ -144,7 +145,8 @@ class RegionTable:
     def at(
         self, mouse: LaneMouse, scale: Scale, place: Callable[[Region], PixelRect], selected: Collection[EventKey]
     ) -> tuple[Region | None, str]:
-        """Return the region at a point, and the part of it: ``start``, ``end``, ``fade_in``, ``fade_out`` or ``body``.
+        """Return the region under the mouse, and the grabbed part of it: ``start``, ``end``, ``fade_in``, ``fade_out``
+        or ``body``; None and an empty part if there is none.
 
         Only selected regions have handles for fades, since many handles would be in the way.
         """
@@ -165,7 +167,8 @@ class RegionTable:
         return (best[1], best[2]) if best is not None else (None, "")
 
     def beside(self, chosen: Sequence[Region], step: int, at_s: float) -> Region | None:
-        """Return the region next to given ones, else the one nearest to a time, ignoring other players' regions."""
+        """Return the region ``step`` places next to the chosen ones, else the one nearest to a time; other players'
+        regions are ignored."""
         own = [region for region in self.regions if not region.guest]
         if not own:
             return None
@@ -179,7 +182,7 @@ class RegionTable:
 def removed_regions(
     project: Project, plan: PlayerPlan, kinds: Iterable[str], row: Callable[[str], int]
 ) -> list[Region]:
-    """Return the marks of generated events that the user removed."""
+    """Return regions that mark where the user removed generated events."""
     among = frozenset(kinds)
     onsets: dict[str, int] = {}
     result = []

@@ -68,7 +68,8 @@ def entry_arrows(project: Project, plans: Mapping[str, PlayerPlan], player_id: s
 
 
 def _note_at(project: Project, player_id: str, tick: int) -> tuple[int, int] | None:
-    """Return the onset and pitch of the first note from a tick on, else of the last one."""
+    """Return onset tick and pitch of the player's first note from a tick on, else of the last one; None without
+    notes."""
     notes = project.part(project.player(player_id)).notes
     if not notes:
         return None

@@ -58,7 +58,7 @@ class NoteTable(TimedNotes):
         return {note_id: place for place, note_id in enumerate(map(attrgetter("id"), self.part.notes))}
 
     def flags(self, note_ids: Collection[str]) -> BoolArray:
-        """Return whether each note has one of given ids."""
+        """Return for each row of the table (N,) whether its note's id is among ``note_ids``."""
         result = np.zeros(len(self), np.bool_)
         if self.index.keys().isdisjoint(note_ids):
             # So it is for most players.

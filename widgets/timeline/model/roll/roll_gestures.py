@@ -93,7 +93,7 @@ class Move(RollGesture):
         self.moved = self._note.id
 
     def _free(self, mouse: LaneMouse) -> bool:
-        """Return whether the grid is suspended."""
+        """Return whether the mouse moves without snapping to the grid, which Alt suspends."""
         return mouse.alt
 
     def _snapped(self, mouse: LaneMouse) -> int:

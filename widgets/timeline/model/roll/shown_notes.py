@@ -94,7 +94,8 @@ def zoomed_pitches(pitches: tuple[float, float], factor: float, at: float) -> tu
 
 
 def visible(table: TimedNotes, start_s: float, end_s: float, pitches: tuple[float, float]) -> IntArray:
-    """Return the indices of notes that may be visible in a range of time and pitch."""
+    """Return the indices (K,) of the notes that may be visible in a range of seconds and of pitches (lowest,
+    highest)."""
     found = table.visible(start_s, end_s)
     bottom, top = pitches
     pitch = table.pitch[found]
@@ -117,7 +118,8 @@ def moved_notes(before: Score, after: Score) -> list[str]:
 def boxes(
     table: TimedNotes, rows: IntArray, scale: Scale, highest: float, row_px: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return left, top, width and height of notes in whole pixels, for sharp edges."""
+    """Return left, top, width and height (N,) of notes in whole pixels, for sharp edges; ``highest`` is the pitch at
+    the top."""
     left = np.floor(scale.x_px(table.onset_s[rows]))
     right = np.floor(scale.x_px(table.end_s[rows]))
     pitch = table.pitch[rows]
@@ -162,7 +164,7 @@ class RollModel:
         """The players behind, and what that was found from: it is asked with every repaint."""
 
     def forget(self) -> None:
-        """Another piece is open."""
+        """Discard everything cached about the previous piece, since another one is open."""
         self._tables.clear()
         self._flags.clear()
 
@@ -176,12 +178,12 @@ class RollModel:
         return known
 
     def front(self) -> tuple[NoteTable, str] | None:
-        """The notes of the player in front, and their colour."""
+        """Return the notes of the active player and their colour; None if there is none."""
         player = self._session.player
         return (self.table(player), self._session.colour(player)) if player is not None else None
 
     def ghosts(self) -> Behind:
-        """The notes of the players behind."""
+        """Return the notes of the other players, drawn pale behind those of the active player."""
         if self.ghosts_mode is Ghosts.ALONE:
             return NO_GHOSTS
         project, front = self._session.project, self._session.player
@@ -208,7 +210,7 @@ class RollModel:
         return tables + list(self.ghosts().tables) if self.ghosts_mode is Ghosts.ALL else tables
 
     def note(self, note_id: str) -> Note | None:
-        """A note of the player in front."""
+        """Return the note of the active player with an id; None if there is none."""
         front = self.front()
         place = front[0].index.get(note_id) if front is not None else None
         return front[0].part.notes[place] if front is not None and place is not None else None
@@ -254,7 +256,7 @@ class RollModel:
         return known[2]
 
     def notes_within(self, start_s: float, end_s: float, low: int, high: int) -> frozenset[str]:
-        """Return the ids of the notes in a rectangle."""
+        """Return the ids of the notes that overlap a rectangle of seconds and pitches."""
         return frozenset(id for table in self._touchable() for id in table.within(start_s, end_s, low, high))
 
     def notes_of_pitch(self, pitch: int) -> frozenset[str]:
@@ -266,7 +268,7 @@ class RollModel:
         return frozenset(notes[place].id for place in np.flatnonzero(front[0].pitch == pitch).tolist())
 
     def selected(self, table: NoteTable) -> BoolArray | None:
-        """Return whether each note of a table is selected; None if none is."""
+        """Return a mask (N,) of the table's notes that are selected; None if none is."""
         selection = self._session.selection
         if not selection.notes:
             return None

@@ -1,1 +1,1 @@
-"""The ruler, and beats pinned to the recording."""
+"""Contents of the ruler (tempo, metres, markers) and the beats pinned to the recording."""

@@ -155,6 +155,6 @@ class HoldMark(MouseGesture):
 
 
 def drop_span(session: Editing) -> None:
-    """Deselect the span, keeping other selections."""
+    """Clear the selected time range, keeping selected notes and events."""
     if session.selection.span is not None:
         session.select(Selection(session.selection.notes, session.selection.events))

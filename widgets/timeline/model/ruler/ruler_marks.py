@@ -52,7 +52,7 @@ def clock_labels(axis: VisibleSpan) -> Labels:
 
 
 def clock(seconds: float, decimals: int) -> str:
-    """Minutes and seconds: ``-0:02.5``."""
+    """Return seconds as minutes and seconds, such as ``-0:02.5``."""
     scaled = round(abs(seconds) * 10**decimals)
     whole, fraction = divmod(scaled, 10**decimals)
     sign = "-" if seconds < 0 and scaled else ""
@@ -150,7 +150,7 @@ def typed(kind: str, tick: int, text: str) -> tuple[Message, Callable[[Project],
 
 
 def removal(kind: str, tick: int) -> tuple[Message, Callable[[Project], Project]]:
-    """Return the edit that removes a mark, and its name."""
+    """Return the name (for undo) and the edit that removes the tempo or metre mark at a tick."""
     if kind == "tempo":
         return Message("edit.remove_tempo"), lambda project: tempo_edit.remove_tempo(project, tick)
     return Message("edit.remove_metre"), lambda project: tempo_edit.remove_metre(project, tick)

@@ -1,1 +1,1 @@
-"""Takes as displayed in the timeline."""
+"""Takes of the active player as the takes lane displays them."""

@@ -62,7 +62,7 @@ class Swipe(MouseGesture):
 
 
 class TakesModel:
-    """The takes of the active player."""
+    """The takes of the active player for drawing, the comp assembled from them, and the swipe in progress."""
 
     def __init__(self, session: Recorded, axis: Limited) -> None:
         self._session, self._axis = session, axis
@@ -160,7 +160,7 @@ class TakesModel:
         return selection.take
 
     def beside(self, by: int) -> str:
-        """Return the take above (-1) or below (1) the current one."""
+        """Return the id of the take above (``by`` -1) or below (1) the current one."""
         current = self.current()
         number = self.number_of(current) if current is not None else None
         return self.rows[min(max((number if number is not None else -by) + by, 0), len(self.rows) - 1)].take_id
@@ -185,7 +185,7 @@ class TakesModel:
             )
 
     def rename(self, take_id: str, name: str) -> None:
-        """Rename a take."""
+        """Rename a take of the active player, as one undoable step."""
         player = self._session.player
         if player is not None:
             self._session.attempt(

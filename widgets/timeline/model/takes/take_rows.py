@@ -69,7 +69,7 @@ def rows_of(project: Project, player_id: str) -> tuple[TakeRow, ...]:
 
 
 def owners(comp: Sequence[CompSpan], ticks: IntArray) -> IntArray:
-    """Return the index of the span of a comp that contains each tick; -1 for none."""
+    """Return for each tick (N,) the index of the comp's span that contains it; -1 for none."""
     if not comp:
         return np.full(len(ticks), -1, np.int64)
     starts = np.array([span.start_tick for span in comp], np.int64)
@@ -155,10 +155,10 @@ def _drawn_breath(curve: ControllerCurve, clock: TempoMap) -> StepCurve:
 
 
 def _moved(seconds: FloatArray, own: TempoMap, clock: TempoMap) -> FloatArray:
-    """Convert times of a take's own clock to times of the piece, whose tempo may have changed since."""
+    """Convert seconds (N,) of a take's own tempo to seconds of the piece, whose tempo may have changed since."""
     return clock.seconds(own.ticks(seconds))
 
 
 def comp_of(project: Project, player_id: str) -> tuple[CompSpan, ...]:
-    """Return the spans of a player's part, each with its take."""
+    """Return the spans of a player's part assembled from takes, each with its take."""
     return recorded_of(project, player_id).comp
