@@ -99,7 +99,7 @@ def root_from_node(model: GltfModel, root: int) -> FloatArray:
 
 
 def node_triangles(instrument: InstrumentMap, model: GltfModel) -> dict[str, FloatArray]:
-    """Return the triangles (T, 3, 3) that move with each node of the map, in the node's frame."""
+    """Return the T triangles (T, 3, 3) that move with each node of the map, by node, in the node's frame."""
     names = {node.name: index for index, node in enumerate(model.nodes)}
     places = root_from_node(model, names[ROOT])
     requested = {names[name]: name for name in (ROOT, *instrument.nodes) if name in names}

@@ -98,7 +98,7 @@ def written_choice(text: str, choices: Sequence[Fingering], controls: Iterable[C
 
 
 def _only(places: Iterable[int]) -> int | None:
-    """Return the index, if there is exactly one."""
+    """Return the only one of the indices; None if there are several or none."""
     found = list(places)
     return found[0] if len(found) == 1 else None
 

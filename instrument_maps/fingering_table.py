@@ -77,9 +77,8 @@ def read_label(instrument: InstrumentMap, text: str) -> tuple[str, dict[str, flo
 
 
 def with_label(instrument: InstrumentMap, table: Table, written: int, rank: int, text: str) -> Table:
-    """Return the table with another label and its values for one fingering. Raises as `read_label`, and if the note has
-    the label already.
-    """
+    """Return the fingering table with another label for the fingering of a written pitch and rank, whose control values
+    follow from it. Raises as `read_label`, and UsageError if the pitch has the label already."""
     label, controls = read_label(instrument, text)
     if any(one.label == label and one.rank != rank for one in of_pitch(table, written)):
         raise UsageError("fingering.twice", text=label)
@@ -129,12 +128,12 @@ def free_label(instrument: InstrumentMap, table: Table, written: int) -> str | N
 
 
 def with_cents(table: Table, written: int, rank: int, cents: float) -> Table:
-    """Return the table with other cents for one fingering."""
+    """Return the fingering table with another deviation in cents for the fingering of a written pitch and rank."""
     return _changed(table, written, rank, cents=float(cents))
 
 
 def with_tags(table: Table, written: int, rank: int, tags: Iterable[str]) -> Table:
-    """Return the table with other tags for one fingering."""
+    """Return the fingering table with other tags for the fingering of a written pitch and rank."""
     return _changed(table, written, rank, tags=tuple(dict.fromkeys(tag.strip() for tag in tags if tag.strip())))
 
 
@@ -172,7 +171,7 @@ def reverted(table: Table, base: Table, written: int) -> Table:
 
 
 def of_pitch(table: Table, written: int) -> Table:
-    """The fingerings of a written pitch."""
+    """Return the rows of a fingering table with a written pitch."""
     return tuple(one for one in table if one.written_pitch == written)
 
 

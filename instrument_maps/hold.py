@@ -74,7 +74,7 @@ class Capsule(MapTable, frozen=True, tag="capsule", tag_field="shape"):
 
 
 class Cylinder(MapTable, frozen=True, tag="cylinder", tag_field="shape"):
-    """A flat-ended round body between ``a_m`` and ``b_m``."""
+    """A flat-ended round body of the instrument between the points ``a_m`` and ``b_m`` of a node."""
 
     node: str
     a_m: Vector
@@ -93,7 +93,8 @@ class Cone(MapTable, frozen=True, tag="cone", tag_field="shape"):
 
 
 class Ring(MapTable, frozen=True, tag="ring", tag_field="shape"):
-    """A torus about ``axis``: ``radius_m`` to the middle of its tube, ``tube_radius_m`` of the tube."""
+    """A ring-shaped body of the instrument (torus) about ``axis``: ``radius_m`` to the middle of its tube,
+    ``tube_radius_m`` of the tube."""
 
     node: str
     centre_m: Vector
@@ -103,7 +104,8 @@ class Ring(MapTable, frozen=True, tag="ring", tag_field="shape"):
 
 
 class Box(MapTable, frozen=True, tag="box", tag_field="shape"):
-    """A box with half sizes ``half_m`` along the unit vectors ``x_axis``, ``y_axis`` and their cross product."""
+    """A box-shaped body of the instrument with half sizes ``half_m`` along the unit vectors ``x_axis``, ``y_axis`` and
+    their cross product."""
 
     node: str
     centre_m: Vector
@@ -137,7 +139,7 @@ class Carriage(MapTable, frozen=True):
 
 
 class LoweredPlace(MapTable, frozen=True):
-    """Place of the instrument in a long rest.
+    """Place of the instrument while it is lowered in a long rest.
 
     ``offset_m`` is the mouthpiece's place relative to that during playing, in the player's frame (left, up, forward);
     the angles are as in `Carriage`.
@@ -154,7 +156,7 @@ SupportKind: TypeAlias = Literal["neck_strap", "harness", "seat_strap"]
 
 
 class Support(MapTable, frozen=True):
-    """A strap that bears the instrument.
+    """A strap or band that bears the instrument.
 
     ``hook_m`` is where it is hooked in, in the root frame; ``postures`` those it is worn in.
     """
@@ -165,7 +167,7 @@ class Support(MapTable, frozen=True):
 
 
 class Hold(MapTable, frozen=True):
-    """Hold of the instrument by a trained player.
+    """Posture in which a trained player holds the instrument.
 
     ``support_hand`` carries the weight. ``standing`` and ``seated`` are for playing; the two ``lowered`` tables are for
     long rests. An instrument that is only played seated has no tables for standing, and vice versa.

@@ -294,7 +294,8 @@ class Vocabulary(InstrumentRelations):
         return found, reported_by
 
     def _marks_beside(self, tokens: tuple[str, ...], singular: tuple[str, ...], begin: int, end: int) -> dict[str, int]:
-        """Return the sizes, clefs and the nearest key among the words beside a name, with their number of words."""
+        """Return sizes, clefs and the nearest key (such as "B flat") among the words beside an instrument's name, each
+        with its number of words."""
         found: dict[str, int] = {}
         nearest: tuple[int, str] | None = None
         place = 0

@@ -1,4 +1,4 @@
-"""Instruments of the vocabulary, and their relations."""
+"""The instruments known by name, and their relations, such as sort and family."""
 
 from __future__ import annotations
 
@@ -270,7 +270,7 @@ class InstrumentRelations:
 
 
 def invalid(file: str, detail: str) -> MapError:
-    """The error of a table."""
+    """Return the error for an invalid table of instruments; ``detail`` says what is wrong."""
     return MapError("vocabulary.invalid", file=file, detail=detail)
 
 

@@ -45,11 +45,11 @@ class ChartedKey:
 
     @property
     def size(self) -> tuple[float, float]:
-        """Width and height."""
+        """Width and height of the key in the chart's units."""
         return (HOLE, HOLE) if self.is_round else PAD
 
     def overlaps(self, other: ChartedKey) -> bool:
-        """Return whether it overlaps another."""
+        """Return whether the key's rectangle overlaps that of another key in the chart."""
         (wide, tall), (other_wide, other_tall) = self.size, other.size
         apart = abs(self.x - other.x) * 2.0, abs(self.y - other.y) * 2.0
         return apart[0] < wide + other_wide and apart[1] < tall + other_tall
@@ -73,7 +73,7 @@ class KeyChart:
 
     @cached_property
     def column(self) -> tuple[ChartedKey, ...]:
-        """The holes of the column from the top."""
+        """The holes in the chart's column, from top to bottom."""
         return tuple(sorted((key for key in self.keys if key.in_column), key=lambda key: key.y))
 
     @cached_property
@@ -83,7 +83,7 @@ class KeyChart:
 
     @cached_property
     def bottom(self) -> float:
-        """Return the lowest position."""
+        """Lowest extent of the chart in its units."""
         return max((key.y + key.size[1] / 2.0 for key in self.keys), default=1.0)
 
     @cached_property
@@ -104,7 +104,7 @@ class KeyChart:
 
 
 def is_half(control: Control, value: float) -> bool:
-    """Return whether a hole is half closed."""
+    """Return whether a hole is half closed at a value of its control."""
     return control.half_value is not None and 0.0 < value < 1.0
 
 
@@ -152,7 +152,8 @@ def _homes(instrument: InstrumentMap) -> frozenset[str]:
 
 
 def _usual_place(control: Control, home: bool) -> tuple[float, float]:
-    """Return the default place: in the column at home, else beside it, thumbs at the left."""
+    """Return the default x and y of a key in the chart: in the column if it is at home, else beside it, thumbs at the
+    left."""
     hand, _, finger = control.finger.partition(".")
     side = 0.0 if home else -_BESIDE if finger == "thumb" else _BESIDE
     return side, _TOPS.get(hand, 0.0) + _DOWN.get(finger, 0.0)

@@ -24,17 +24,17 @@ class Library(Shelf[InstrumentMap]):
 
     @cached_property
     def maps(self) -> Mapping[str, InstrumentMap]:
-        """All maps by id, sorted."""
+        """All maps by id, in the order of ids."""
         return dict(sorted(self.items.items()))
 
     @cached_property
     def in_score_order(self) -> tuple[InstrumentMap, ...]:
-        """Return all maps in the order of lists."""
+        """All maps in the order in which a score lists instruments."""
         return tuple(in_score_order(self.maps.values()))
 
     @property
     def own(self) -> Mapping[str, Path]:
-        """Files of the user's own maps."""
+        """Files of the maps that the user added, by map id."""
         return self.files
 
     def find(self, id: str) -> InstrumentMap:

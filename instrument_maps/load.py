@@ -127,14 +127,13 @@ def _shaped(text: str, file: str) -> InstrumentMap:
 
 @lru_cache(maxsize=4)
 def parse_table(text: str, file: str) -> dict[str, Any]:
-    """Return a map's table, which must not be modified since several maps extend the same one. Raises MapError."""
+    """Parse a map's file as TOML. The table must not be modified, since several maps extend it. Raises MapError."""
     return parse_toml(text, file)
 
 
 def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict[str, Any]:
-    """Return a map's table merged with the one it extends, which is looked for beside it and then among bundled
-    maps.
-    """
+    """Return a map's table merged with the one it extends, which is looked for beside it and then among bundled maps;
+    ``above`` are the files that extend this one."""
     if BASE not in table:
         return table
     base, own = table[BASE], Path(file).absolute()

@@ -50,7 +50,7 @@ class InstrumentName(MapTable, frozen=True):
 
 
 class Range(MapTable, frozen=True):
-    """Concert MIDI pitches, both ends inclusive.
+    """Range of the instrument as concert MIDI pitches, both ends inclusive.
 
     ``low``..``high`` is the range of the fingering table; in ``easy_low``..``easy_high`` the embouchure is neither
     completely relaxed nor tight. ``usual_low``..``usual_high`` is the range without pedal tones and altissimo, by which
@@ -200,7 +200,7 @@ class Endpin(MapTable, frozen=True):
 
 
 class MovingPart(NamedTuple):
-    """A moving node of the model.
+    """A node of the instrument's model that moves, such as a key or slide.
 
     ``name`` is that of its bone in a file: the control's name, or the node's own for a link and an endpin, which moves
     by a value of its own name.
@@ -371,7 +371,7 @@ class InstrumentMap(MapTable, frozen=True):
 
     @property
     def nodes(self) -> tuple[str, ...]:
-        """The nodes of `moving_parts`."""
+        """Names of the model's nodes that `moving_parts` move, in the same order."""
         return tuple(part.node for part in self.moving_parts)
 
     def in_range(self, concert_pitch: int) -> bool:
@@ -383,7 +383,7 @@ class InstrumentMap(MapTable, frozen=True):
         return min(max(concert_pitch, self.range.low), self.range.high)
 
     def fingerings_for(self, concert_pitch: int) -> tuple[Fingering, ...]:
-        """Return the fingerings of a concert pitch, the preferred one first.
+        """Return the fingerings of a concert pitch (MIDI number), the preferred one first.
 
         For a pitch out of range, those of `nearest_playable`. Never empty for a valid map.
         """

@@ -55,7 +55,7 @@ def is_katakana(word: str) -> bool:
 
 
 def words_of(text: str) -> tuple[str, ...]:
-    """The words of a text."""
+    """Split a name of a track or instrument into its words, spelled uniformly for comparison."""
     spaced = _CAMEL.sub(" ", unicodedata.normalize("NFKC", text))
     plain = _ORDINAL.sub("", _MARKED.sub(_unmarked, spaced).casefold())
     if not plain.isascii():

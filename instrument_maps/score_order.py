@@ -27,7 +27,8 @@ def _height(instrument: InstrumentMap) -> tuple[int, int, str]:
 
 
 def _kind(instrument: InstrumentMap) -> tuple[int, str]:
-    """Return the place of its family in a score, and the instrument of which it is a form: the tuba for a tuba in F."""
+    """Return a sort key for the order of instruments in a score: place of the family, and the instrument of which it is
+    a form (the tuba for a tuba in F)."""
     words = vocabulary()
     known = [words.instruments[id] for id in instrument.plays if id in words.instruments]
     places = [words.score_order.index(one.family) for one in known if one.family]

@@ -1,4 +1,4 @@
-"""The nearest point of a triangle mesh."""
+"""Finds the point of a triangle mesh nearest to a given point."""
 
 from __future__ import annotations
 

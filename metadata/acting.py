@@ -17,7 +17,7 @@ SEPARATOR = ","
 
 
 class Factors(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Factors by which a style or habit multiplies a player's amounts, named like the parameters."""
+    """Factors by which a style or habit multiplies a player's amounts of motion, named like the parameters."""
 
     sway: Factor = 1.0
     weight_shift: Factor = 1.0
@@ -56,7 +56,7 @@ class Style(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Habit(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """An action that a player does more or less than others of the same style."""
+    """A habit: factors by which a player performs actions more or less than others of the same style."""
 
     name: str
     title: Title
@@ -86,7 +86,7 @@ def names_in(text: str) -> tuple[str, ...]:
 
 
 def as_text(names: tuple[str, ...]) -> str:
-    """Return a text of names."""
+    """Return names joined to one text, each once and sorted."""
     return SEPARATOR.join(sorted(set(names)))
 
 

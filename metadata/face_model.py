@@ -68,7 +68,7 @@ class EmbouchureWeights(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
 
     @property
     def usual(self) -> dict[str, float]:
-        """Weights of a middling tension."""
+        """Weight of each morph at middling tension: the mean of `relaxed` and `tight`."""
         names = sorted(self.relaxed.keys() | self.tight.keys())
         return {name: 0.5 * (self.relaxed.get(name, 0.0) + self.tight.get(name, 0.0)) for name in names}
 

@@ -49,7 +49,8 @@ READERS: Final[Mapping[str, Callable[[Path], object]]] = {
 
 
 class MetadataLibrary(NamedTuple):
-    """All tables in the state of the last reading; the shelves stay the same objects until the next one."""
+    """All tables of acting (styles, habits, expressions, gestures and more) in the state of the last reading; the
+    shelves stay the same objects until the next one."""
 
     styles: Shelf[Style]
     habits: Shelf[Habit]
@@ -86,7 +87,7 @@ def bundled_gestures() -> Mapping[str, Gesture]:
 
 
 def bundled_rules() -> tuple[Rule, ...]:
-    """Return the bundled rules."""
+    """All rules of acting that come with the program."""
     return _all_rules(_OUR_RULES())
 
 
@@ -96,9 +97,8 @@ def _rules_of(sets: tuple[RuleSet, ...]) -> tuple[Rule, ...]:
 
 
 def _all_rules(sets: Mapping[str, RuleSet], own: Collection[str] = ()) -> tuple[Rule, ...]:
-    """Return the rules of every file in the order of file names, ``own`` ones last; of two with the same name the later
-    one is used, in the place of the earlier.
-    """
+    """Return the rules of every file in the order of file names, files in ``own`` last; of two rules with the same name
+    the later one is used, in the place of the earlier."""
     return _rules_of(tuple(sets[name] for name in sorted(sets, key=lambda name: (name in own, name))))
 
 

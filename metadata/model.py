@@ -121,7 +121,7 @@ class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defa
 
 
 class Sway(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Sideways lean with the music, and bending of knees and hips on an accent; sizes by amplitude."""
+    """Sideways lean of the trunk with the music, and bending of knees and hips on an accent; sizes by amplitude."""
 
     side_deg: AmplitudeScale
     forward_deg: AmplitudeScale
@@ -201,7 +201,7 @@ class WeightShift(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class BellMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The bell rising and falling with the melody's contour."""
+    """Motion of the bell as it rises and falls with the melody's contour."""
 
     up_deg: AmplitudeScale
     down_deg: AmplitudeScale
@@ -360,7 +360,7 @@ BiteSource: TypeAlias = Annotated[
 
 
 class ControllerName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A controller's name by language."""
+    """Name of a MIDI controller in English and Japanese."""
 
     en: str
     ja: str

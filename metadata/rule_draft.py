@@ -134,7 +134,7 @@ _USUAL: Final[Mapping[type[msgspec.Struct], msgspec.Struct]] = {When: When(), Do
 
 
 def _said(value: msgspec.Struct) -> dict[str, Any]:
-    """Return the fields that differ from their default."""
+    """Return those fields of a rule that differ from their defaults, by name, as they are written to a file."""
     usual = _USUAL.get(type(value), Rule("", When(), Do()))
     found: dict[str, Any] = {}
     for name in value.__struct_fields__:

@@ -121,7 +121,7 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def growth(self) -> tuple[Growth, ...]:
-        """Return all quantities that the strength grows with."""
+        """All quantities of the music with which the strength grows; empty if it is constant."""
         if self.grows_with is None:
             return ()
         return (self.grows_with,) if isinstance(self.grows_with, str) else self.grows_with
@@ -158,7 +158,7 @@ class Rule(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class RuleSet(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The rules of a file."""
+    """The rules of acting in one file."""
 
     name: str
     description: str
@@ -192,7 +192,7 @@ class RuleFault(NamedTuple):
 
 
 def rule_faults(rule: Rule) -> Iterator[RuleFault]:
-    """Find the faults of a rule."""
+    """Yield every error in a rule with the key that it concerns."""
     if not rule.name.isidentifier():
         yield RuleFault("name", "name", f"{rule.name!r} must be letters, digits and underscores")
     if rule.events and not rule.events.isidentifier():

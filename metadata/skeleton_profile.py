@@ -34,7 +34,8 @@ class JointAxes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class ProfileJoint(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A joint of the profile, its parent (empty for the root) and the key of its axes and limits."""
+    """A joint of the skeleton that every character has: its parent (empty for the root) and the key of its axes and
+    limits."""
 
     name: str
     parent: str

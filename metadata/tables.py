@@ -25,7 +25,7 @@ class Title(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     ja: str = ""
 
     def in_language(self, language: str) -> str:
-        """The name in ``"en"`` or ``"ja"``."""
+        """The title in ``"en"`` or ``"ja"``; English if there is no Japanese one."""
         return (self.ja or self.en) if language == "ja" else self.en
 
 
@@ -56,7 +56,7 @@ def decoded(path: Path, kind: type[T], file: str | None = None) -> T:
 
 
 def invalid(path: Path, key: str, detail: str, file: str | None = None) -> MapError:
-    """Return the error for an invalid value."""
+    """Return the error for an invalid value at ``key`` of a table; ``file`` replaces the label of the path."""
     return MapError("table.invalid", file=label(path) if file is None else file, place=key, detail=detail)
 
 

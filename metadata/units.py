@@ -1,4 +1,4 @@
-"""Types of numbers in the tables."""
+"""Types of the numbers in tables of acting, with their bounds."""
 
 from __future__ import annotations
 
