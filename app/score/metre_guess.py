@@ -111,7 +111,7 @@ class Line(NamedTuple):
 
 
 class _Signals(NamedTuple):
-    """Features of the piece, cell by cell.
+    """Features of a piece by which metres are guessed: S features and L lines in T cells of time.
 
     Attributes
     ----------

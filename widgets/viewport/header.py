@@ -106,7 +106,7 @@ class ViewportHeader(Retranslated, QWidget):
         self.retranslate()
 
     def _add_views(self) -> None:
-        """The views as buttons, and as rows of a menu."""
+        """Add the views as buttons, and as rows of a menu for narrow headers."""
         viewport, buttons, rows = self._session.viewport, QButtonGroup(self), QActionGroup(self)
         segments, menu = in_row(of=self._segments, margins=0, spacing=1), named(QMenu(self), "viewport_view_menu")
         for view in VIEWS:

@@ -92,7 +92,7 @@ def breath_envelopes(breaths: Sequence[BreathEvent]) -> Envelopes:
 
 
 def giving_way(dance: FloatArray, to_breath: FloatArray) -> FloatArray:
-    """Reduce a dance (F, 12) during breaths, by shares (F,) 0..1."""
+    """Return a dance (F, 12) of twelve channels reduced during breaths by shares (F,) 0..1."""
     given = dance.copy()
     given[:, _NODS] *= (1.0 - to_breath)[:, None]
     given[:, _TURNS] *= _turned_less(to_breath)[:, None]

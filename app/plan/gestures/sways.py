@@ -220,9 +220,8 @@ def _turns() -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
 
 
 def sways(swings: Swings, pulse: Pulse) -> list[GestureEvent]:
-    """A gesture for each shortest swing; its id is made of the place, so it stays the same when another division is
-    chosen.
-    """
+    """Return a gesture event for each shortest swing of the body; its id is made of the tick, so it stays the same when
+    another division is chosen."""
     beat_s = round(pulse.beat_s, 3)
     reasons = {
         parts: Message("gesture.sway", {"beats": parts * swings.beats, "beat_s": beat_s}) for parts in (1, 2, 4)

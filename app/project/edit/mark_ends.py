@@ -59,7 +59,8 @@ def _spans(kind: str) -> bool:
 
 
 def _anchored(project: Project, note_ids: Collection[str], ends_of: Callable[[Part], Ends]) -> Project:
-    """Return the project with other ends for the marks at some notes."""
+    """Return the project with the marks at the given notes, in score and corrections, attached to other notes:
+    ``ends_of`` returns for a part the function that replaces a mark's first and last note."""
     parts, corrections = [], dict(project.corrections)
     for part in project.score.parts:
         players = [player.id for player in project.players if player.part_id == part.id]

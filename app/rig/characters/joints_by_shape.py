@@ -206,8 +206,9 @@ def joints_by_shape(tree: Tree) -> dict[str, int]:
 
 
 def trunk_by_limbs(tree: Tree, limbs: Mapping[str, int]) -> dict[str, int]:
-    """Return the bones of hips, spine and head of a figure whose legs and arms are known; empty if there are no bones
-    between them."""
+    """Return hips, spine and head of a figure with known upper legs and upper arms; empty if there are no bones
+    between.
+    """
     legs = [limbs[side + "UpperLeg"] for side in ("left", "right")]
     arms = [limbs.get(side + "Shoulder", limbs[side + "UpperArm"]) for side in ("left", "right")]
     under_legs = frozenset.intersection(*(tree.above[bone] for bone in legs))
@@ -280,7 +281,7 @@ def _low(halves: _Halves, bone: int) -> bool:
 
 
 def _alike(halves: _Halves, one: int, other: int) -> bool:
-    """Return whether two bones are at the same place, within a tolerance relative to the body's height."""
+    """Return whether two bones are at the same place."""
     return halves.tree.distance(one, other) < MIRROR_TOLERANCE * halves.height
 
 
@@ -386,8 +387,8 @@ def _chains(tree: Tree, bone: int) -> list[int]:
 
 
 def hand_of_palms(tree: Tree, side: str, upper: int, forearm: int) -> dict[str, int]:
-    """Return by joint the bones of hand and fingers where each finger's palm bone begins at the wrist; empty if a
-    single bone is the hand.
+    """Return the hand and fingers of a forearm with a bone for each finger attached at the wrist; empty if a single
+    bone is the hand.
 
     The bone of the middle finger is used as the hand.
     """
@@ -406,16 +407,10 @@ def hand_of_palms(tree: Tree, side: str, upper: int, forearm: int) -> dict[str, 
     return {f"{side}Hand": hand} | digits
 
 
-def _two(tree: Tree, upper: list[int], end: int, length_m: float) -> tuple[int, int]:
-    """Return the first bone of a limb and its middle joint, chosen so that both halves are about equal and the length
-    is near ``length_m``."""
-    return min(
-        _pairs(upper),
-        key=lambda pair: (
-            abs(tree.distance(pair[0], pair[1]) - tree.distance(pair[1], end))
-            + 0.5 * abs(tree.distance(pair[0], end) - length_m)
-        ),
-    )
+def _two(tree: Tree, limbs: Sequence[tuple[list[int], int]], length_m: float) -> tuple[int, int]:
+    """Return the indices of the first bone and the middle joint of limbs with equally many bones before their ends, for
+    equal halves and a plausible length.
+    """
 
     def off_m(upper: list[int], end: int, pair: tuple[int, int]) -> float:
         start, middle = (upper[at] for at in pair)

@@ -41,7 +41,9 @@ class PosedTrunk:
     weights: FloatArray
 
     def weights_at(self, points_m: FloatArray) -> FloatArray:
-        """Return the weights (N, J) on J joints of N points near the body: the mean of the nearest vertices'."""
+        """Weights (N, J) of what lies at places (N, 3): those of the nearest vertices, evenly."""
+        from scipy.spatial import cKDTree  # heavy: few pieces have straps
+
         _, near = cKDTree(self.vertices_m).query(points_m, k=min(_NEAR, len(self.vertices_m)))
         found: FloatArray = self.weights[near.reshape(len(points_m), -1)].mean(axis=1)
         return found
@@ -146,7 +148,7 @@ def taut_string(trunk: PosedTrunk, start_m: FloatArray, via_m: FloatArray, end_m
 
 
 def _cut(corners: FloatArray, origin: FloatArray, normal: FloatArray) -> FloatArray:
-    """Return the points (N, 3) in which edges of triangles (T, 3, 3) go through a plane."""
+    """Points (N, 3) in which edges of triangles (T, 3, 3) go through a plane."""
     height = (corners - origin) @ normal
     found = list[FloatArray]()
     for one, other in ((0, 1), (1, 2), (2, 0)):
