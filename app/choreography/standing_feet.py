@@ -45,12 +45,16 @@ SETTLE_S: Final = 0.30
 """Time in seconds after leaving and before reaching the floor within which a foot blends with its own path."""
 REACH_SHARE: Final = 0.985
 """Largest reach of a standing foot relative to the leg's length; for a farther one the hips are lowered."""
+LOWEST_SHARE: Final = 0.5
+"""Height of a hip joint over a standing ankle relative to the leg's length below which the hips are not lowered for the
+leg's reach; they move towards the foot instead.
+"""
 DEEPER: Final = 0.07
 HIGHER: Final = 0.02
 """Difference in the height of the hips, as a share of the leg's length: lower for the heaviest and higher for the
 lightest dancer."""
 SINK_S: Final = 0.12
-"""Standard deviation in seconds of the hips' lowering."""
+"""Standard deviation in seconds of the hips' lowering and of their way towards a foot."""
 
 
 @dataclass(frozen=True)
@@ -153,8 +157,10 @@ def planted(
         targets[:, foot] += _correction(tips[:, foot], own, float(clip.fps))
     length_m = leg(clip.shape.skeleton, "left").length_m
     lower_m = weight * length_m * (DEEPER if weight > 0.0 else HIGHER)
+    towards = _towards_m(clip, world, targets, standing, lower_m)
+    world = replace(world, positions_m=world.positions_m + towards[:, None])
     lower = (lower_m + _sink_m(clip, world, targets, standing, lower_m))[:, None] * np.array((0.0, 1.0, 0.0))
-    clip = replace(clip, hips_m=clip.hips_m - lower)
+    clip = replace(clip, hips_m=clip.hips_m + towards - lower)
     world = replace(world, positions_m=world.positions_m - lower[:, None])
     rotations = clip.rotations.copy()
     for foot, side in enumerate(SIDES):
@@ -265,23 +271,54 @@ def _eased(value: FloatArray, slope: FloatArray, u: FloatArray, fade: float) -> 
     return np.asarray((1.0 - u) ** 2 * (1.0 + 2.0 * u) * value + (1.0 - u) ** 2 * u * fade * slope)
 
 
+def _towards_m(
+    clip: MotionClip, world: JointTransforms, targets: FloatArray, standing: tuple[FootPlant, ...], lower_m: float
+) -> FloatArray:
+    """Return the horizontal displacement (F, 3) of the hips that brings standing feet within reach which are out of it
+    even with the hips at `LOWEST_SHARE`.
+    """
+    towards = np.zeros((len(clip), 3))
+    for foot in range(2):
+        way, length_m = _ankle_to_hip_m(clip, world, targets, foot)
+        across = np.linalg.norm(way[:, [0, 2]], axis=1)
+        height = np.minimum(way[:, 1] - lower_m, LOWEST_SHARE * length_m)
+        reach = np.sqrt(np.maximum((REACH_SHARE * length_m) ** 2 - np.square(height), 0.0))
+        far = np.zeros(len(clip))
+        for stand in standing:
+            if stand.foot == foot:
+                here = slice(stand.start, stand.stop)
+                far[here] = np.maximum(1.0 - reach[here] / np.maximum(across[here], 1e-9), 0.0)
+        if far.any():
+            towards -= _spread(far, float(clip.fps))[:, None] * way * (1.0, 0.0, 1.0)
+    return towards
+
+
 def _sink_m(
     clip: MotionClip, world: JointTransforms, targets: FloatArray, standing: tuple[FootPlant, ...], lower_m: float
 ) -> FloatArray:
     """Return the lowering (F,) of the hips beyond ``lower_m`` where a standing foot would be out of reach."""
-    fps = float(clip.fps)
     sink = np.zeros(len(clip))
+    ways = [_ankle_to_hip_m(clip, world, targets, foot) for foot in range(2)]
     for stand in standing:
-        limb = leg(clip.shape.skeleton, SIDES[stand.foot])
-        here = slice(stand.start, stand.stop)
-        turned = world.rotations[here, limb.end]
-        end = clip.shape.ends_m[ENDS.index(FEET[stand.foot])]
-        ankle = targets[here, stand.foot] - quaternion.rotate(turned, end)
-        way = world.positions_m[here, limb.upper] - ankle
-        across2 = np.square(way[:, [0, 2]]).sum(axis=1)
-        allowed = np.sqrt(np.maximum((REACH_SHARE * limb.length_m) ** 2 - across2, 0.25 * limb.length_m**2))
-        sink[here] = np.maximum(sink[here], way[:, 1] - lower_m - allowed)
-    if not sink.any():
-        return sink
+        here, (way, length_m) = slice(stand.start, stand.stop), ways[stand.foot]
+        across2 = np.square(way[here][:, [0, 2]]).sum(axis=1)
+        lowest2 = (LOWEST_SHARE * length_m) ** 2
+        allowed = np.sqrt(np.maximum((REACH_SHARE * length_m) ** 2 - across2, lowest2))
+        sink[here] = np.maximum(sink[here], way[here, 1] - lower_m - allowed)
+    return _spread(sink, float(clip.fps)) if sink.any() else sink
+
+
+def _ankle_to_hip_m(
+    clip: MotionClip, world: JointTransforms, targets: FloatArray, foot: int
+) -> tuple[FloatArray, float]:
+    """Return the way (F, 3) from a foot's ankle, with the tip at its target, to its hip joint, and the leg's length."""
+    limb = leg(clip.shape.skeleton, SIDES[foot])
+    end = clip.shape.ends_m[ENDS.index(FEET[foot])]
+    ankle = targets[:, foot] - quaternion.rotate(world.rotations[:, limb.end], end)
+    return world.positions_m[:, limb.upper] - ankle, limb.length_m
+
+
+def _spread(values: FloatArray, fps: float) -> FloatArray:
+    """Return values (F,) that rise and fall smoothly, at least the given ones."""
     wide = 2 * round(2.5 * SINK_S * fps) + 1
-    return np.asarray(gaussian_filter1d(maximum_filter1d(sink, wide, mode="nearest"), SINK_S * fps, mode="nearest"))
+    return np.asarray(gaussian_filter1d(maximum_filter1d(values, wide, mode="nearest"), SINK_S * fps, mode="nearest"))

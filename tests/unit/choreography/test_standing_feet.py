@@ -110,6 +110,18 @@ def test_the_heavy_bend_their_knees_and_step_where_they_stepped(weight: float) -
     assert angular_jumps(weighed).max() < 2.0 * angular_jumps(plain).max() + 1.0
 
 
+def test_the_hips_move_towards_a_lunging_foot_that_is_out_of_reach() -> None:
+    """A foot farther from the hips than their lowest height allows stays in place, and they move slowly towards it."""
+    leg_m = THIGH_M + SHANK_M
+    place_m = (0.1, 0.0, 0.2 + 0.88 * leg_m)
+    found = planted(still(120), (FootPlant(0, 20, 50, place_m),))
+    assert np.abs(tips_m(found)[20:50, 0] - place_m).max() < 1e-3
+    way_m = found.hips_m - still(120).hips_m
+    assert 0.0 < way_m[:, 2].max() < 0.05 * leg_m
+    assert np.allclose(way_m[:, 0], 0.0)
+    assert np.linalg.norm(np.diff(way_m[:, [0, 2]], axis=0), axis=1).max() < 0.005
+
+
 def test_knees_do_not_bend_backwards() -> None:
     """A knee that goes through straight to behind comes to rest a little behind it; one that bends ahead is kept."""
     clip = still(60)
