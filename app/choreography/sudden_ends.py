@@ -152,13 +152,16 @@ def _calm_points(
     joint: FloatArray, tip: FloatArray, most: FloatArray, held: BoolArray, planted: BoolArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return paths (N, 3) of the joint of a foot or hand and of its tip at constant distance: the tip's is bent first,
-    then the joint's.
+    then the joint's, and each takes the other along.
     """
-    length = np.linalg.norm(tip - joint, axis=-1, keepdims=True)
+    length, free = np.linalg.norm(tip - joint, axis=-1, keepdims=True), ~planted[:, None]
     for _ in range(PASSES):
         calm = _bent(tip, float(most[1]), held | planted)
         joint, tip = joint + calm - tip, calm
-        joint = tip - length * _unit(tip - _bent(joint, float(most[0]), held))
+        calm, along = _bent(joint, float(most[0]), held), _unit(tip - joint)
+        # The distance is constant, so a joint moves along the hand or foot only together with its tip.
+        tip = tip + free * along * np.sum((calm - joint) * along, axis=-1, keepdims=True)
+        joint = tip - length * _unit(tip - calm)
         if _suddenness(np.stack([joint, tip], axis=1), most) <= 1.01:
             break
     return joint, tip

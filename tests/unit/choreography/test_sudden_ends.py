@@ -14,8 +14,8 @@ from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.features import height_m, points_m
 from app.choreography.standing_feet import planted, stands
-from app.choreography.sudden_ends import MOST, usual_accelerations, without_twitches
-from tests.support.dances import stepping
+from app.choreography.sudden_ends import MOST, UsualAccelerations, usual_accelerations, without_twitches
+from tests.support.dances import stepping, still
 
 FPS = Fraction(60)
 CLIP = stepping(16)
@@ -50,6 +50,19 @@ def test_a_twitch_is_taken_away_and_all_else_stays(limb: str, end: str) -> None:
     assert (accelerations(calm, end).max(axis=0) < 1.1 * most).all()
     assert np.abs(points_m(calm) - points_m(CLIP))[60:].max() < 1e-9
     assert np.linalg.norm(points_m(calm) - points_m(CLIP), axis=-1).max() < 0.1
+
+
+def test_a_wrist_that_darts_along_its_hand_is_calmed_too() -> None:
+    """A hand points along the path of its wrist, which can be calmed only together with the fingertip."""
+    clip = still(60, int(FPS))
+    bent_rad = 0.8 + 0.2 * np.exp(-np.square((np.arange(60) - 30) / 2.0))
+    for part, share in (("leftUpperArm", 1.0), ("leftLowerArm", -2.0), ("leftHand", 1.0)):
+        turns = Rotation.from_rotvec(share * bent_rad[:, None] * np.array((0.0, 1.0, 0.0)))
+        clip.rotations[:, SEGMENTS.index(part)] = turns.as_quat()
+    before = accelerations(clip, "leftHand").max(axis=0)
+    usual = UsualAccelerations(np.full(2, 1e6), np.array([0.4, 1.0]) * before / height_m(clip))
+    after = accelerations(without_twitches(clip, (), usual), "leftHand").max(axis=0)
+    assert (after <= MOST * usual.hands * height_m(clip)).all()
 
 
 def test_what_is_as_sudden_as_the_capture_is_left_as_it_is() -> None:
