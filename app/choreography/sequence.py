@@ -70,7 +70,7 @@ class Weights:
     speed: float = 1.5
     off_beat: float = 1.2
     model: float = 1.0
-    heard: float = 1.6
+    heard: float = 2.4
     chance: float = 0.6
     lately: float = 4.5
     returns: float = 24.0

@@ -1,0 +1,49 @@
+"""A dance to a piece in which each drum belongs to one basic motion."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from app.choreography.dance import Manner
+from app.choreography.generate import Choreographer
+from app.choreography.model import ChoreographyModel
+from app.choreography.model_file import read_model
+from app.choreography.rhythm import SYMBOLS, Rhythm
+
+SALSA = Path(__file__).parents[3] / "resources" / "choreographies" / "salsa.choreography"
+BEATS, BEAT_S = 64, 0.55
+
+
+def with_one_drum_per_motion(model: ChoreographyModel) -> ChoreographyModel:
+    """The model as if learned from two strokes of one drum during each motion."""
+    segments = tuple(replace(one, sounds=(3 * one.state,) * 2, melody=()) for one in model.segments)
+    counts = np.ones((model.states, len(SYMBOLS))) / len(SYMBOLS)
+    for one in segments:
+        np.add.at(counts[one.state], list(one.sounds), 1.0)
+    return replace(model, segments=segments, emission=counts / counts.sum(axis=1, keepdims=True))
+
+
+def struck(states: np.ndarray) -> Rhythm:
+    """The drum of a motion on and after each beat."""
+    hits_s = 0.5 * BEAT_S * np.arange(2 * BEATS)
+    beats_s = BEAT_S * np.arange(BEATS + 1)
+    symbols = 3 * np.repeat(states, 2)
+    return Rhythm(beats_s, np.arange(BEATS + 1) % 4, hits_s, symbols, np.ones(len(hits_s)), derived=False)
+
+
+def test_three_of_four_strokes_of_a_drum_sound_during_its_motion() -> None:
+    """A drum is struck for two beats each time; motions must also fit on one another, so not every stroke is met."""
+    model = with_one_drum_per_motion(read_model(SALSA))
+    choreographer = Choreographer(model)
+    shares = []
+    for seed in range(3):
+        asked = np.repeat(np.random.default_rng(seed).integers(0, model.states, BEATS // 2), 2)
+        music = struck(asked)
+        steps = choreographer.steps(music, Manner(seed=seed))
+        during = np.searchsorted([one.end_s for one in steps], music.hits_s, side="right")
+        states = np.array([one.state for one in steps])[np.minimum(during, len(steps) - 1)]
+        shares.append(np.mean(states == np.repeat(asked, 2)))
+    assert np.mean(shares) >= 0.75
