@@ -33,7 +33,7 @@ MOST: Final = 1.25
 USUAL_PERCENTILE: Final = 99.9
 AROUND_S: Final = 0.2
 """Time in seconds before and after within which a path is bent."""
-TRIES: Final = 3
+TRIES: Final = 6
 """Greatest number of passes over a motion, since corrections may leave an excess beside them."""
 PASSES: Final = 12
 """Greatest number of alternations between two points, since bending one path moves the other slightly."""

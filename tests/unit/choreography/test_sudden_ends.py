@@ -65,6 +65,17 @@ def test_a_wrist_that_darts_along_its_hand_is_calmed_too() -> None:
     assert (after <= MOST * usual.hands * height_m(clip)).all()
 
 
+def test_a_straight_leg_is_calmed_within_its_reach() -> None:
+    """The calm path of a kick with a straight leg is cut short by the leg's reach and bent again."""
+    clip = still(90, int(FPS))
+    kick_rad = 0.3 * np.exp(-np.square((np.arange(90) - 45) / 3.0))
+    turns = Rotation.from_rotvec(-kick_rad[:, None] * np.array((1.0, 0.0, 0.0)))
+    clip.rotations[:, SEGMENTS.index("leftUpperLeg")] = turns.as_quat()
+    usual = UsualAccelerations(0.25 * accelerations(clip, "leftFoot").max(axis=0) / height_m(clip), np.full(2, 1e6))
+    after = accelerations(without_twitches(clip, (), usual), "leftFoot").max(axis=0)
+    assert (after <= MOST * usual.feet * height_m(clip)).all()
+
+
 def test_what_is_as_sudden_as_the_capture_is_left_as_it_is() -> None:
     assert without_twitches(CLIP, (), usual_accelerations([CLIP], FPS)) is CLIP
 
