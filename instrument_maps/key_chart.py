@@ -34,7 +34,7 @@ class ChartedKey:
     Attributes
     ----------
     x, y : float
-        Centre, to the right and down.
+        Centre in the chart's units, to the right and down from its top left corner.
     """
 
     control: Control

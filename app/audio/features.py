@@ -112,10 +112,7 @@ def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> FloatArra
 
 def _spectra(sound: Sound, size: int, hop: int) -> Iterator[FloatArray]:
     """Yield power spectra (frames, size // 2 + 1) of a sound, a limited number of frames at a time; ``hop`` is the
-    samples from frame to frame.
-
-    2 + 1), some frames at a time.
-    """
+    number of samples from frame to frame."""
     padded = np.pad(sound, size // 2)
     frames = np.lib.stride_tricks.sliding_window_view(padded, size)[::hop]
     window = np.hanning(size + 1)[:-1].astype(np.float32)

@@ -98,19 +98,20 @@ _MIDDLES: Final = (np.arange(SHARES) + 0.5) / SHARES
 
 @dataclass(frozen=True, eq=False)
 class SegmentCandidates:
-    """Segments from which a dance is made.
+    """Captured segments of motion, from which a dance is joined together; each has an accent, which is put on a beat.
 
     Attributes
     ----------
     states : (S,) int
+        The basic motion (state of the hidden Markov model) of each segment.
     before_s, after_s : (S,) float64
         From start to accent and from accent to end, as captured.
     joins_m : (S, S) float64
         Distance in metres between the end of one and the start of another.
     log_transition : (S, S) float64
-        Log odds of the second's state after the first's.
+        Log odds with which the state of the second segment follows that of the first.
     meets : SegmentMeets, optional
-        When bodies arrive and feet come down.
+        Seconds after the accent at which the body comes to rest and feet touch the floor; None: not considered.
     """
 
     states: IntArray

@@ -224,14 +224,15 @@ class _Search:
         self._grouped = pairs[-least_m > pairs.of_blocks(depths_m.min(axis=1))]
 
     def judge_roughly(self, size: int, depths_m: SingleArray) -> None:
-        """Filter candidates with the distance grids, block by block.
+        """Keep the pairs of a group of vertices and a body that may be deep by the bodies' distance grids, for
+        `judge_exactly`; the frames are taken in blocks.
 
         Parameters
         ----------
         size : int
             Frames per block.
         depths_m : (B, size) float32
-            Lower bounds of the depths, raised in place.
+            Lower bounds of the greatest depth in each frame of B blocks; raised in place.
         """
         grouped, single = (pairs.split(self._moved.size // size) for pairs in (self._grouped, self._single))
         if size != self._moved.size:

@@ -152,7 +152,8 @@ class _Rating(msgspec.Struct, frozen=True):
 
     @property
     def place(self) -> tuple[object, ...]:
-        """Key that two variants must share for a comparison: the pair, or the excerpt with its view."""
+        """Key that the ratings of two variants must share to be compared: the position of the pair of clips in the
+        form, or for clips rated one by one their excerpt, camera view and player."""
         if self.answer.presentation == "pair":
             return (self.answer.position,)
         return self.clip.excerpt, self.clip.view, self.clip.player

@@ -71,7 +71,18 @@ def checked_targets(
     asset: Figure | None = None,
     rigs: Mapping[str, Rig] = MappingProxyType({}),
 ) -> dict[str, CheckedTarget]:
-    """The skeleton of every player by id, with requested options, compared with an asset's."""
+    """Return the skeleton that each character is exported on, by player id, with its differences from an asset's.
+
+    Parameters
+    ----------
+    characters : mapping of str to Character
+        By player id.
+    choice : SkeletonChoice
+    asset : Figure, optional
+        Without one there are no differences.
+    rigs : mapping of str to Rig
+        Requested additions (sockets, twist bones), by player id.
+    """
     result = {}
     for player_id, character in characters.items():
         target = target_skeleton(character, choice, asset)

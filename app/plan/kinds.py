@@ -150,5 +150,6 @@ COMMAND_TEXTS: Final = {f"action.gesture.{kind.id}": (kind.command, kind.names[1
 
 
 def answered_by(part: Part) -> tuple[str, ...]:
-    """Return the kinds of gestures that a part of the motion performs."""
+    """Return the ids of the kinds of `GESTURES` that are performed by one part of the generated motion, such as the
+    trunk or the head."""
     return tuple(kind.id for kind in GESTURES if kind.part == part)

@@ -98,14 +98,16 @@ def read_score(breather: Breather, air: Air | None, envelope: BreathEnvelope | N
 
 
 def _rests(steady: LineTimes, played: LineTimes, times: LineTimes, piece: Piece) -> Rests:
-    """Rests of the part; the notated timing decides what counts as a rest and how long it is.
+    """Return the rests of the part; the notated timing decides what counts as a rest and how long it is.
 
-    A rest is at least as long as it sounds. A rest long enough for a breath under all conditions is used at any tempo.
+    A rest is at least as long as the silence that is played. A rest that is long enough even for the slowest kind of
+    breath counts at any tempo.
 
     Parameters
     ----------
-    steady, played : LineTimes
-        Times of the notes as notated and as played, both at the tempo of the score.
+    steady, played, times : LineTimes
+        Times of the notes as notated and as played, both at the tempo of the score, and as they sound at the tempo of
+        the performance.
     """
     beats = piece.beat_ticks_at(times.onset_tick)
     written = rest_ticks(steady, beats)

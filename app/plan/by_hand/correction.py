@@ -87,7 +87,8 @@ class OfNote(Correcting, frozen=True):
 
     @property
     def is_added(self) -> bool:
-        """True if the generator had no event here, if the correction records this."""
+        """True if the correction adds an event where the generator had none; False if it had one, or if the kind of
+        correction does not record it."""
         return bool(getattr(self, "added", False))
 
     @property

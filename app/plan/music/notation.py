@@ -98,7 +98,8 @@ def bar_starts(ticks: IntArray, bars: IntArray) -> IntArray:
 
 
 def are_written(ticks: IntArray, quarter_ticks: int) -> bool:
-    """Return whether nearly all times are at notated positions."""
+    """Return whether times look notated rather than played: nearly all (`WRITTEN_SHARE`) are multiples of a 24th of a
+    quarter."""
     elsewhere = np.count_nonzero(ticks * 24 % quarter_ticks)
     return bool(elsewhere < max(PLAYED_LEAST, (1.0 - WRITTEN_SHARE) * len(ticks) + 1e-6))
 

@@ -347,12 +347,14 @@ def giving_for(finger: str) -> str:
 
 
 def given_way(offset: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
-    """Return the share (F,) of an offset that is applied, 0..1; None if never."""
+    """Return the share (F,), 0..1 per frame, of a wrist offset that is applied for its fingers as they come to its
+    stations; None if it is never applied. ``placed`` is the position between stations, by finger."""
     return _all_at(offset, placed, [giving_for(finger) for finger, _ in offset.places])
 
 
 def come_to(offset: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
-    """Return the share (F,) by which fingers have reached the stations of an offset, 0..1; None if never."""
+    """Return the share (F,), 0..1 per frame, by which the fingers of a wrist offset have reached its stations; None if
+    they never do. ``placed`` is the position between stations, by finger."""
     return _all_at(offset, placed, [finger for finger, _ in offset.places])
 
 

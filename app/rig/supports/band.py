@@ -115,19 +115,23 @@ def band(
     material: int = 0,
     edges_m: tuple[FloatArray, FloatArray] | None = None,
 ) -> list[SurfaceStrip]:
-    """A flat band along a line: outer and inner face, two edges, both ends closed by their thinness.
+    """Return the surfaces of a flat band along a line of R points: outer and inner face and two edges. The ends stay
+    open: the band is too thin for it to show.
 
     Parameters
     ----------
     centre_m, across, outwards : (R, 3) float64
-        Its middle, the way to one of its edges, and away from what it lies on.
+        Points of its middle line, and unit vectors from there to one of its edges and away from the surface below it.
     half_m, thick_m : (R,) float64
-        Half its width, and how thick it is.
+        Half its width, and its thickness.
     weights : sequence of shares
+        Skin weights of each of the R points.
     over_m : float
-        How high it lies.
+        Distance of the inner face from the surface below it.
+    material : int
+        Index of the material of its surfaces.
     edges_m : two of (R, 3), optional
-        Where the edges lie; absent: as far across as it is wide.
+        Points of both edges; absent: the middle line moved by half the width.
     """
     raised = outwards * over_m
     if edges_m is None:
