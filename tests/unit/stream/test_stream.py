@@ -150,7 +150,7 @@ def ours(character: Character, pose: Pose, stage: StagePosition) -> dict[str, tu
 def test_a_dancer_is_received_without_an_instrument(tmp_path: Path) -> None:
     project = with_dancers(played()[0].project, tmp_path, "Ana")
     dancing, stage = dancing_of(Performance(project), project.dancers[0]), project.dancers[0].stage
-    motion = dancing.motion(Fraction(30), 150, 300)
+    motion = dancing.motion(Fraction(30), 0, 900)
     aside_m = motion.hips_m[:, 0]
     hips = []
     # Frames in which the dance is farthest from itself, whatever it is.
