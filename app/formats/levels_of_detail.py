@@ -29,6 +29,7 @@ LEAST_HEIGHTS: Final = (0.5, 0.2)
 _LEAST_TRIANGLES: Final = 64
 """A mesh of fewer has no lower levels: a reed, a finger hook."""
 _TOUCHING_CM: Final = 1e-4
+"""Vertices that are equal when rounded to this lie together."""
 _AGGRESSIVENESS: Final = 5.0
 """Growth of the error that is allowed. With the usual 7 a level is up to a third further from the mesh."""
 _WORTH_IT: Final = 0.8
@@ -129,16 +130,17 @@ def _parts(mesh: SkinnedMesh, vertices_cm: AnyFloatArray, triangles: IntArray, m
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
-    from scipy.spatial import cKDTree
 
-    pairs = cKDTree(vertices_cm).query_pairs(_TOUCHING_CM, output_type="ndarray")
+    places = np.round(vertices_cm / _TOUCHING_CM).astype(np.int64)
+    _, place, vertices_there = np.unique(places, axis=0, return_inverse=True, return_counts=True)
+    together = vertices_there[place.reshape(-1)] > 1
     starts, ends = triangles[:, [0, 1]].ravel(), triangles[:, [1, 2]].ravel()
     count = len(vertices_cm)
     links = coo_array((np.ones(len(starts)), (starts, ends)), shape=(count, count))
     patch_of_vertex = connected_components(links, directed=False)[1]
     patch = patch_of_vertex[triangles[:, 0]]
     first = np.unique(patch, return_index=True, return_inverse=True)[1:]
-    sewn = np.isin(patch, patch_of_vertex[pairs.ravel()])
+    sewn = np.isin(patch, patch_of_vertex[together])
     key = 2 * materials[first[0]][first[1]] + sewn
     opaque = [material.alpha_mode == "opaque" for material in mesh.materials]
     return [_Part(triangles[key == value], bool(value % 2)) for value in np.unique(key) if opaque[value // 2]]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tracemalloc
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -113,6 +114,28 @@ def test_polygons_become_triangles_of_their_material(globe: SkinnedMesh) -> None
 def test_a_mesh_of_few_triangles_has_no_lower_levels(globe: SkinnedMesh) -> None:
     few = replace(globe, faces=globe.faces[:60], face_materials=None, materials=globe.materials[:1])
     assert lower_levels(few, 2) == ()
+
+
+def test_vertices_all_at_one_place_cost_little(globe: SkinnedMesh) -> None:
+    count = 9999
+    faces = np.arange(count).reshape(-1, 3)
+    one_place = replace(
+        globe,
+        vertices_cm=np.zeros((count, 3)),
+        faces=faces,
+        normals=np.tile([0.0, 1.0, 0.0], (count, 1)),
+        uvs=np.zeros((count, 2)),
+        face_materials=None,
+        joint_indices=np.zeros((count, 1), dtype=np.int64),
+        weights=np.ones((count, 1)),
+        morphs=(),
+    )
+    tracemalloc.start()
+    try:
+        assert lower_levels(one_place, MOST_LEVELS - 1) == ()
+        assert tracemalloc.get_traced_memory()[1] < 50e6
+    finally:
+        tracemalloc.stop()
 
 
 @pytest.fixture(scope="module")
