@@ -1,4 +1,4 @@
-"""Visibility and keyboard focus of the active player's lanes when lanes of several players are stacked."""
+"""Visibility and keyboard focus of the active player's lanes while the lanes of several players are stacked."""
 
 from __future__ import annotations
 
@@ -58,7 +58,9 @@ class FrontLanes(QObject):
         return self._roll if front is None else front.roll
 
     def stack_lanes(self, stacked: bool) -> None:
-        """Stack the lanes of selected players, or no longer; the keyboard stays with the player in front."""
+        """Switch stacking of the selected players' lanes on or off; the keyboard focus stays in the active player's
+        lanes.
+        """
         self._keyboard.take()
         self._players.request(stacked)
         self._pass_keyboard()
@@ -66,7 +68,7 @@ class FrontLanes(QObject):
             self._stack.bring_into_view(self._roll, at_top=True)
 
     def _show(self) -> None:
-        """Bring the notes of the player in front into view, unless the mouse is at work in a lane of the player."""
+        """Scroll to the active player's notes, unless the mouse is being dragged in one of its lanes."""
         self._pass_keyboard()
         held = QApplication.mouseButtons() != Qt.MouseButton.NoButton and self._stack.underMouse()
         if self._players.active and not held:

@@ -45,8 +45,9 @@ class Lane(Retranslated, QWidget):
     sought(float)
         Request to move the playhead to this time in seconds.
     fold_changed()
+        The lane was folded or unfolded.
     height_asked()
-        The lane would have another height now.
+        The automatic height of the lane has changed.
     unfolded_by_hand()
         The user unfolded the lane by its button or header.
     resized_by_hand(int)
@@ -59,9 +60,10 @@ class Lane(Retranslated, QWidget):
     preferred_height_px : int
         Height in a new window in pixels.
     least_height_px : int
+        Least automatic height.
     folded_at_first, hides_empty, is_essential : bool
-        Class attributes: folded in a new window; hidden while empty unless the user shows it; visible in a new window
-        as far as only lower lanes lose space.
+        Class attributes: folded in a new window; hidden while empty unless the user shows it; kept visible in a new
+        window by making the lanes below it smaller.
     """
 
     id = ""
@@ -128,14 +130,14 @@ class Lane(Retranslated, QWidget):
         """Show the active player's data, if they have changed."""
 
     def performance_changed(self) -> None:
-        """Show the new plans of a performance."""
+        """Handle new plans of the performance by displaying them."""
         self.refresh()
 
     def selection_changed(self, before: Selection) -> None:
-        """Show another selection; redraw only affected parts."""
+        """Handle a changed selection in the session: redraw only what it affects; ``before`` is the previous one."""
 
     def players_changed(self) -> None:
-        """Another player is in front."""
+        """Handle a change of the active player."""
         self.refresh()
 
     def theme_changed(self) -> None:
@@ -145,7 +147,7 @@ class Lane(Retranslated, QWidget):
         """Handle a changed range or zoom; the lane's items are updated without this."""
 
     def press(self, mouse: LaneMouse) -> None:
-        """The left button went down; `drag` and `release` follow."""
+        """Handle a press of the left button; calls of `drag` and `release` follow."""
 
     def drag(self, mouse: LaneMouse) -> None:
         """Handle a drag with the left button, or scrolling under the mouse during a drag."""
@@ -173,10 +175,10 @@ class Lane(Retranslated, QWidget):
         self.resized_by_hand.emit(round(steps * HEIGHT_A_NOTCH_PX))
 
     def pan_y(self, by_px: float) -> None:
-        """The plot is dragged up or down (positive) with the middle button."""
+        """Scroll the contents vertically during a drag with the middle button, by pixels, positive downwards."""
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
-        """The menu at a place, made for each use."""
+        """Return a new context menu for the mouse position; None for no menu."""
         return None
 
     def key(self, event: QKeyEvent) -> bool:
@@ -191,7 +193,7 @@ class Lane(Retranslated, QWidget):
 
     @property
     def needed_height_px(self) -> int:
-        """Return the smallest height in pixels, unless the user has set one."""
+        """Return the least automatic height of the lane in pixels."""
         return self.least_height_px
 
     # What a lane uses
@@ -203,7 +205,7 @@ class Lane(Retranslated, QWidget):
 
     @property
     def y_range(self) -> tuple[float, float]:
-        """The lane's values at the bottom and at the top."""
+        """Values on the lane's vertical scale at the bottom and the top of the plot."""
         return self._y_range
 
     def set_y_range(self, bottom: float, top: float) -> None:
@@ -213,7 +215,7 @@ class Lane(Retranslated, QWidget):
             self.update_items()
 
     def y_px(self, value: float) -> float:
-        """Pixels from the top to a value."""
+        """Convert a value on the lane's vertical scale to pixels from the top of the plot."""
         bottom, top = self._y_range
         return (top - value) / (top - bottom) * self.plot_rect.height()
 
@@ -228,7 +230,7 @@ class Lane(Retranslated, QWidget):
         return False
 
     def lines(self) -> Lines:
-        """Bars, beats and grid lines of the visible range."""
+        """Lines of bars, beats and the grid in the visible time range."""
         return self.axis.lines(self.session.project.score, self.session.grid)
 
     def update_items(self) -> None:
@@ -253,7 +255,7 @@ class Lane(Retranslated, QWidget):
         self.fold_changed.emit()
 
     def ask_height(self, preferred_px: int, least_px: int) -> None:
-        """Request another height in pixels, unless the user has set one."""
+        """Request another automatic height in pixels."""
         if (preferred_px, least_px) != (self.preferred_height_px, self.least_height_px):
             self.preferred_height_px, self.least_height_px = preferred_px, least_px
             self.setMinimumHeight(FOLDED_PX if self._folded else least_px)

@@ -26,10 +26,11 @@ class LaneState(msgspec.Struct, frozen=True, kw_only=True):
     Attributes
     ----------
     order : tuple of str
-        Ids from the top; missing lanes follow the same lane as in a new window.
+        Ids from the top. A lane missing here follows the lane that it follows in a new window.
     hidden, shown : tuple of str
         Lanes hidden by the user, and empty lanes shown by the user.
     folded : tuple of str
+        Folded lanes.
     heights : dict of int
         Heights set by the user in pixels.
     ghosts : Ghosts
@@ -71,7 +72,7 @@ class LaneLayout(QObject):
     Signals
     -------
     changed()
-        `state` is another.
+        `state` has changed.
     """
 
     changed = Signal()
@@ -190,7 +191,7 @@ class LaneLayout(QObject):
         self._show_kinds()
 
     def _show_kinds(self) -> None:
-        """Show the unfolded lanes of several players."""
+        """Show the stacked players' lanes of the kinds that are visible and unfolded for a single player."""
         self._players.show_kinds([id for id in STACKED_IDS if self.is_open(id)])
 
     # Menus
@@ -226,7 +227,9 @@ class LaneLayout(QObject):
 
 
 def _completed(order: tuple[str, ...], known: tuple[str, ...]) -> tuple[str, ...]:
-    """Return an order of all known lanes: ``order``, with missing lanes behind the same lane as in a new window."""
+    """Return the order of all ``known`` lanes: ``order``, with each missing lane inserted after the lane that precedes
+    it in ``known``.
+    """
     result = [id for id in dict.fromkeys(order) if id in known]
     for place, id in enumerate(known):
         if id not in result:

@@ -60,9 +60,9 @@ class TimelinePanel(Retranslated, QWidget):
     Signals
     -------
     sought(float)
-        The playhead is requested at this time (seconds); the shell hands it to the transport.
+        Request to move the playhead to this time in seconds.
     arranged()
-        Lanes are folded, shown, ordered or as tall otherwise: `save_state` gives something else.
+        The result of `save_state` has changed: lanes were folded, shown, hidden, moved or resized.
     """
 
     sought = Signal(float)
@@ -150,7 +150,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     @property
     def rolls(self) -> tuple[PianoRoll, ...]:
-        """The visible piano rolls: of the active player, or of several."""
+        """The visible piano rolls: the active player's, or those of all stacked players."""
         return tuple(place.roll for place in self.players.shown) if self.players.active else (self.roll,)
 
     @property
@@ -177,7 +177,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     @property
     def marks_shown(self) -> bool:
-        """True if slurs, articulations and dynamics are seen."""
+        """True if slurs, articulations and dynamics are visible."""
         return self.roll.marks.marks.shown
 
     def show_marks(self, shown: bool) -> None:
@@ -235,14 +235,14 @@ class TimelinePanel(Retranslated, QWidget):
         self.takes.step(by)
 
     def reveal(self, time_s: float) -> None:
-        """Scroll to a time and to the selected notes there."""
+        """Scroll to a time, and vertically to the notes selected there."""
         self.axis.reveal(time_s)
         for roll in self.rolls:
             roll.bring_notes_into_view(self.session.selection.notes)
 
     @property
     def seen(self) -> VisibleRange:
-        """Range of the ruler and the roll."""
+        """Visible range of seconds and pitches."""
         return VisibleRange(self.axis.start_s, self.axis.end_s, *self.roll.y_range)
 
     def show_range(self, seen: VisibleRange) -> None:
@@ -278,7 +278,7 @@ class TimelinePanel(Retranslated, QWidget):
         self.lane_layout.fold_all(folded)
 
     def save_state(self) -> str:
-        """Order, visibility, folds and heights of the lanes, as text."""
+        """Return the order, visibility, folding and heights of the lanes as text."""
         return lane_text(self.lane_layout.state)
 
     def restore_state(self, state: str | LaneState) -> None:
@@ -292,12 +292,12 @@ class TimelinePanel(Retranslated, QWidget):
 
     @property
     def stacked(self) -> bool:
-        """True if the lanes of several selected players are stacked."""
+        """True if the lanes of selected players are stacked whenever several are selected."""
         return self.players.requested
 
     @property
     def stacking(self) -> bool:
-        """True while the lanes of several players are shown."""
+        """True while the lanes of several players are stacked."""
         return self.players.active
 
     def set_stacked(self, stacked: bool) -> None:

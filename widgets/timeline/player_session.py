@@ -12,13 +12,13 @@ from app.project.performers import Player
 
 
 class _PlayerChoice(QObject):
-    """Signal of the player, the only property in which a `PlayerSession` differs from its session."""
+    """Holds the id of the active player of a `PlayerSession`, with a signal for its change."""
 
     players_changed = Signal()
 
 
 class PlayerSession:
-    """All of a session except the active player, so that the same lanes can show and edit any player.
+    """Stands for a session, but with an active player of its own, so that the same lanes can show and edit any player.
 
     Selections and edits are the session's own. Before a lane is used, its player is made active there, so that commands
     act on the lane with the keyboard focus.
@@ -26,7 +26,7 @@ class PlayerSession:
     Parameters
     ----------
     session : Session
-        Session with all other properties.
+        Session that provides everything else.
     """
 
     def __init__(self, session: Session) -> None:
@@ -39,7 +39,7 @@ class PlayerSession:
 
     @property
     def of_lanes(self) -> Session:
-        """Return the object itself, typed for lanes."""
+        """Return this object, typed as a `Session` for lanes."""
         return cast("Session", self)
 
     @property
@@ -74,7 +74,7 @@ class PlayerSession:
 
     @property
     def is_in_front(self) -> bool:
-        """True if the player is in front in the session too."""
+        """True if the player is also the active player of the session."""
         return self._session.players[:1] == (self._player_id,)
 
     def bring_forward(self) -> None:

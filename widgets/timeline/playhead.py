@@ -33,7 +33,7 @@ class Playhead(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
 
     def place(self) -> None:
-        """Move to the session's playhead, if that is visible."""
+        """Move the line to the playhead of the session; hide it if that is not visible."""
         x = self._axis.x_px(self._session.playhead_s)
         inside = 0 <= x <= self._axis.width_px
         self.setVisible(inside)
@@ -42,7 +42,7 @@ class Playhead(QWidget):
             self.raise_()
 
     def turn_page(self, playhead_s: float) -> bool:
-        """Scroll on if the playhead is near the right edge or not visible, and return whether it was."""
+        """Scroll to the next page if the playhead is near the right edge or not visible; return whether it scrolled."""
         axis = self._axis
         if 0 <= (playhead_s - axis.start_s) / axis.span_s <= PAGE_AT:
             return False

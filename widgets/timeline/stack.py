@@ -37,7 +37,7 @@ class LaneResizeHandle(QWidget):
         self._grip: tuple[float, int] | None = None
 
     def show_use(self, resizes: bool) -> None:
-        """Show a grip if the lane is adjustable, else a line."""
+        """Show a grip if dragging resizes the lane, else a plain line."""
         self.setFixedHeight(HANDLE_PX if resizes else LINE_PX)
         self.setCursor(Qt.CursorShape.SizeVerCursor if resizes else Qt.CursorShape.ArrowCursor)
 
@@ -77,15 +77,16 @@ class LaneStack(QScrollArea):
     Parameters
     ----------
     lanes : sequence of Lane
+        Lanes in their initial order.
     elastic : Lane
-        One of the lanes.
+        The lane that fills the remaining height.
     players : StackedPlayers
-        Lanes of several players, below the elastic lane; they take the remaining height while shown.
+        Stacked lanes of several players, below the elastic lane; while visible they fill the remaining height instead.
 
     Signals
     -------
     changed()
-        The user set another order or height.
+        The user changed the order or a height.
     """
 
     changed = Signal()
@@ -206,7 +207,9 @@ class LaneStack(QScrollArea):
         return min(lane.needed_height_px, most)
 
     def _fit_essential(self, shown: Sequence[Lane], free: Sequence[Lane], heights: dict[str, int]) -> None:
-        """Reduce the preferred heights as far as possible, if that makes all essential lanes visible."""
+        """Reduce the preferred heights in ``heights`` as far as necessary to make all essential lanes visible, if that
+        is possible.
+        """
         essential = [lane for lane in shown if lane.is_essential]
         if self._players.active or not essential:
             return
@@ -223,13 +226,13 @@ class LaneStack(QScrollArea):
             over -= cut
 
     def bring_into_view(self, lane: Lane, at_top: bool = False) -> None:
-        """Scroll to a lane; for one taller than the visible height, to its top.
+        """Scroll until a lane is visible; if it is taller than the visible height, until its top is.
 
         Parameters
         ----------
         at_top : bool
-            Whether to scroll it to the top, below its player's name if any, as far as possible; lanes of several
-            players that fit are all made visible.
+            Whether to scroll the lane as far to the top as possible, below its player's name. If the lanes of all
+            stacked players fit, all are made visible.
         """
         # The lane may have been shown or unfolded just now.
         self.arrange()

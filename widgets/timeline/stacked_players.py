@@ -76,7 +76,7 @@ class PlayerCaption(Retranslated, QWidget):
             self._buttons[mark].setStyleSheet(style)
 
     def show_player(self) -> None:
-        """Show the player's marks, name and colour."""
+        """Update the displayed name, colour, instrument, mute and solo of the player."""
         player = self._session.player
         for mark, button in self._buttons.items():
             button.setChecked(player is not None and getattr(player, mark))
@@ -116,7 +116,7 @@ class PlayerCaption(Retranslated, QWidget):
 
 
 class PlayerLanes(QObject):
-    """Caption and lanes of one place in the stack; the lanes are reused for different players."""
+    """Name line and lanes of one player in the stack; the widgets are reused for different players."""
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget) -> None:
         super().__init__(parent)
@@ -132,7 +132,7 @@ class PlayerLanes(QObject):
 
     @property
     def roll(self) -> PianoRoll:
-        """The piano roll among the lanes of the player."""
+        """The piano roll among these lanes."""
         roll = self.lanes[PianoRoll.id]
         assert isinstance(roll, PianoRoll)
         return roll
@@ -147,7 +147,7 @@ class PlayerLanes(QObject):
 
 
 class StackedPlayers(Retranslated, QWidget):
-    """The stack of the selected players in their order, shown if there are several.
+    """The lanes of all selected players, stacked in the order of the players; visible if several are selected.
 
     Selecting one of them only makes it active; selecting a single other player ends the stack until several are
     selected.
@@ -155,7 +155,7 @@ class StackedPlayers(Retranslated, QWidget):
     Signals
     -------
     changed()
-        Others are shown, or their lanes have other heights.
+        Other lanes are shown, or their heights have changed.
     made(object)
         A `PlayerLanes` was made.
     """
@@ -187,11 +187,11 @@ class StackedPlayers(Retranslated, QWidget):
 
     @property
     def requested(self) -> bool:
-        """True if the lanes of several selected players are to be stacked."""
+        """True if lanes are to be stacked whenever several players are selected."""
         return self._requested
 
     def request(self, stacked: bool) -> None:
-        """Stack the lanes of selected players, or show those of the active player."""
+        """Switch stacking on or off; off shows only the lanes of the active player."""
         if stacked != self._requested:
             self._requested = stacked
             self._chosen = frozenset()
@@ -234,17 +234,17 @@ class StackedPlayers(Retranslated, QWidget):
         return None if self.front is None or lane_id not in self._open else self.front.lanes[lane_id]
 
     def lane_with(self, widget: QWidget | None) -> Lane | None:
-        """Return the stacked lane that contains a widget."""
+        """Return the stacked lane that is or contains a widget; None if there is none."""
         lanes = (lane for one in self.shown for lane in one.lanes.values())
         return None if widget is None else next((lane for lane in lanes if lane.isAncestorOf(widget)), None)
 
     @property
     def dragging(self) -> bool:
-        """True while a lane is dragged in."""
+        """True while the mouse drags in one of the stacked lanes."""
         return any(lane.dragging for one in self.shown for lane in one.lanes.values())
 
     def show_kinds(self, lane_ids: Collection[str]) -> None:
-        """Show lanes of the given kinds for every player."""
+        """Show lanes of the given ids for every stacked player."""
         kinds = tuple(id for id in STACKED_IDS if id in lane_ids)
         if kinds != self._open:
             self._open = kinds
@@ -318,7 +318,7 @@ class StackedPlayers(Retranslated, QWidget):
 
     @property
     def _left_out_count(self) -> int:
-        """Return the number of selected players beyond the greatest number of stacked ones."""
+        """Return how many selected players are not shown because the number of stacked players is limited."""
         return len(self._chosen - {*self._ids}) if self.active else 0
 
     def _show_captions(self) -> None:
@@ -340,12 +340,12 @@ class StackedPlayers(Retranslated, QWidget):
             self.changed.emit()
 
     def set_sight(self, height_px: int) -> None:
-        """Set the visible height for the stack in pixels."""
+        """Set the height in pixels in which the stack is visible without scrolling."""
         self._sight_px = height_px
 
     @property
     def needed_px(self) -> int:
-        """Return the height in pixels with all rolls at their least height."""
+        """Return the height in pixels of the stack with all piano rolls at their least height."""
         return self._total_px(self._usual_px)
 
     @property
@@ -369,7 +369,9 @@ class StackedPlayers(Retranslated, QWidget):
         return FOLDED_PX if lane.folded else self._set_px.get(lane.id, usual_px[lane.id])
 
     def set_room(self, room_px: int) -> None:
-        """Set the available height in pixels, at least `needed_px`; rolls share the rest."""
+        """Set the total height in pixels (at least `needed_px`); piano rolls share the height that other
+        lanes leave.
+        """
         lanes, usual_px = self._lanes_in_sight(), self._usual_px
         rolls = [lane for lane in lanes if isinstance(lane, PianoRoll) and not lane.folded]
         total = self._total_px(usual_px)
@@ -385,5 +387,5 @@ class StackedPlayers(Retranslated, QWidget):
 
 
 def _within(lane_id: str, height_px: int) -> int:
-    """Return a height limited to the range for a stacked lane."""
+    """Return a height in pixels, limited to the range allowed for a stacked lane."""
     return min(max(height_px, HEIGHTS_PX[lane_id] // 2), MOST_PX)

@@ -36,7 +36,7 @@ SWATCH_PX = 12
 
 
 class ToolBar(Retranslated, QWidget):
-    """Tools of the piano roll."""
+    """Bar with the piano roll's tools, the active player, and the display of other players' notes."""
 
     def __init__(self, session: Session, roll: PianoRoll, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -97,7 +97,7 @@ class ToolBar(Retranslated, QWidget):
         self.show_state()
 
     def show_lanes_and_zoom(self, lanes: QToolButton, *zoom: QToolButton) -> None:
-        """Add the menu of the lanes beside that of other players' notes, and the zoom buttons at the right."""
+        """Add the lanes' menu button next to the button for other players' notes, and the zoom buttons at the right."""
         row = self.layout()
         assert isinstance(row, QHBoxLayout)
         row.insertWidget(row.indexOf(self.ghosts_button) + 1, lanes)
@@ -117,7 +117,7 @@ class ToolBar(Retranslated, QWidget):
         self._count()
 
     def show_state(self) -> None:
-        """Show the tool and the display of other players' notes."""
+        """Update the buttons to the current tool and display of other players' notes."""
         self.tools[self._roll.tool].setChecked(True)
         mode = self._roll.ghosts_mode
         self._modes[mode].setChecked(True)
@@ -126,7 +126,7 @@ class ToolBar(Retranslated, QWidget):
         self._fit_texts()
 
     def report(self, text: str) -> None:
-        """Show a description of the object under the mouse; for an empty one, the size of the selection."""
+        """Show a text about the object under the mouse; if it is empty, the number of selected objects."""
         if text:
             self.readout.setText(text)
         else:
@@ -177,7 +177,7 @@ class ToolBar(Retranslated, QWidget):
         self.show_state()
 
     def _fit_texts(self) -> None:
-        """Show the texts of buttons as far as there is space."""
+        """Show the texts of as many buttons as fit; the others show only icons."""
         row = self.layout()
         if row is None:
             return

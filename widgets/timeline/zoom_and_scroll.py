@@ -28,7 +28,7 @@ class WheelTurn(NamedTuple):
     Attributes
     ----------
     notches : float
-        Away from the hand is positive.
+        Amount of the turn, positive away from the user.
     """
 
     notches: float
@@ -55,7 +55,7 @@ class TimeAxis(QObject):
     Signals
     -------
     changed()
-        The range, the limits or the width are other ones.
+        The range, the limits or the width have changed.
     """
 
     changed = Signal()
@@ -68,22 +68,22 @@ class TimeAxis(QObject):
 
     @property
     def start_s(self) -> float:
-        """The time at the left edge."""
+        """The time at the left edge in seconds."""
         return self._view.start_s
 
     @property
     def end_s(self) -> float:
-        """The time at the right edge; the range is half-open."""
+        """The time at the right edge in seconds, excluded from the visible range."""
         return self._view.end_s
 
     @property
     def span_s(self) -> float:
-        """Length of the visible range."""
+        """Length of the visible range in seconds."""
         return self._view.span_s
 
     @property
     def limits_s(self) -> tuple[float, float]:
-        """First and last second that can be scrolled to."""
+        """First and last second to which the axis can be scrolled."""
         return self._view.limits_s
 
     @property
@@ -101,7 +101,7 @@ class TimeAxis(QObject):
     @overload
     def x_px(self, seconds: FloatArray) -> FloatArray: ...
     def x_px(self, seconds: float | FloatArray) -> float | FloatArray:
-        """Convert seconds to x pixels of the axis; numbers or arrays of any shape."""
+        """Convert seconds to x positions in pixels; accepts a number or an array of any shape."""
         return self._view.x_px(seconds)
 
     def seconds(self, x_px: float) -> float:
@@ -109,7 +109,7 @@ class TimeAxis(QObject):
         return self._view.seconds(x_px)
 
     def lines(self, score: Score, grid: Grid) -> Lines:
-        """Bars, beats and grid lines of the visible range."""
+        """Return the lines of bars, beats and the grid in the visible range."""
         return self._line_cache.get(score, grid, self.start_s, self.end_s, self.px_per_s)
 
     def set_limits(self, start_s: float, end_s: float, whole_s: tuple[float, float]) -> None:
@@ -132,15 +132,15 @@ class TimeAxis(QObject):
         self._become(self._view.showing(*self._whole_s))
 
     def zoom(self, factor: float, at_s: float) -> None:
-        """Show ``factor`` times less around the time ``at_s``."""
+        """Zoom by ``factor`` (above 1 shows less time) so that the time ``at_s`` keeps its position."""
         self._become(self._view.zoomed(factor, at_s))
 
     def pan(self, by_s: float) -> None:
-        """Scroll; later times come into view for a positive distance."""
+        """Scroll by seconds; for a positive number later times come into view."""
         self._become(self._view.panned(by_s))
 
     def pan_px(self, by_px: float) -> None:
-        """Scroll as when a hand drags the contents to the right by pixels."""
+        """Scroll by dragging the contents ``by_px`` pixels to the right."""
         self.pan(-by_px / self.px_per_s)
 
     def turn_wheel(self, turn: WheelTurn, x_px: float) -> None:
@@ -161,7 +161,7 @@ class TimeAxis(QObject):
 
 
 class TimeBar(QScrollBar):
-    """The scroll bar of a time axis."""
+    """Scroll bar that scrolls a time axis."""
 
     def __init__(self, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(Qt.Orientation.Horizontal, parent)

@@ -1,4 +1,4 @@
-"""The curves lane: lips note by note, and the part's controllers."""
+"""The curves lane: curves of embouchure (lips) with a value for each note, and of the part's MIDI controllers."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ class _Curves(LaneItem["CurvesLane"]):
 
 
 class CurvesLane(Lane):
-    """Lips and dynamics. The chosen curve is dragged up and down, for all selected notes together."""
+    """Lane with one curve of the lips or of a controller; a drag up or down changes it at all selected notes."""
 
     id = "curves"
     preferred_height_px = 64
@@ -187,7 +187,7 @@ class CurvesLane(Lane):
     # What is shown
 
     def refresh(self) -> None:
-        """Show the plan and the part of the player in front, if either has changed."""
+        """Display the active player's plan and part, if either has changed."""
         player, project = self.session.player, self.session.project
         plan = self.session.plan
         part = project.part(player) if player is not None else None
@@ -260,7 +260,7 @@ class CurvesLane(Lane):
         self._drag = DragCurve(self.session, self, mouse, self._plan.player_id, self.curve, starts, height_px)
 
     def _draw(self, mouse: LaneMouse) -> None:
-        """Begin to draw the chosen curve with the pencil; only curves of the lips can be drawn."""
+        """Begin to draw the chosen curve freehand; only curves of the lips can be drawn."""
         if self.curve not in LIPS:
             self.session.notice(Message("curves.not_drawn", {"curve": self.curve_name(self.curve)}), Severity.WARNING)
         elif self._plan is not None and self.lips is not None:
@@ -276,7 +276,9 @@ class CurvesLane(Lane):
             )
 
     def _controller_drag(self, mouse: LaneMouse, player_id: str, chosen: frozenset[str]) -> DragController | None:
-        """At the chosen notes; with Alt held around the place under the mouse alone."""
+        """Return the drag that changes a controller at the chosen notes, or with Alt only around the mouse; None if the
+        curve is no controller.
+        """
         kind = next((kind for kind in CONTROLLERS if kind == self.curve), None)
         if kind is None or self._part is None:
             return None
@@ -331,8 +333,9 @@ class CurvesLane(Lane):
             )
 
     def key(self, event: QKeyEvent) -> bool:
-        """Open the field for the value of the selected notes when Enter is pressed; returns whether the key is used
-        up."""
+        """Open the field for the value of the selected notes when Enter is pressed; return whether the event was
+        handled.
+        """
         if self.lips is None:
             return False
         notes = self.session.selection.notes

@@ -25,12 +25,12 @@ REACH_PX = 8.0
 
 
 class ProblemMarks(LaneItem[Lane]):
-    """Lines under the places of problems.
+    """Lines below the notes or events that have problems.
 
     Parameters
     ----------
     rooms : tuple of str
-        First parts of the message ids that belong to the lane.
+        First parts of the ids of the messages (such as ``"breath"``) that the lane shows.
     """
 
     def __init__(self, lane: Lane, rooms: tuple[str, ...]) -> None:
@@ -55,12 +55,12 @@ class ProblemMarks(LaneItem[Lane]):
 
 
 def problems_in(problems: tuple[Problem, ...], rooms: tuple[str, ...] = ()) -> tuple[Problem, ...]:
-    """Return the problems whose messages belong to areas; all problems if no areas are given."""
+    """Return the problems whose message ids begin with one of the given parts; all problems if none are given."""
     return tuple(problem for problem in problems if not rooms or problem.message.id.split(".")[0] in rooms)
 
 
 def spans_of(problems: tuple[Problem, ...]) -> TimeSpans:
-    """Return start and end of the problems, for finding those at a place."""
+    """Return the time spans of the problems, for searching."""
     return TimeSpans(
         np.array([problem.start_s for problem in problems], np.float64),
         np.array([problem.end_s for problem in problems], np.float64),

@@ -1,4 +1,6 @@
-"""Lanes of regions: events with a place and an amount, which can be selected, moved, resized, raised and lowered."""
+"""Lanes of regions: events with a start, an end and an amount, which can be selected, moved, resized, and changed in
+amount.
+"""
 
 from __future__ import annotations
 
@@ -69,7 +71,7 @@ class _Regions(LaneItem["RegionLane"]):
             painter.drawRect(lane.lasso)
 
     def _paint_thumb(self, painter: QPainter) -> None:
-        """Draw a mark of the visible rows at the right edge, if not all are visible."""
+        """Draw a scroll indicator at the right edge, if not all rows are visible."""
         lane, room = self.lane, self.lane.plot_rect
         first, height = lane.row_box(0)
         content = height * lane.rows
@@ -107,7 +109,7 @@ class RegionLane(Lane):
         raise NotImplementedError
 
     def shown_beside(self, plan: PlayerPlan | None) -> tuple[object, ...]:
-        """Return inputs of the regions other than the plan, compared by identity."""
+        """Return everything else on which the lane's regions depend; a change of identity of one item rebuilds them."""
         return ()
 
     def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
@@ -118,7 +120,7 @@ class RegionLane(Lane):
         """Draw the background of the rows before the regions; lanes override this."""
 
     def is_calm(self, region: Region) -> bool:
-        """Return whether `paint_rows` has drawn a region already."""
+        """Return whether a region is drawn by `paint_rows` and needs no drawing of its own."""
         return False
 
     def add_at(self, mouse: LaneMouse) -> None:
@@ -157,7 +159,7 @@ class RegionLane(Lane):
         return row_box(row, self._row_count, self.plot_rect.height(), self.least_row_px, self._scrolled_px)
 
     def wheel(self, mouse: LaneMouse, steps: float) -> bool:
-        """Scroll the rows if they do not fit; returns whether the event is used up."""
+        """Scroll the rows if they do not fit; return whether the event was handled."""
         height = self.row_box(0)[1]
         if most_scrolled(self._row_count, height, self.plot_rect.height()) <= 0.5:
             return False
@@ -188,23 +190,23 @@ class RegionLane(Lane):
         return rect(self.place(region))
 
     def visible(self, left_px: float, right_px: float) -> Iterable[Region]:
-        """Return the regions to draw singly, with selected ones last."""
+        """Yield the regions between two x positions that are drawn one by one; selected ones last."""
         selected = self.session.selection.events
         return self._table.visible(self.axis, left_px, right_px, selected, self._preview, self._hidden)
 
     def region_at(self, mouse: LaneMouse) -> tuple[Region | None, str]:
-        """Return the region at a point and the part of it, see `RegionTable.at`."""
+        """Return the region under the mouse, and the grabbed part of it as named in `RegionTable.at`."""
         return self._table.at(mouse, self.axis, self.place, self.session.selection.events)
 
     def fade_handles(self, region: Region, box: QRectF) -> tuple[tuple[str, QPointF], ...]:
-        """Return the points at which the fades can be dragged, by part."""
+        """Return the positions of the handles of a region's fades, each with its name (``fade_in`` or ``fade_out``)."""
         return tuple(
             (zone, QPointF(*at))
             for zone, at in fade_handles(region, PixelRect(box.left(), box.top(), box.right(), box.bottom()), self.axis)
         )
 
     def refresh(self) -> None:
-        """Make the regions anew if any of their inputs has changed."""
+        """Rebuild the regions if any of their inputs has changed."""
         player = self.session.player
         plan = self.session.plan
         project = self.session.project
@@ -265,7 +267,7 @@ class RegionLane(Lane):
             self.update_items()
 
     def is_preview(self, region: Region) -> bool:
-        """Return whether a region is dragged and not yet in the plan."""
+        """Return whether a region is shown at its dragged place, before a new plan contains it."""
         return self._preview.get(region.key) is region
 
     def _end_preview(self) -> None:
@@ -351,7 +353,9 @@ class RegionLane(Lane):
         return False
 
     def _go_on(self, chosen: Sequence[Region], step: int) -> None:
-        """Select the region next to the selected ones, else the one nearest to the playhead."""
+        """Select the region ``step`` places after those in ``chosen``; without one, the region nearest to the
+        playhead.
+        """
         region = self._table.beside(chosen, step, self.session.playhead_s)
         if region is None:
             return

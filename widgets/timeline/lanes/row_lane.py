@@ -52,7 +52,7 @@ class RowLane(Lane):
         return QRectF(0.0, top, self.plot_rect.width(), self.row_px)
 
     def row_number_at(self, y_px: float) -> int | None:
-        """The number of the row at a height."""
+        """Return the index of the row at a height in pixels; None if there is none."""
         number = int((y_px - self.strip_px + self._scrolled_px) // self.row_px)
         return number if y_px >= self.strip_px and 0 <= number < self.count_rows() else None
 

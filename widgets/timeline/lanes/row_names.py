@@ -16,7 +16,7 @@ TITLE_PX = 26.0
 
 
 class RowNames(QWidget):
-    """Texts beside rows, without those that would overlap others.
+    """Labels of rows in a header; labels that would overlap others are left out.
 
     Parameters
     ----------

@@ -100,7 +100,7 @@ class _Dynamics(LaneItem["DynamicsLane"]):
 
 
 class DynamicsLane(Lane):
-    """Dynamics and hairpins, to be dragged in time, changed and added."""
+    """Lane of dynamics and hairpins, which can be added, dragged in time and changed."""
 
     id = "dynamics"
     preferred_height_px = 34
@@ -120,7 +120,7 @@ class DynamicsLane(Lane):
 
     @property
     def letter_px(self) -> float:
-        """Height of a small letter."""
+        """Height of a small letter of a dynamic in pixels."""
         return min(max((self.plot_rect.height() - 8.0) / LINES_OF_LETTER, LEAST_LETTER_PX), MOST_LETTER_PX)
 
     def placed(self, span_s: tuple[float, float] | None = None) -> tuple[PlacedDynamic, ...]:
@@ -177,7 +177,7 @@ class DynamicsLane(Lane):
             self.update_items()
 
     def performance_changed(self) -> None:
-        """Dynamics are the project's, not the plan's."""
+        """Do nothing: dynamics belong to the project, not to the performance."""
 
     def players_changed(self) -> None:
         self.update_items()
@@ -258,7 +258,7 @@ class DynamicsLane(Lane):
     # What the user writes
 
     def _offer(self, mark: Mark | None, tick: int) -> None:
-        """Open the list of dynamics at a mark or a tick."""
+        """Open the menu of dynamics for a mark, or for a new one at a tick."""
         menu = QMenu(self)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._fill(menu, mark, tick)
@@ -274,7 +274,7 @@ class DynamicsLane(Lane):
             on_click(entry, self._write, text, mark, tick)
 
     def _write(self, text: str, mark: Mark | None, tick: int) -> None:
-        """Change the text of a dynamic, or add one at a tick."""
+        """Change the text of a dynamic, or add one at a tick if ``mark`` is None."""
         player = self.session.player
         if player is None or (mark is not None and mark.text == text):
             return

@@ -1,4 +1,4 @@
-"""Drawing of placed marks: glyphs as cached small pictures, slurs as outlines."""
+"""Drawing of placed marks: glyphs as cached images, slurs as outlines."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ Pictured: TypeAlias = tuple[QImage, int, int]
 
 
 class MarkColours(NamedTuple):
-    """Colours of marks, with another one for selected or dragged ones.
+    """Colours in which marks are drawn, with a different one for selected or dragged marks.
 
     Attributes
     ----------
     selected : frozenset of int
-        Numbers of marks.
+        Indices of the selected marks.
     held : int or None
         Index of the slur whose end can be dragged.
     """
@@ -49,7 +49,7 @@ class MarkColours(NamedTuple):
 
 
 def paint_marks(painter: QPainter, placed: PlacedMarks, colours: MarkColours, font: QFont) -> None:
-    """Draw musical marks at their computed positions: arcs, glyphs, texts, and signs of changes by hand."""
+    """Draw musical marks at their computed positions: slurs, glyphs, texts, and squares at marks that the user set."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
     painter.setPen(Qt.PenStyle.NoPen)
     _paint_arcs(painter, placed, colours)

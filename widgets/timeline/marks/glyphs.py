@@ -33,7 +33,7 @@ def _filled(*corners: Point) -> QPainterPath:
 
 
 def _lines(*lines: tuple[Point, ...], width: float = LINE) -> QPainterPath:
-    """Return the outline of straight lines through the given points; ``width`` in spaces of the staff."""
+    """Return the outline of polylines, each given by its points; ``width`` of the pen in staff spaces."""
     path = QPainterPath()
     for line in lines:
         path.moveTo(*line[0])
@@ -43,7 +43,9 @@ def _lines(*lines: tuple[Point, ...], width: float = LINE) -> QPainterPath:
 
 
 def _curve(start: Point, *points: Point, width: float = LINE) -> QPainterPath:
-    """Return the outline of a line of a width along cubic Bezier curves, each given by three further points."""
+    """Return the outline of a pen stroke along joined cubic Bezier curves: ``start``, then three points for each curve;
+    ``width`` in staff spaces.
+    """
     path = QPainterPath(QPointF(*start))
     for at in range(0, len(points), 3):
         path.cubicTo(*(QPointF(*point) for point in points[at : at + 3]))
@@ -156,7 +158,9 @@ _OUTLINES: Final[Mapping[str, Callable[[], QPainterPath]]] = {
 
 @lru_cache(maxsize=64)
 def glyph_path(kind: str, unit_px: float, text: str = "") -> QPainterPath:
-    """Return the outline of a mark around its position; empty if the mark is drawn as text or as a line to a note."""
+    """Return the outline of a mark of a kind around its position, or an empty path if the mark is text or a line to a
+    note.
+    """
     if kind == "tremolo" and text.isdecimal():
         path = _strokes(min(max(int(text), 1), 4))
     elif LOOKS[kind].is_text or LOOKS[kind].place == "next":

@@ -86,7 +86,7 @@ ASCENT, DESCENT = 1.6, 0.6
 
 
 def are_letters(text: str) -> bool:
-    """Return whether a text consists of these letters."""
+    """Return whether a text consists only of `LETTERS`."""
     return bool(text) and all(letter in LETTERS for letter in text)
 
 
@@ -97,9 +97,9 @@ def letters_path(text: str, height_px: float) -> tuple[QPainterPath, float]:
     Parameters
     ----------
     text : str
-        Of `LETTERS` only.
+        Only characters of `LETTERS`.
     height_px : float
-        Of a small letter.
+        Height of a small letter.
     """
     path = QPainterPath()
     path.setFillRule(Qt.FillRule.WindingFill)
@@ -113,7 +113,7 @@ def letters_path(text: str, height_px: float) -> tuple[QPainterPath, float]:
 
 
 def _sweep(path: QPainterPath, curve: Curve, left: float, scale: float) -> None:
-    """Add the area that a broad pen covers along curves."""
+    """Add to ``path`` the area that a broad pen covers along a curve; ``left`` and ``scale`` place it in pixels."""
     points = _sampled(curve)
     long_x, long_y = BROAD / 2 * cos(PEN_ANGLE), BROAD / 2 * sin(PEN_ANGLE)
     wide_x, wide_y = -THIN / 2 * sin(PEN_ANGLE), THIN / 2 * cos(PEN_ANGLE)
@@ -137,7 +137,9 @@ def _sampled(curve: Curve) -> list[tuple[float, float]]:
 
 
 def _hull(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Return the convex hull in a fixed sense of rotation, so that windings add up."""
+    """Return the convex hull of points, always in the same sense of rotation, so that overlapping hulls fill without
+    holes.
+    """
     points = sorted(set(points))
     result: list[tuple[float, float]] = []
     for ordered in (points, points[::-1]):

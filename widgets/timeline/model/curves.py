@@ -1,4 +1,4 @@
-"""The curves of lips and controllers, and drags of the lips' curves."""
+"""Curves of embouchure (lips) and of controllers for drawing, and drags that change them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ FINE = 0.2
 
 @dataclass(frozen=True)
 class EmbouchureCurves:
-    """A plan's embouchures as arrays (N,) for drawing, with values recorded within the notes (``traces``)."""
+    """Embouchure values of a plan as arrays (N,) for N notes, and values recorded within the notes (``traces``)."""
 
     events: tuple[EmbouchureEvent, ...]
     spans: TimeSpans
@@ -45,7 +45,7 @@ def lips(plan: PlayerPlan) -> EmbouchureCurves:
 
 
 def _traces(plan: PlayerPlan, start_s: FloatArray, end_s: FloatArray) -> dict[str, StepCurve]:
-    """Recorded lip tension, effort and air of a plan as curves by name, NaN between the notes."""
+    """Return the recorded lip tension, effort and air of a plan as step curves by name, NaN between notes."""
     traces = plan.traces
     if traces is None:
         return {}
@@ -72,14 +72,14 @@ def controller_steps(part: Part, project: Project) -> dict[str, StepCurve]:
 
 
 def with_values(project: Project, player_id: str, curve: str, values: Mapping[str, float]) -> Project:
-    """Return the project with changed values of a lips curve, by note."""
+    """Return the project with new values of an embouchure curve; ``values`` are by note id."""
     for note_id, value in values.items():
         project = set_embouchure(project, player_id, (note_id,), **{curve: value})
     return project
 
 
 class DragController(EditGesture):
-    """Drag of a controller up and down in spans of ticks, with blends beside them.
+    """Drag that raises or lowers a controller in spans of ticks, with blends before and after each span.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class DragController(EditGesture):
     blend_beats : float
         Length of the blends in felt beats.
     height_px : float
-        Distance in pixels of a change by 1.
+        Distance in pixels that changes the controller by 1.
     """
 
     def __init__(
@@ -115,14 +115,14 @@ class DragController(EditGesture):
 
 
 class DragCurve(EditGesture):
-    """Drag of a lips curve up and down at all selected notes.
+    """Drag that raises or lowers an embouchure curve at all selected notes.
 
     Parameters
     ----------
     starts : mapping of str to float
-        Values at the press, by note.
+        Values before the drag, by note id.
     height_px : float
-        Of the range 0..1.
+        Distance in pixels that changes the value by 1.
     """
 
     def __init__(
@@ -150,12 +150,12 @@ class DragCurve(EditGesture):
 
 
 class DrawCurve(EditGesture):
-    """The pencil: every note that the mouse passes gets the value at the mouse's height.
+    """Freehand drawing of an embouchure curve: each note that the mouse passes gets the value at the mouse's height.
 
     Parameters
     ----------
     lips : EmbouchureCurves
-        The notes.
+        The notes and their present values.
     value_at : callable
         Returns the value at a height in pixels.
     """

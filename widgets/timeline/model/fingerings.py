@@ -41,8 +41,9 @@ def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[C
 
 
 def slide_places(instrument: InstrumentMap, slide: Control) -> tuple[tuple[float, str], ...]:
-    """Return the mean position 0..1 and the name of each named place of a slide, over the fingerings that only use the
-    slide."""
+    """Return each named position of a slide as (value 0..1, name). The value is the mean over all fingerings that use
+    nothing but the slide.
+    """
     found: dict[str, list[float]] = {}
     for fingering in instrument.fingerings:
         if set(fingering.controls) <= {slide.name}:

@@ -15,7 +15,7 @@ def packed_rows(start: FloatArray, end: FloatArray) -> IntArray:
     Parameters
     ----------
     start, end : array (N,)
-        Ascending starts.
+        Start and end of each span; starts ascend.
     """
     rows = np.zeros(len(start), np.int64)
     busy: list[tuple[float, int]] = []
@@ -39,7 +39,7 @@ class TimeSpans:
     Parameters
     ----------
     start_s, end_s : array (N,)
-        Ascending starts; ends in any order.
+        Start and end of each span; starts ascend, ends are in any order.
     """
 
     def __init__(self, start_s: FloatArray, end_s: FloatArray) -> None:
@@ -59,8 +59,9 @@ class StepCurve:
     Parameters
     ----------
     time_s : array (N,)
-        Ascending.
+        Ascending times at which the value changes.
     value : array (N,)
+        Value from each time on.
     """
 
     def __init__(self, time_s: FloatArray, value: FloatArray) -> None:
@@ -99,8 +100,8 @@ class StepCurve:
 
 
 def step_path(low: FloatArray, high: FloatArray) -> FloatArray:
-    """Return the outline of columns as points (M, 2) of column and value to connect: each column continues from the
-    nearer end of the previous one. Columns without values interrupt it with NaN.
+    """Return points (M, 2) of column and value to connect as the outline of a step curve: each column continues from
+    the nearer end of the previous one. NaN interrupts the line at columns without values.
     """
     count = len(low)
     points = np.empty((2 * count, 2))

@@ -26,7 +26,7 @@ Far = Callable[[LaneMouse, LaneMouse], bool]
 
 
 class Editing(Protocol):
-    """Part of the session used by gestures; a protocol, since the session is a QObject and this package is independent
+    """Part of the session used by gestures. A protocol, since the session is a QObject and this package is independent
     of Qt.
     """
 
@@ -58,7 +58,7 @@ class Plane(Protocol):
 
 
 def snapped(grid: Grid, score: Score, tick: float, free: bool) -> int:
-    """The nearest line of the grid; the nearest tick if snapping is off."""
+    """Return the tick of the nearest grid line; with ``free``, the nearest whole tick."""
     return round(tick) if free else grid.snap(score.metre_map, tick)
 
 
@@ -68,32 +68,34 @@ def moved_edge(start: int, end: int, at_start: bool, tick: int, least: int = 1) 
 
 
 def along(least_px: float) -> Far:
-    """Return a test for drags of at least a number of pixels to the left or right."""
+    """Return a test for whether the mouse has moved at least ``least_px`` pixels horizontally."""
     return lambda at, mouse: abs(mouse.x_px - at.x_px) >= least_px
 
 
 def across(least_px: float) -> Far:
-    """Return a test for drags of at least a number of pixels up or down."""
+    """Return a test for whether the mouse has moved at least ``least_px`` pixels vertically."""
     return lambda at, mouse: abs(mouse.y_px - at.y_px) >= least_px
 
 
 def either(least_px: float) -> Far:
-    """Return a test for drags of at least a number of pixels in either direction."""
+    """Return a test for whether the mouse has moved at least ``least_px`` pixels horizontally or vertically."""
     return lambda at, mouse: max(abs(mouse.x_px - at.x_px), abs(mouse.y_px - at.y_px)) >= least_px
 
 
 def together(least_px: float) -> Far:
-    """Far in the sum of both directions."""
+    """Return a test for whether the horizontal and vertical movement of the mouse add up to at least ``least_px``
+    pixels.
+    """
     return lambda at, mouse: abs(mouse.x_px - at.x_px) + abs(mouse.y_px - at.y_px) >= least_px
 
 
 class LiveEdit:
-    """An undo step that is replaced during a drag, each time based on the project at its start.
+    """An undo step that is replaced at every move of a drag; each edit applies to the project before the drag.
 
     Parameters
     ----------
     origin : object
-        Origin of the edit, which ignores the resulting change signal.
+        Widget that makes the edit, so that it can ignore the resulting change signal.
     """
 
     def __init__(self, session: Editing, origin: object) -> None:
@@ -104,7 +106,7 @@ class LiveEdit:
         self._name: Message | None = None
 
     def edit(self, name: Message, edit: Edit) -> bool:
-        """Replace the undo step by an edit of the project at the press, and return whether the edit succeeded.
+        """Replace the undo step by an edit of the project before the drag, and return whether the edit succeeded.
 
         After a failed edit, the last successful one remains. If the step was undone during the drag, the drag has no
         further effect.
@@ -121,14 +123,14 @@ class LiveEdit:
         return True
 
     def attempt(self, name: Message, edit: Edit) -> bool:
-        """Edit as in `edit`, and show a failure to the user."""
+        """Edit as in `edit`, but show the error to the user if it fails."""
         if not self._session.attempt(name, lambda _: edit(self.base), self._token, self._origin):
             return False
         self._name, self._ours = name, self._session.project
         return True
 
     def end(self) -> None:
-        """End the gesture: further edits are another step."""
+        """End the gesture: later edits make an undo step of their own."""
         self._session.document.end_gesture()
 
     def take_back(self) -> None:
@@ -144,7 +146,7 @@ class MouseGesture:
     Parameters
     ----------
     at : LaneMouse
-        The press.
+        Position of the press.
     far : Far, optional
         Test for the start of the drag; by default the first move starts it.
 
@@ -176,7 +178,7 @@ class MouseGesture:
         """Follow the mouse during a drag; every gesture overrides this."""
 
     def finish(self, mouse: LaneMouse) -> None:
-        """Handle the end of the drag at a position."""
+        """End the drag with the button released at ``mouse``; gestures with a final effect override this."""
 
     def click(self, mouse: LaneMouse) -> None:
         """Handle a press and release without a drag."""
@@ -192,7 +194,7 @@ class EditGesture(MouseGesture):
     ----------
     step : LiveEdit
     at, far
-        As of `MouseGesture`.
+        See `MouseGesture`.
     """
 
     def __init__(self, step: LiveEdit, at: LaneMouse, far: Far | None = None) -> None:
@@ -208,7 +210,7 @@ class EditGesture(MouseGesture):
 
 
 class Band(MouseGesture):
-    """A rubber band from the press to the mouse, which scrolls with the contents.
+    """Selection by a rectangle drawn from the press to the mouse; it stays over the contents when they scroll.
 
     Parameters
     ----------
@@ -218,7 +220,7 @@ class Band(MouseGesture):
     Attributes
     ----------
     box : PixelRect or None
-        Rectangle while it is drawn.
+        Rectangle during the drag; else None.
     """
 
     def __init__(self, plane: Plane, at: LaneMouse, far: Far, take: Callable[[PixelRect, LaneMouse], None]) -> None:

@@ -27,7 +27,7 @@ class PixelRect(NamedTuple):
         return self.left - slack_px <= x_px <= self.right + slack_px and self.top <= y_px <= self.bottom
 
     def meets(self, other: PixelRect) -> bool:
-        """Return whether both have room in common; a box without width or height meets nothing."""
+        """Return whether two rectangles overlap; a rectangle without width or height overlaps nothing."""
         return (
             max(self.left, other.left) < min(self.right, other.right)
             and max(self.top, other.top) < min(self.bottom, other.bottom)
@@ -46,7 +46,7 @@ class LaneMouse:
     Attributes
     ----------
     x_px, y_px : float
-        From the upper left corner of the plot.
+        Position from the upper left corner of the plot.
     value : float
         Value on the lane's vertical scale.
     tick : float
@@ -56,7 +56,7 @@ class LaneMouse:
     shift, ctrl, alt : bool
         Modifier keys that are held.
     screen_px : (int, int)
-        On the screen, for menus.
+        Position on the screen, for menus.
     """
 
     x_px: float

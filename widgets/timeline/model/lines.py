@@ -18,14 +18,14 @@ LEAST_STEP_PX = 9.0
 
 
 class Lines(msgspec.Struct, frozen=True):
-    """Lines of a visible range.
+    """Lines in a visible time range.
 
     Attributes
     ----------
     bars : tuple of int
-        Numbers of bars with a line and a label.
+        Numbers of the bars that have a line and a label.
     bar_s, beat_s, step_s : float64 array
-        Times of bar lines, beats between them, and grid steps between these.
+        Times in seconds of the bar lines, of the beats between them, and of the grid lines between beats.
     """
 
     bars: tuple[int, ...]
@@ -35,7 +35,7 @@ class Lines(msgspec.Struct, frozen=True):
 
 
 class LineCache:
-    """The visible lines, made once for the ruler and all lanes."""
+    """Cache of the lines in the visible range, shared by the ruler and all lanes."""
 
     def __init__(self) -> None:
         self._score: Score | None = None
@@ -90,7 +90,7 @@ def visible_lines(score: Score, grid: Grid, start_s: float, end_s: float, px_per
 
 
 def _bar_step(score: Score, first: int, last: int, px_per_s: float) -> int:
-    """Return the interval of labelled bars: 1, 2, 4 and so on, by the usual length of visible bars."""
+    """Return how many bars apart labels are (1, 2, 4 and so on), chosen by the length of the visible bars in pixels."""
     start_s, end_s = (score.tempo_map.seconds(float(score.metre_map.tick_of_bar(bar))) for bar in (first, last))
     px = (end_s - start_s) / max(last - first, 1) * px_per_s
     every = 1
@@ -100,7 +100,6 @@ def _bar_step(score: Score, first: int, last: int, px_per_s: float) -> int:
 
 
 def _between(start: int, end: int, step: float) -> FloatArray:
-    """Positions (N,) of the grid lines between two bar lines, ``step`` ticks apart; the bar lines themselves are left
-    out."""
+    """Return the ticks (N,) of grid lines between two bar lines, ``step`` ticks apart, without the bar lines."""
     count = int(np.ceil((end - start) / step - 1e-9))
     return start + step * np.arange(1, count, dtype=np.float64)

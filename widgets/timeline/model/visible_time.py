@@ -13,7 +13,7 @@ PADDING = 0.02
 
 
 class Scale(Protocol):
-    """Scale from seconds to pixels: of the value `TimeView`, and of the axis that is a QObject."""
+    """Scale from seconds to pixels, implemented by `TimeView` and by the time axis, which is a QObject."""
 
     @property
     def px_per_s(self) -> float: ...
@@ -25,7 +25,7 @@ class Scale(Protocol):
 
 
 class VisibleSpan(Scale, Protocol):
-    """Scale with the visible time span."""
+    """Scale with the visible time range."""
 
     @property
     def start_s(self) -> float: ...
@@ -34,21 +34,21 @@ class VisibleSpan(Scale, Protocol):
 
 
 class Limited(Scale, Protocol):
-    """A time scale whose scrolling is limited."""
+    """A time scale that can only be scrolled within limits."""
 
     @property
     def limits_s(self) -> tuple[float, float]: ...
 
 
 class TimeView(NamedTuple):
-    """The visible range; each change returns a new one within the limits.
+    """The visible time range in seconds; each change returns a new one within the limits.
 
     Attributes
     ----------
     limits_s : (float, float)
         Range that can be scrolled to.
     start_s, end_s : float
-        Half-open.
+        Visible range; the end is excluded.
     width_px : int
         Of the plot area, device-independent pixels.
     """
@@ -60,7 +60,7 @@ class TimeView(NamedTuple):
 
     @property
     def span_s(self) -> float:
-        """Length of the visible range."""
+        """Length of the visible range in seconds."""
         return self.end_s - self.start_s
 
     @property
@@ -73,7 +73,7 @@ class TimeView(NamedTuple):
     @overload
     def x_px(self, seconds: FloatArray) -> FloatArray: ...
     def x_px(self, seconds: float | FloatArray) -> float | FloatArray:
-        """Convert seconds to x pixels of the view; numbers or arrays of any shape."""
+        """Convert seconds to x positions in pixels; accepts a number or an array of any shape."""
         return (seconds - self.start_s) * self.px_per_s
 
     def seconds(self, x_px: float) -> float:
@@ -81,7 +81,7 @@ class TimeView(NamedTuple):
         return self.start_s + x_px / self.px_per_s
 
     def within(self, start_s: float, end_s: float) -> TimeView:
-        """Return the view with other limits; the visible range moves only if necessary."""
+        """Return the view with other limits of scrolling; the visible range moves only if necessary."""
         return self._replace(limits_s=(start_s, max(end_s, start_s + LEAST_SPAN_S))).showing(self.start_s, self.end_s)
 
     def widened(self, width_px: int) -> TimeView:
@@ -106,11 +106,13 @@ class TimeView(NamedTuple):
         return self.showing(start_s, start_s + span)
 
     def panned(self, by_s: float) -> TimeView:
-        """Scrolled; later times come into view for a positive distance."""
+        """Return the view scrolled by seconds; for a positive number later times come into view."""
         return self.showing(self.start_s + by_s, self.end_s + by_s)
 
     def revealing(self, time_s: float, end_s: float | None = None) -> TimeView:
-        """Return the view scrolled to a time (or a span from it on), unchanged if that is visible with some margin."""
+        """Return the view scrolled so that a time, or a span that begins there, is visible; unchanged if it is already
+        visible with some margin.
+        """
         until_s = time_s if end_s is None else min(end_s, time_s + self.span_s * (1 - 2 * PADDING))
         margin = self.span_s * PADDING
         if self.start_s + margin <= time_s and until_s <= self.end_s - margin:

@@ -1,4 +1,4 @@
-"""A widget that draws itself once into a picture and repaints from that."""
+"""A widget that is drawn once into a cached image, from which it is repainted."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QWidget
 
 
 class Pictured(QWidget):
-    """Widget with a cached picture, so that the passing playhead does not redraw it.
+    """Widget drawn into a cached image, so that the moving playhead does not redraw it.
 
     Override `draw`, and call `redraw` when its inputs have changed.
     """

@@ -22,7 +22,7 @@ MARK_PX = 6.0
 
 
 def rect(box: PixelRect) -> QRectF:
-    """Convert a rectangle of pixels to one of Qt."""
+    """Convert a `PixelRect` to a `QRectF`."""
     return QRectF(box.left, box.top, box.width, box.height)
 
 
@@ -56,7 +56,9 @@ def draw_text(
 
 
 def draw_mark(painter: QPainter, tokens: Tokens, x: float, y: float, removed: bool = False) -> None:
-    """Draw the square mark of a user's change, or the cross of a removed event, by its upper left corner."""
+    """Draw, with its upper left corner at (x, y), the square that marks a change by the user, or a cross for a removed
+    event.
+    """
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, removed)
     if removed:
@@ -89,7 +91,9 @@ def fill_rects(
 
 
 def _side_by_side(*columns: FloatArray) -> FloatArray:
-    """Four numbers a row, as Qt has the members of a rectangle or a line in memory: ``qreal`` is a double."""
+    """Return an array (N, 4) with four columns (N,) as rows, the memory layout of Qt's rectangles and lines
+    of doubles.
+    """
     table: FloatArray = np.empty((len(columns[0]), len(columns)), np.float64)
     for place, values in enumerate(columns):
         table[:, place] = values
@@ -97,7 +101,9 @@ def _side_by_side(*columns: FloatArray) -> FloatArray:
 
 
 def _first(table: FloatArray, kind: type[QRectF] | type[QLineF], row: int = 0) -> Any:
-    """Return a row of a table as Qt's object, followed in memory by the next rows: ``table`` must outlive it."""
+    """Return a Qt object that uses a row of a table as its memory, followed by the next rows; ``table`` must outlive
+    it.
+    """
     return wrapInstance(table.ctypes.data + row * table.strides[0], kind)
 
 
@@ -114,7 +120,7 @@ def draw_groups(
     boxes : four arrays (N,)
         Left, top, width and height, pixels.
     group : array (N,)
-        Index of the colour of each, ascending.
+        Index into ``colours`` of each rectangle, ascending.
     """
     if not len(group):
         return
@@ -135,7 +141,7 @@ def draw_lines(painter: QPainter, x0: FloatArray, y0: FloatArray, x1: FloatArray
 
 
 def draw_path(painter: QPainter, points: FloatArray, pen: QPen) -> None:
-    """Joined points (N, 2) of pixels; NaN breaks the line."""
+    """Draw connected lines through points (N, 2) in pixels; a point of NaN interrupts them."""
     before, after = points[:-1], points[1:]
     both = np.isfinite(before[:, 1]) & np.isfinite(after[:, 1])
     before, after = before[both], after[both]
@@ -151,7 +157,9 @@ def draw_columns(
     base: float | None,
     colour: QColor,
 ) -> None:
-    """Draw many narrow steps as one line per column of pixels, from the least to the greatest ``y`` (and ``base``)."""
+    """Draw many narrow values as one vertical line per pixel column, from the least to the greatest ``y`` there,
+    including ``base`` if given.
+    """
     first = int(np.floor(room.left()))
     count = int(np.ceil(room.right())) - first
     column = np.clip(np.floor((left + right) / 2.0).astype(np.int64) - first, 0, count - 1)

@@ -28,8 +28,8 @@ from widgets.timeline.zoom_and_scroll import TimeAxis
 
 
 class LaneView(Protocol):
-    """Part of a lane needed by its items; a protocol here and in the drawing modules, since lanes import their
-    items.
+    """Part of a lane that its items need. A protocol, since a lane imports the modules of its items, and these cannot
+    import the lane.
     """
 
     id: str
@@ -47,7 +47,7 @@ class LaneView(Protocol):
 
 
 class PlotOwner(Protocol):
-    """Receiver of a plot's events; a protocol, since lanes import their plot."""
+    """Receiver of a plot's mouse and key events; a protocol, since lanes import this module."""
 
     session: Session
 
@@ -66,7 +66,7 @@ AnyLane = TypeVar("AnyLane", bound=LaneView)
 
 
 class LaneItem(Generic[AnyLane]):
-    """An item drawn over the whole plot in pixels. Override `paint_px`, and draw only what meets ``exposed``.
+    """An item drawn over the whole plot in pixels. Override `paint_px`, and draw only inside ``exposed``.
 
     Parameters
     ----------
@@ -86,12 +86,12 @@ class LaneItem(Generic[AnyLane]):
         self.lane.plot.redraw()
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        """Draw; x and y in pixels of the plot, see ``lane.axis.x_px`` and ``lane.y_px``."""
+        """Draw the item in pixels of the plot; use ``lane.axis.x_px`` and ``lane.y_px`` to convert times and values."""
         raise NotImplementedError
 
 
 class Background(LaneItem[LaneView]):
-    """Lines of bars, beats and the grid; the loop and the selected span as shades."""
+    """Draws lines of bars, beats and the grid, and shades the loop and the selected span."""
 
     def __init__(self, lane: LaneView) -> None:
         super().__init__(lane, -100.0)
@@ -128,9 +128,10 @@ class Background(LaneItem[LaneView]):
 
 
 class Plot(Pictured):
-    """The drawing area of a lane with its mouse and keys.
+    """The drawing area of a lane, which receives its mouse and key events.
 
-    A plain widget, since views of graphics scenes receive changes one after another and repainted all lanes each time.
+    Not a QGraphicsView, since the views of several scenes are updated one after another, which repainted all lanes each
+    time.
     """
 
     def __init__(self, lane: PlotOwner, parent: QWidget) -> None:
@@ -143,7 +144,7 @@ class Plot(Pictured):
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
 
     def add(self, item: LaneItem[Any]) -> None:
-        """Add an item that the plot draws, in the order of the items' depth."""
+        """Add an item that the plot draws, ordered by the items' ``z``."""
         self._items.append(item)
         self._items.sort(key=lambda each: each.z)
         self.redraw()

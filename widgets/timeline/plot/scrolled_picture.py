@@ -15,7 +15,7 @@ BESIDE = 0.5
 
 
 class ScrolledPicture:
-    """Picture of the contents of a lane, kept while time is only scrolled."""
+    """Image of the contents of a lane, reused while only time is scrolled."""
 
     def __init__(self, lane: LaneView) -> None:
         self._lane = lane
@@ -29,9 +29,9 @@ class ScrolledPicture:
         Parameters
         ----------
         look : object
-            All inputs of the drawing other than the zoom and the plot's size.
+            All inputs of the drawing other than the zoom and the plot's size, compared for equality.
         paint : callable
-            Draws a range of times in pixels of the plot.
+            Draws the contents between two times (seconds) into the plot's pixels.
         """
         lane, axis = self._lane, self._lane.axis
         ratio, room = lane.plot.devicePixelRatioF(), lane.plot_rect

@@ -28,7 +28,7 @@ OUT_OF_SIGHT_PX = 3.0
 
 
 class RollView(LaneView, Protocol):
-    """Part of the roll needed by its items; a protocol for the reason given at `LaneView`."""
+    """Part of the roll needed by its items; a protocol, since the roll imports this module."""
 
     model: RollModel
 
@@ -44,7 +44,7 @@ class RollView(LaneView, Protocol):
 
 
 def mixed(colour: str, other: str, share: float) -> QColor:
-    """A colour, ``share`` 0..1 of the way to another."""
+    """Return a mixture of two colours: ``share`` 0..1 of the way from ``colour`` to ``other``."""
     a, b = QColor(colour), QColor(other)
     return QColor.fromRgbF(
         *(x + share * (y - x) for x, y in zip(a.getRgbF()[:3], b.getRgbF()[:3], strict=True))  # type: ignore[index]
@@ -144,7 +144,7 @@ class Notes(LaneItem[RollView]):
 
 
 class OutOfSight(LaneItem[RollView]):
-    """Draws bars at the upper and lower edge if the active player has notes beyond it."""
+    """Draws bars at the upper and lower edge if the active player has notes outside the visible pitches."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane
@@ -174,7 +174,7 @@ def picture_behind(lane: RollView, behind: Behind, ghost: QColor | None, ratio: 
     Parameters
     ----------
     behind : Behind
-        Notes; later players are drawn over earlier ones.
+        Notes of the other players; later players are drawn over earlier ones.
     ghost : QColor or None
         Colour of all notes; None for each player's own.
     ratio : float
@@ -233,7 +233,7 @@ def _draw_points(
 
 
 def _premultiplied(shade: QColor) -> int:
-    """Return a colour with premultiplied alpha as Qt stores it, which is drawn without conversion."""
+    """Return a colour as Qt's 32-bit number with premultiplied alpha, which is drawn without conversion."""
     alpha = shade.alpha()
     red, green, blue = (round(part * alpha / 255) for part in (shade.red(), shade.green(), shade.blue()))
     return (alpha << 24) | (red << 16) | (green << 8) | blue
@@ -248,7 +248,7 @@ class Lasso(LaneItem[RollView]):
         self.cut: QLineF | None = None
 
     def show(self, rect: QRectF | None, cut: QLineF | None = None) -> None:
-        """Draw the selection rectangle, or the line of a cut; None hides it."""
+        """Show the selection rectangle or the line of a split; None hides them."""
         if (rect, cut) != (self.rect, self.cut):
             self.rect, self.cut = rect, cut
             self.update()
@@ -267,7 +267,7 @@ class Lasso(LaneItem[RollView]):
 
 
 class Hint(LaneItem[RollView]):
-    """Advice in an empty roll."""
+    """Draws advice in an empty roll."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane

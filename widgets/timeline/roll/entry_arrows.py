@@ -21,7 +21,7 @@ HELD = 1.6
 
 
 class EntryArrows(LaneItem[RollView]):
-    """Cues that the active player gives or receives, in the giver's colour."""
+    """Draws arrows for cues that the active player gives or receives, in the giver's colour."""
 
     def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 12.0)
@@ -31,7 +31,7 @@ class EntryArrows(LaneItem[RollView]):
 
     @property
     def arrows(self) -> tuple[EntryArrow, ...]:
-        """The arrows of cues drawn in the roll; found again only when plans or players change."""
+        """Return the arrows to draw, computed again only when plans or players change."""
         session = self.lane.session
         player, plans = session.player, session.plans
         if player is None:
@@ -42,11 +42,11 @@ class EntryArrows(LaneItem[RollView]):
         return self._known[1]
 
     def end_at(self, mouse: LaneMouse) -> tuple[EntryArrow, End] | None:
-        """Return the arrow with an end at a point, and which end."""
+        """Return the arrow whose tail or head is under the mouse, and which of them; None if there is none."""
         return end_at(self.lane, self.arrows, mouse)
 
     def hover(self, mouse: LaneMouse | None) -> bool:
-        """Highlight an end under the mouse, and return whether there is one."""
+        """Highlight the arrow's end under the mouse, and return whether there is one."""
         found = None if mouse is None else self.end_at(mouse)
         if found != self._hovered:
             self._hovered = found
@@ -54,7 +54,7 @@ class EntryArrows(LaneItem[RollView]):
         return found is not None
 
     def show(self, drag: EntryDrag | None) -> None:
-        """Draw an arrow as the mouse drags it; None ends that."""
+        """Draw the dragged arrow at its new place; None ends that."""
         self._drag = drag
         self._hovered = None
         self.update()

@@ -23,7 +23,7 @@ INSIDE_PX = 15.0
 
 
 class Labels(LaneItem[RollView]):
-    """Draws fingerings on the active player's notes, marks of pinned ones, and of problems."""
+    """Draws fingerings on the active player's notes, with marks of pinned fingerings and of problems."""
 
     def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 10.0)
@@ -43,7 +43,7 @@ class Labels(LaneItem[RollView]):
         self._texts.clear()
 
     def _know(self, table: NoteTable, plan: PlayerPlan | None) -> None:
-        """Assign a plan's fingerings to notes, cached for each pair."""
+        """Look up the fingering event of each note of the table in a plan; cached for the same table and plan."""
         if table is self._table and plan is self._plan:
             return
         if plan is not self._plan:
@@ -126,11 +126,13 @@ class Labels(LaneItem[RollView]):
                 painter.drawStaticText(QPointF(x + 1.0, below - 1.0), text)
 
     def _mark(self, painter: QPainter, x: float, y: float, row_px: float) -> None:
-        """Draw the mark of a pinned fingering: a bar at the note's start."""
+        """Draw the mark of a pinned fingering: a vertical bar at the note's start."""
         painter.fillRect(QRectF(x, y - 1.0, 3.0, row_px + 1.0), QColor(self.lane.session.tokens.by_hand))
 
     def _in_signs(self, event: FingeringEvent) -> str:
-        """A fingering in a line: keys and holes as signs of their chart, valves and places of a slide as written."""
+        """Return a fingering as one line of text: chart signs for keys and holes, the usual label for valves and
+        slides.
+        """
         if event.label not in self._signs:
             session = self.lane.session
             instrument = all_maps().get(session.player.instrument_id) if session.player is not None else None

@@ -15,7 +15,7 @@ KEYBOARD_PX = 50
 
 
 class Keyed(Protocol):
-    """Part of the roll beside the keyboard; a protocol for the reason given at `LaneView`."""
+    """Part of the roll that the keyboard needs; a protocol, since the roll imports this module."""
 
     session: Session
 
@@ -34,7 +34,9 @@ class Keyed(Protocol):
 
 
 class Keyboard(QWidget):
-    """Rows of the roll as keys. A click selects every note of a pitch in the part in front; Shift and Ctrl add."""
+    """Piano keyboard at the rows of the roll. A click selects all notes of a pitch in the active player's part; with
+    Shift or Ctrl in addition.
+    """
 
     def __init__(self, roll: Keyed) -> None:
         super().__init__(roll.header)

@@ -37,11 +37,12 @@ def mark_tip(of_player: MarkList, mark: Mark) -> str:
 
 
 class RollMarks(LaneItem[RollView]):
-    """The marks at notes of the player in front.
+    """The marks on the active player's notes.
 
     Attributes
     ----------
     marks : ShownMarks
+        The player's marks and the selection among them.
     """
 
     def __init__(self, lane: RollView) -> None:
@@ -53,7 +54,7 @@ class RollMarks(LaneItem[RollView]):
 
     @property
     def session(self) -> Session:
-        """The editor's session, as the lane has it."""
+        """The editor's session."""
         return self.lane.session
 
     @property
@@ -85,14 +86,15 @@ class RollMarks(LaneItem[RollView]):
         return self.marks.table(front[0]) if front is not None else None
 
     def _look(self) -> tuple[object, ...]:
-        """Return everything on which the positions of marks depend, except horizontal scrolling; equal values need no
-        new layout."""
+        """Return the values that determine the marks' positions, other than horizontal scrolling; the layout is reused
+        while they are equal.
+        """
         lane, table, room = self.lane, self._table(), self.lane.plot_rect
         warned = lane.model.warned(table.notes) if table is not None else None
         return table, warned, lane.axis.px_per_s, lane.y_range, room.width(), room.height(), lane.font()
 
     def _placed(self, start_s: float, end_s: float) -> PlacedMarks | None:
-        """The marks of a span of time in the plot's pixels."""
+        """Return the marks between two times in seconds, placed in the plot's pixels; None if there are none."""
         lane, table = self.lane, self._table()
         if table is None:
             return None
@@ -120,8 +122,10 @@ class RollMarks(LaneItem[RollView]):
     # The mouse
 
     def at(self, mouse: LaneMouse, over_note: bool) -> tuple[Mark, Zone] | None:
-        """Return the musical mark under the mouse and the grabbed part of it; a note is above slurs, except for the
-        ends of a selected slur."""
+        """Return the mark under the mouse and the grabbed part of it; None if there is none.
+
+        With ``over_note``, slurs are ignored except for the ends of a selected one, since the note is on top.
+        """
         placed = self.placed
         if placed is None:
             return None
@@ -150,7 +154,7 @@ class RollMarks(LaneItem[RollView]):
         return MarkDrag(self, mouse, mark, zone, front[0])
 
     def hover(self, mouse: LaneMouse | None, over_note: bool) -> Mark | None:
-        """Highlight an end that can be dragged, and return the mark under the mouse."""
+        """Highlight the slur end under the mouse that can be dragged, and return the mark under the mouse."""
         found = None if mouse is None else self.at(mouse, over_note)
         held = self.marks.of_player.by_id.get(found[0].id) if found is not None and found[1] != "whole" else None
         if held != self._held:

@@ -111,7 +111,7 @@ class PianoRoll(Lane):
 
     @property
     def tool(self) -> Tool:
-        """Tool that the left mouse button uses in the roll, such as selecting or drawing."""
+        """Tool that the left mouse button uses in the roll, such as selecting or drawing notes."""
         return self._tool
 
     @property
@@ -127,7 +127,7 @@ class PianoRoll(Lane):
 
     @property
     def ghosted(self) -> bool:
-        """True if the players behind are only seen, faintly."""
+        """True if the other players' notes are drawn pale and do not respond to the mouse."""
         return self.model.ghosts_mode is not Ghosts.ALL
 
     @property
@@ -231,7 +231,7 @@ class PianoRoll(Lane):
         self._bring_into_view(front[0].pitch[front[0].visible(self.axis.start_s, self.axis.end_s)])
 
     def fit_pitch(self) -> None:
-        """Show all notes of the player in front, with some air."""
+        """Show the pitches of all notes of the active player, with some margin."""
         front = self.model.front()
         pitches = front[0].pitch if front is not None else np.empty(0)
         if len(pitches):
@@ -248,7 +248,9 @@ class PianoRoll(Lane):
         self.choose_pitches(*kept_pitches(bottom + notches * ROWS_A_NOTCH, top - bottom))
 
     def zoom_pitch(self, factor: float, at: float | None = None) -> None:
-        """Show ``factor`` times fewer pitches around the pitch ``at``, that of the selected notes, or the middle."""
+        """Show ``factor`` times fewer pitches around the pitch ``at``; by default around the selected notes or the
+        middle.
+        """
         if at is None:
             bottom, top = self.y_range
             selected = self.session.selection.notes
@@ -261,7 +263,7 @@ class PianoRoll(Lane):
         self.zoom_pitch(ZOOM_A_NOTCH**steps, mouse.value)
 
     def choose_pitches(self, bottom: float, top: float) -> None:
-        """Show a range of pitches, whatever height the lane has."""
+        """Show the pitches from ``bottom`` to ``top`` regardless of the lane's height."""
         self._pitches_chosen = True
         self._show_pitches(bottom, top)
 
@@ -282,7 +284,7 @@ class PianoRoll(Lane):
         return self.tr("piano_roll.click_to_select_all_its").format(pitch=self.pitch_text(pitch))
 
     def select_pitch(self, pitch: int, add: bool) -> None:
-        """Select every note of a pitch in the part in front."""
+        """Select all notes of a pitch in the active player's part; with ``add`` in addition to the selection."""
         if self.session.player is None:
             return
         found = self.model.notes_of_pitch(pitch)
@@ -415,7 +417,7 @@ class PianoRoll(Lane):
                 self.set_tool(self._tool)
 
     def key(self, event: QKeyEvent) -> bool:
-        """Clear the selection when Escape is pressed; returns whether the key is used up."""
+        """Clear the selection when Escape is pressed; return whether the event was handled."""
         if event.key() == Qt.Key.Key_Escape and self.session.selection:
             self.session.select(Selection())
             return True
@@ -430,7 +432,7 @@ class PianoRoll(Lane):
         return True
 
     def pan_y(self, by_px: float) -> None:
-        """The plot is dragged up or down with the middle button."""
+        """Scroll the pitches during a drag with the middle button, by pixels, positive downwards."""
         bottom, top = self.y_range
         self.choose_pitches(*kept_pitches(bottom + by_px / self.row_px, top - bottom))
 
@@ -447,21 +449,21 @@ class PianoRoll(Lane):
         return menu
 
     def _tell_pitch(self, note_id: str) -> None:
-        """Show the pitch of a dragged note."""
+        """Show the pitch of a dragged note in the tool bar."""
         note = self.model.note(note_id)
         if note is not None:
             QToolTip.showText(QCursor.pos(), self.pitch_text(note.pitch), self.plot)
 
     def _tell_velocity(self, note_id: str) -> None:
-        """Show the velocity of a dragged note."""
+        """Show the velocity of a dragged note in the tool bar."""
         note = self.model.note(note_id)
         if note is not None:
             self._velocity = note.velocity
             QToolTip.showText(QCursor.pos(), self.tr("piano_roll.velocity").format(velocity=note.velocity), self.plot)
 
     def _report(self, mouse: LaneMouse, note: Note | None, mark: Mark | None) -> None:
-        """Show what is under the mouse: position and pitch, or the note; problems of a note, or a mark, as a tool
-        tip.
+        """Show the note or the position and pitch under the mouse in the tool bar, and the note's problems or the
+        mark's description as a tool tip.
         """
         score = self.session.project.score
         tick = mouse.tick if note is None else note.onset_tick

@@ -1,4 +1,4 @@
-"""Small window for quantising notes: grid, strength, onsets or ends; applied as a preview."""
+"""Popover for quantising notes: grid, strength, onsets or ends, with a preview."""
 
 from __future__ import annotations
 
@@ -32,7 +32,9 @@ GRIDS: tuple[tuple[str, Fraction], ...] = (
 
 
 class QuantisePopover(Retranslated, QFrame):
-    """Quantises the selected notes with preview; Enter accepts, Escape cancels. A single undo step."""
+    """Popover that quantises the selected notes with a preview, as a single undo step; Enter accepts, Escape
+    cancels.
+    """
 
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
@@ -73,7 +75,7 @@ class QuantisePopover(Retranslated, QFrame):
         self.texted(self.ends, text="quantise_popover.ends")
 
     def open_over(self, widget: QWidget) -> None:
-        """Open in the middle of a widget with the grid of edits."""
+        """Open the popover in the middle of a widget, set to the editor's grid."""
         if not self._session.selection.notes:
             return
         self._token, self._base = object(), self._session.project

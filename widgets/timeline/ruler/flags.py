@@ -27,7 +27,7 @@ AIR_PX = 5.0
 
 @dataclass(frozen=True)
 class Flag:
-    """Flag in the ruler with the markers of one tick; ``shown`` is the text that fits."""
+    """Flag above the ruler for the markers at one tick; ``shown`` is the text, shortened to fit."""
 
     tick: int
     text: str
@@ -43,7 +43,7 @@ def lay_flags(score: Score, axis: TimeAxis, metrics: QFontMetricsF, left_px: flo
     axis : TimeAxis
         Time axis whose pixels count from ``left_px``.
     left_px, right_px : float
-        Available range.
+        Visible range in pixels.
     """
     named = [
         (tick, ", ".join(marker.text for marker in here))

@@ -15,7 +15,7 @@ class MarkEditor(QLineEdit):
     Signals
     -------
     typed(str, int, str)
-        Kind, tick and text: what stands there is meant.
+        The user accepted a text: kind (tempo or metre), tick and text.
     """
 
     typed = Signal(str, int, str)

@@ -19,7 +19,7 @@ class Strip(Pictured):
     Signals
     -------
     sought(float)
-        The playhead is requested at this time (seconds).
+        Request to move the playhead to this time in seconds.
     """
 
     sought = Signal(float)

@@ -153,7 +153,7 @@ class Ruler(Retranslated, Strip):
                 painter.drawText(QRectF(x + 4, MARKS_PX, 120.0, SCALE_PX - 3.0), _MIDDLE, text)
 
     def _upright(self, painter: QPainter, seconds: FloatArray, top: float, pen: QPen) -> None:
-        """Draw vertical lines at given seconds from ``top`` to the ruler's lower edge."""
+        """Draw vertical lines at times in seconds, from the height ``top`` to the ruler's lower edge."""
         x = np.trunc(GUTTER_PX + self.axis.x_px(seconds)) + 0.5
         draw_lines(painter, x, np.full(len(x), top), x, np.full(len(x), float(self.height())), pen)
 
@@ -175,14 +175,16 @@ class Ruler(Retranslated, Strip):
             self._band(painter, *punch, tokens.error, PUNCH_PX, LOOP_PX + 1.0)
 
     def _punch_s(self) -> tuple[float, float] | None:
-        """Return first and last second of the punch range, in which is recorded; None if it is not limited."""
+        """Return the start and end in seconds of the punch range, to which recording is limited; None if it is not
+        limited.
+        """
         recording = self.session.recording
         if not recording.punch or recording.punch_ticks is None:
             return None
         return self.seconds_of(recording.punch_ticks[0]), self.seconds_of(recording.punch_ticks[1])
 
     def _paint_take(self, painter: QPainter) -> None:
-        """Paint the already recorded range of the running take or pass."""
+        """Paint the range that the current recording has covered so far."""
         recording, loop_s, head_s = self.session.recording, self.session.loop_s, self.session.playhead_s
         start_s = loop_s[0] if recording.passes > 1 and loop_s is not None else recording.start_s
         if recording.running and head_s > start_s:
@@ -285,7 +287,9 @@ class Ruler(Retranslated, Strip):
     # The mouse
 
     def _held_at(self, place: QPointF) -> str:
-        """Return the name of the part that a press grabs."""
+        """Return the name of the part of the ruler that a press at a position grabs, such as ``playhead`` or
+        ``loop_start``.
+        """
         if place.x() < GUTTER_PX:
             return ""
         if self._mark_at(place) is not None:
@@ -439,7 +443,7 @@ class Ruler(Retranslated, Strip):
             super().keyPressEvent(event)
 
     def event(self, event: QEvent) -> bool:
-        """Handle keys of the selected mark before the window's shortcuts."""
+        """Handle keys that move or delete the selected mark before they are treated as the window's shortcuts."""
         if event.type() == QEvent.Type.ShortcutOverride and self._chosen is not None:
             assert isinstance(event, QKeyEvent)
             if event.key() in (*_REMOVING, *_EDITING, Qt.Key.Key_Escape):

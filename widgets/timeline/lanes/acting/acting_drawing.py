@@ -20,7 +20,7 @@ LEAST_SHAPE_PX = 6.0
 
 
 class ActingView(LaneView, Protocol):
-    """Part of the acting lane needed for drawing; a protocol for the reason given at `LaneView`."""
+    """Part of the acting lane needed for drawing; a protocol, since the lane imports this module."""
 
     def fade_handles(self, region: Region, box: QRectF) -> tuple[tuple[str, QPointF], ...]: ...
 

@@ -143,7 +143,9 @@ class ActingLane(RegionLane):
         return [region for _, region in self._known.values()]
 
     def _packed(self, kinds: tuple[str, ...], members: list[Region], clock: TempoMap) -> tuple[list[int], int]:
-        """Return the row of every member of a group, and the number of rows; underlying faces are in the last row."""
+        """Return the row of each region in ``members``, and the number of rows; expressions that last below others are
+        in the last row.
+        """
         known = self._groups_known.get(kinds)
         if (
             known is not None
@@ -167,7 +169,7 @@ class ActingLane(RegionLane):
         return (project.players, said, *(other.cues for other in plans.values() if other is not plan))
 
     def _varied(self, player_id: str) -> list[Region]:
-        """Return the regions of bars that the user has varied."""
+        """Return regions for the player's bars whose generated motion the user has varied."""
         clock = self.session.project.score.tempo_map
         return [
             Region(
@@ -280,7 +282,7 @@ class ActingLane(RegionLane):
             draw_mark(painter, tokens, box.left() + 1.0, box.top() + 1.0)
 
     def _name_room_px(self, cue: Region) -> float:
-        """Return the space in pixels for a cue's name: up to the next cue in the row."""
+        """Return the free space in pixels for a cue's name: up to the next cue in the row."""
         later = [one.start_s for one in self.regions if one.kind == "cue" and one.row == cue.row]
         at = bisect_right(later, cue.start_s)
         return MOST_NAME_PX if at == len(later) else self.axis.x_px(later[at]) - self.axis.x_px(cue.end_s) - NAME_GAP_PX
@@ -365,8 +367,9 @@ class ActingLane(RegionLane):
         self.session.attempt(Message("edit.set_expression"), edit)
 
     def _spans(self, mouse: LaneMouse) -> list[tuple[PlayerPlan, int, int]]:
-        """Return the span of a new event at the mouse: the active player's plan, first and last tick; empty without a
-        player."""
+        """Return the place of an event added at the mouse, as a list of (player's plan, first tick, last tick); empty
+        without an active player.
+        """
         start = self.snap(mouse.tick, mouse)
         end = start + NEW_BEATS * self.session.project.metre_map.felt_ticks_at(start)
         plan = self.session.plan

@@ -78,7 +78,9 @@ def _give(session: Session, cue: Region, giver_id: str) -> None:
 
 
 def add_styles_menus(menu: QMenu, session: Session, region: Region | None, tick: float) -> None:
-    """Another style for the selected regions, and a new region at a place for the selected players or for everyone."""
+    """Add submenus that change the style of the selected style regions, and that add a style at the bars around
+    ``tick`` for the selected players or for everyone.
+    """
     if region is not None and region.kind == STYLE:
         other = _add_styles(
             menu, tr("acting_lane.another_style"), "another_style", session, lambda name: change_styles(session, name)

@@ -23,7 +23,7 @@ LABEL_PX, SCALE_PX = 90.0, 48.0
 
 
 class AdditiveLaneView(LaneView, Protocol):
-    """Part of the additive lane needed for drawing; a protocol for the reason given at `LaneView`."""
+    """Part of the additive lane needed for drawing; a protocol, since the lane imports this module."""
 
     curves: tuple[ShownCurve, ...]
     channel: str
@@ -39,7 +39,7 @@ class AdditiveLaneView(LaneView, Protocol):
 
 
 class CurvesItem(LaneItem[AdditiveLaneView]):
-    """The generated value faint behind, the curves with their keys and handles in front."""
+    """Draws the generated values faintly, and in front of them the additive curves with keys and handles."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane, player = self.lane, self.lane.session.player
@@ -169,7 +169,7 @@ class CurvesItem(LaneItem[AdditiveLaneView]):
             painter.drawEllipse(end, HANDLE_PX, HANDLE_PX)
 
     def _paint_scale(self, painter: QPainter) -> None:
-        """The values at the upper and the lower edge."""
+        """Write the values at the upper and the lower edge of the plot."""
         lane, room = self.lane, self.lane.plot_rect
         bottom, top = lane.y_range
         painter.setPen(QColor(lane.session.tokens.text_dim))

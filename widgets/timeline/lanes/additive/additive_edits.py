@@ -38,9 +38,11 @@ class CurveEditing(Lane):
     Attributes
     ----------
     channel : str
+        Displayed channel of body or face.
     curves : tuple of ShownCurve
         Curves of the active player on the channel.
     selected : frozenset of KeyRef
+        Selected keys.
     generated : (array, array) or None
         Times and values generated on the channel.
     """
@@ -56,7 +58,7 @@ class CurveEditing(Lane):
 
     @property
     def player_id(self) -> str | None:
-        """Id of the player in front."""
+        """Id of the active player; None if there is none."""
         return None if self.session.player is None else self.session.player.id
 
     @property
@@ -127,11 +129,11 @@ class CurveEditing(Lane):
         self._edit_keys("edit.set_interpolation", partial(edit.set_interpolation, interpolation=interpolation))
 
     def free(self) -> None:
-        """Make the handles of the selected keys automatic."""
+        """Let the program compute the handles of the selected keys."""
         self._edit_keys("edit.set_curve_tangents", edit.free_tangents)
 
     def flatten(self) -> None:
-        """Make the curves flat at the selected keys."""
+        """Make the handles of the selected keys horizontal."""
         self._edit_keys("edit.set_curve_tangents", edit.flatten_tangents)
 
     def delete(self) -> None:
@@ -145,7 +147,7 @@ class CurveEditing(Lane):
             self.follow_keys(frozenset(KeyRef(key.name, key.tick + ticks) for key in before))
 
     def type_value(self) -> None:
-        """Type the value of the selected keys."""
+        """Open a field for the value of the selected keys."""
         keys = self.chosen()
         if not keys:
             return

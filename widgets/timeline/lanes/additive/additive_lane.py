@@ -42,7 +42,7 @@ REACH_PX = 6.0
 class AdditiveLane(CurveEditing):
     """Curves that are added to generated values.
 
-    A double click adds a key; keys, handles and ends of blends can be dragged; the context menu has more commands.
+    A double click adds a key; keys, handles and ends of fades can be dragged; the context menu has more commands.
     """
 
     id = "additive"
@@ -240,7 +240,9 @@ class AdditiveLane(CurveEditing):
         self.plot.setToolTip("\n".join((self.tip(found), *self.problems_at(found.name, mouse))))
 
     def problems_at(self, name: str, mouse: LaneMouse | None) -> list[str]:
-        """Problems of a curve at a place, in words."""
+        """Return descriptions of the problems that a curve causes at the mouse, such as values beyond the
+        body's range.
+        """
         plan = self.session.plan
         if mouse is None or plan is None:
             return []

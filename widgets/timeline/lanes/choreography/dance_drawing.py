@@ -24,7 +24,7 @@ _BAR_PX = 3.0
 
 
 class DancesView(LaneView, Protocol):
-    """Part of a dance lane needed for drawing; a protocol for the reason given at `LaneView`."""
+    """Part of a dance lane needed for drawing; a protocol, since the lane imports this module."""
 
     dances: dict[str, DanceSteps]
     moving: MoveStep | None
@@ -39,7 +39,7 @@ class DancesView(LaneView, Protocol):
 
 
 class DancesItem(LaneItem[DancesView]):
-    """The rows of a lane of dances."""
+    """Draws the rows of dances in a lane, one for each dancer."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane, tokens = self.lane, self.lane.session.tokens

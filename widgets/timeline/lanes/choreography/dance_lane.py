@@ -39,7 +39,7 @@ EMPTY_PX = 46
 
 class DanceLane(RowLane):
     """Dancers below one another with their basic motions: a click selects one, a drag moves it to other beats, its
-    context menu and the arrow keys replace it. The surrounding dance is generated anew.
+    context menu and the arrow keys replace it. The dance before and after it is generated again.
     """
 
     id = "dance"
@@ -116,7 +116,7 @@ class DanceLane(RowLane):
             self._rows_changed()
 
     def performance_changed(self) -> None:
-        """Compute the current dances in the background."""
+        """Compute the dances of a changed performance in the background."""
         performance = self.session.performance
         if performance.project.dancers and performance is not self._shown_of:
             self._shown_of = performance
@@ -222,7 +222,7 @@ class DanceLane(RowLane):
     # Edits
 
     def pin(self, dancer_id: str, number: int, state: int) -> None:
-        """Require a basic motion in place of a step of the dance, as one undoable step."""
+        """Pin a basic motion (``state``) in place of a step of the dance, as one undo step."""
         tick = self.dances[dancer_id].ticks[number]
         self._attempt(
             Message("edit.pin_dance", {"number": state + 1, "dancer": self._name(dancer_id)}),
@@ -230,7 +230,7 @@ class DanceLane(RowLane):
         )
 
     def use(self, dancer_id: str, number: int, segment: int) -> None:
-        """Dance a segment of the capture in the place of a step."""
+        """Replace a step by a segment (by index) of the motion capture."""
         tick = self.dances[dancer_id].ticks[number]
         self._attempt(
             Message("edit.use_dance_segment", {"dancer": self._name(dancer_id)}),
@@ -238,7 +238,7 @@ class DanceLane(RowLane):
         )
 
     def move_step(self, dancer_id: str, number: int, tick: int) -> None:
-        """Pin the segment of a step with its accent at another place."""
+        """Move the accent of a step to a tick by pinning the step's segment there."""
         dance = self.dances[dancer_id]
         if tick == dance.ticks[number]:
             return
@@ -251,7 +251,9 @@ class DanceLane(RowLane):
         self.update_items()
 
     def forbid(self, dancer_id: str, number: int, everywhere: bool = False) -> None:
-        """Forbid the basic motion of a step there, or in the whole piece; a pin on it is removed."""
+        """Forbid the basic motion of a step at its place, or with ``everywhere`` in the whole piece; removes a pin on
+        it.
+        """
         dance = self.dances[dancer_id]
         state = dance.steps[number].state
         start, end = (-limits.LAST_TICK, limits.LAST_TICK) if everywhere else dance.spans[number]
@@ -268,7 +270,7 @@ class DanceLane(RowLane):
         )
 
     def clear(self, dancer_id: str) -> None:
-        """Leave the whole dance to the generator again."""
+        """Remove all corrections of a dancer's dance, so that it is generated again."""
         self._attempt(
             Message("edit.release_dance", {"dancer": self._name(dancer_id)}),
             lambda project: edit.clear(project, dancer_id),

@@ -26,7 +26,7 @@ MOST_SEGMENTS = 60
 
 
 class Dances(Protocol):
-    """Part of the lane that the menu uses; a protocol for the reason given at `LaneView`."""
+    """Part of the lane that the menu uses; a protocol, since the lane imports this module."""
 
     session: Session
     dances: dict[str, DanceSteps]

@@ -39,6 +39,8 @@ class MoveStep(MouseGesture):
 
 
 def state_beside(dance: DanceSteps, state: int, by: int) -> int:
-    """Return the next basic motion with segments in a direction."""
+    """Return the basic motion that follows ``state`` by ``by`` (1 or -1) in the cyclic order of all basic motions that
+    have segments.
+    """
     used = sorted({one.state for one in dance.model.segments})
     return used[(used.index(state) + by) % len(used)]

@@ -26,7 +26,7 @@ from widgets.timeline.lane import Lane
 
 
 class Alternates(QFrame):
-    """A row of chips in the window that is not modal and closes with a press elsewhere or Escape."""
+    """Popup with a row of chips, not modal, closed by a click elsewhere or by Escape."""
 
     def __init__(self, session: Session, lane: Lane) -> None:
         super().__init__(lane)

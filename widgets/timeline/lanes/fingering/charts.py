@@ -34,7 +34,9 @@ BAR_SHARE = 0.55
 
 
 class ShownFingerings(NamedTuple):
-    """Visible fingerings: events, and arrays (N,) of pixels and of selection."""
+    """Visible fingerings: their events, and for each (N,) the left and right edge in pixels and whether it is
+    selected.
+    """
 
     events: list[FingeringEvent]
     left: FloatArray
@@ -78,7 +80,7 @@ class FingeringCharts:
         return MARGIN_PX + (y - self.chart.top) * self.hole_px
 
     def rows(self) -> list[tuple[str, float]]:
-        """Signs of the holes in the chart's column with their heights in pixels."""
+        """Return the signs of the holes in the chart's column, each with its height in pixels."""
         return [(key.control.label if not key.sign else key.sign, self.y_px(key.y)) for key in self.chart.column]
 
     # Drawing
@@ -91,9 +93,9 @@ class FingeringCharts:
         Parameters
         ----------
         pressed : array (K, N)
-            Values 0..1 of the holes of the column.
+            How far each of the K holes of the column is closed in each fingering, 0..1.
         colour : str
-            The player's.
+            The player's colour.
         """
         self._forget_old()
         narrow = shown.width < self.tight_px
@@ -106,7 +108,7 @@ class FingeringCharts:
                 draw_mark(painter, self._lane.session.tokens, float(shown.left[index]), 0.0)
 
     def _forget_old(self) -> None:
-        """Forget pictures of another theme, height or screen."""
+        """Discard cached pictures made for another theme, height or screen."""
         now = (self._lane.session.tokens, self.hole_px, self._lane.plot.devicePixelRatioF())
         if now != self._drawn_for or len(self._pictures) > MOST_PICTURES:
             self._drawn_for = now
@@ -165,7 +167,7 @@ class FingeringCharts:
                 return
 
     def _words_of(self, event: FingeringEvent) -> tuple[list[str], list[str]]:
-        """Return the names and signs of pressed keys that the chart does not always show."""
+        """Return the names and the signs of the pressed keys that are not part of the chart's fixed column."""
         known = (event.label, language())
         if known not in self._words:
             beside = [key for key in self.chart.keys if event.controls.get(key.control.name, 0.0) > 0.0]

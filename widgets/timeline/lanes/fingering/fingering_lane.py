@@ -206,7 +206,7 @@ class FingeringLane(Lane):
         self.update_items()
 
     def _show_charts(self, instrument: InstrumentMap | None) -> None:
-        """Use charts if the instrument has keys or holes; they need a taller lane."""
+        """Show fingering charts instead of bars if the instrument has keys or holes; they need a taller lane."""
         charted = instrument is not None and says_words(instrument.controls)
         if instrument is not self._charted:
             self._charted = instrument
@@ -222,7 +222,9 @@ class FingeringLane(Lane):
 
     @property
     def column_rows(self) -> list[tuple[int, Control]]:
-        """Return the rows of the chart's column holes among the pressed controls."""
+        """Return the controls that are holes in the chart's column, with their row indices among all pressable
+        controls.
+        """
         rows = {control.name: row for row, control in enumerate(self._pressable)}
         column = () if self.charts is None else self.charts.chart.column
         return [(rows[key.control.name], key.control) for key in column]
@@ -274,7 +276,7 @@ class FingeringLane(Lane):
         return () if self._plan is None else self._plan.mutes
 
     def event_at(self, time_s: float) -> FingeringEvent | None:
-        """Return the fingering event at or near a time; None if there is none."""
+        """Return the fingering event in effect at a time, else one near it; None if there is none."""
         if self.data is None:
             return None
         reach_s = NEAR_PX / self.axis.px_per_s

@@ -38,7 +38,7 @@ _CLAIMED = frozenset(
 
 
 def paint_doubts(lane: Lane, painter: QPainter, exposed: QRectF) -> None:
-    """Shade the bars that must be checked by ear, and hatch those missing in the recording."""
+    """Shade bars whose alignment with the recording is uncertain, and differently bars that the recording lacks."""
     audio, clock = lane.session.project.audio, lane.session.project.score.tempo_map
     if audio is None or not audio.doubts:
         return
@@ -117,7 +117,9 @@ class Anchors:
         painter.restore()
 
     def _paint_away(self, painter: QPainter, anchor: Anchor, x: float, bottom: float) -> None:
-        """Draw a line from a pinned beat to the place of the pin, if tempo or offset have changed since."""
+        """Draw a dashed line from the handle of a pinned beat to the time of its pin, if these differ because tempo or
+        offset have changed.
+        """
         audio = self._lane.session.project.audio
         if audio is None or anchor.pin is None:
             return
@@ -205,7 +207,9 @@ class Anchors:
     # Keys
 
     def claims(self, event: QKeyEvent) -> bool:
-        """Return whether the chosen beat answers to a key, or the key chooses another beat."""
+        """Return whether a key is handled here instead of being a shortcut: keys that move the chosen beat, or Alt with
+        Left or Right.
+        """
         alt = bool(event.modifiers() & Qt.KeyboardModifier.AltModifier)
         if self._lane.session.project.audio is None:
             return False

@@ -129,7 +129,7 @@ class WaveformLane(Lane):
         return self.tr("waveform_lane.offset_s_estimated").format(offset=number, confidence=audio.confidence)
 
     def text_box(self) -> QRectF:
-        """Return the rectangle in pixels in which the recording's offset is written."""
+        """Rectangle in pixels in which the recording's offset is written."""
         metrics = QFontMetricsF(small_font(self.font()))
         return QRectF(8.0, 2.0, metrics.horizontalAdvance(self.offset_text()) + 2.0, metrics.height())
 
@@ -222,7 +222,7 @@ class WaveformLane(Lane):
         return self.anchors.claims(event)
 
     def key(self, event: QKeyEvent) -> bool:
-        """Handle a key press for the selected pinned beat (see `Anchors.key`); returns whether it is used up."""
+        """Handle a key press for the selected pinned beat (see `Anchors.key`); return whether it was handled."""
         return self.anchors.key(event)
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:

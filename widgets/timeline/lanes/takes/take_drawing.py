@@ -24,7 +24,7 @@ PALE: Final = 95
 
 
 class TakesView(LaneView, Protocol):
-    """Part of a takes lane needed for drawing; a protocol for the reason given at `LaneView`."""
+    """Part of a takes lane needed for drawing; a protocol, since the lane imports this module."""
 
     model: TakesModel
 
@@ -35,7 +35,7 @@ class TakesView(LaneView, Protocol):
 
 
 class TakesItem(LaneItem[TakesView]):
-    """Draws the rows of all takes: notes, comp, breath and faults."""
+    """Draws the rows of all takes: notes, used spans, breath, and notes that cleaning omits."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane
@@ -155,7 +155,9 @@ class TakesItem(LaneItem[TakesView]):
             draw_lines(painter, x0, y0, x1, y1, pen)
 
     def _pitch_px(self, pitches: FloatArray, box: QRectF) -> tuple[FloatArray, float]:
-        """Return the tops (N,) and the common height of notes in a row of takes, in pixels."""
+        """Return for each pitch (N,) the top of its note in the row of a take, and the height of every note,
+        in pixels.
+        """
         low, high = self.lane.model.pitches
         step = (box.height() - 2 * MARGIN_PX) / (high - low + 1)
         height = max(step, LEAST_NOTE_PX)

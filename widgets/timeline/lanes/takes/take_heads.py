@@ -36,7 +36,7 @@ DRAG_PX: Final = 6.0
 
 
 class Headed(TakesView, Protocol):
-    """Part of the lane needed by the headings; a protocol for the reason given at `LaneView`."""
+    """Part of the lane needed by the headings; a protocol, since the lane imports this module."""
 
     @property
     def header(self) -> QWidget: ...

@@ -33,8 +33,8 @@ EMPTY_PX = 62
 
 
 class TakesLane(RowLane):
-    """Takes below one another. Swiping over a row uses that span of the take; the boundary of two takes can be
-    dragged.
+    """Lane with the takes as rows. A drag over a row uses that span of the take in the part; the boundary of two used
+    spans can be dragged.
     """
 
     id = "takes"
@@ -135,7 +135,7 @@ class TakesLane(RowLane):
         return self.model.comp
 
     def shown_comp(self) -> tuple[CompSpan, ...]:
-        """Return the comp (the part assembled from takes) as it would be if the swipe ended now."""
+        """Return the comp (the part assembled from takes) as it would be if the drag ended now."""
         return self.model.shown_comp()
 
     def shown_spans(self, take_id: str) -> tuple[CompSpan, ...]:
@@ -183,7 +183,7 @@ class TakesLane(RowLane):
             self.heads.type_name(take_id)
 
     def take_span(self, take_id: str, start_tick: int, end_tick: int) -> None:
-        """Use a span of a take in the part, and select it."""
+        """Use the take between two ticks in the part, and select this span."""
         if self.model.take_span(take_id, start_tick, end_tick):
             self.show_row(take_id)
 
@@ -283,7 +283,7 @@ class TakesLane(RowLane):
         return 0 if instrument is None else instrument.transposition_semitones
 
     def why(self, fault: Fault) -> str:
-        """Return the reason why cleaning omits a note."""
+        """Return the reason, as text, why cleaning omits a note of a take."""
         return {
             "": "",
             "ghost": self.tr("takes_lane.short_and_soft_ghost_note"),
@@ -321,8 +321,8 @@ class TakesLane(RowLane):
     # Keys
 
     def key(self, event: QKeyEvent) -> bool:
-        """Handle keys: Up and Down select another take for the selected span, or another take; Left and Right select
-        adjacent spans.
+        """Handle keys: Up and Down use another take in the selected span, or select another take if no span is
+        selected; Left and Right select adjacent spans.
         """
         key, modifiers = event.key(), event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
         if modifiers != Qt.KeyboardModifier.NoModifier or not self.rows:

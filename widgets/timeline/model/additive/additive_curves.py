@@ -35,20 +35,21 @@ DECIMALS: Final = {"deg": 1, "m": 3, "weight": 2}
 
 
 class KeyRef(NamedTuple):
-    """A key, identified by its curve's name and its tick."""
+    """A key of an additive curve, identified by the curve's name and the key's tick."""
 
     name: str
     tick: int
 
 
 class Hit(NamedTuple):
-    """Part of a curve that is hit.
+    """Part of an additive curve under the mouse.
 
     Attributes
     ----------
     what : {"key", "arrive", "leave", "blend_in", "blend_out", "curve"}
+        A key, its left or right handle, the end of a fade, or the curve.
     name : str
-        Of the curve.
+        Name of the curve.
     tick : int
         Tick of the key; for a curve, that of its first key.
     """
@@ -70,7 +71,7 @@ excess is not marked.
 
 @dataclass(frozen=True, eq=False)
 class ShownCurve:
-    """A curve as displayed, with its full weight.
+    """An additive curve at full weight, as displayed.
 
     Attributes
     ----------
@@ -79,7 +80,7 @@ class ShownCurve:
     shape : tuple of CurveSegment
         Segments from the start of the fade-in to the end of the fade-out.
     table : (S, 9) array
-        The segments as an array.
+        The S segments as an array.
     """
 
     curve: AdditiveCurve
@@ -89,7 +90,7 @@ class ShownCurve:
 
     @classmethod
     def of(cls, curve: AdditiveCurve, clock: TempoMap) -> ShownCurve:
-        """The shown form of a curve of the project."""
+        """Return the display form of one of the project's additive curves; ``clock`` converts its ticks."""
         shape = segments(msgspec.structs.replace(curve, weight=1.0), clock)
         key_s = np.array([clock.seconds(float(key.tick)) for key in curve.keys], np.float64)
         return cls(curve, key_s, shape, rows(shape))
@@ -109,7 +110,7 @@ class ShownCurve:
         return sampled_rows(self.table, times_s)
 
     def beyond_s(self, limits: tuple[float, float]) -> list[tuple[float, float]]:
-        """Return the spans (seconds, in order) in which added values exceed the body's range by more than rounding."""
+        """Return the spans (start, end) in seconds, in order, in which the curve's values lie outside ``limits``."""
         if not self.curve.enabled or not self.shape:
             return []
         times_s = np.arange(self.start_s, self.end_s + BEYOND_STEP_S, BEYOND_STEP_S)
@@ -120,8 +121,9 @@ class ShownCurve:
         return [(float(times_s[first]), float(times_s[last - 1]) + BEYOND_STEP_S) for first, last in turns.tolist()]
 
     def handles(self, at: int) -> Iterable[tuple[Side, float, float]]:
-        """Yield side, time (seconds) and value of the handles of the key with an index, which it has next to Bézier
-        segments."""
+        """Yield the handles of the key with index ``at``, each as side, time in seconds and value. Only sides with a
+        Bézier segment have one.
+        """
         start_s = float(self.key_s[at])
         for segment in self.shape:
             if segment.eased:
@@ -141,7 +143,7 @@ def shown_curves(project: Project, player_id: str, channel: str) -> tuple[ShownC
 
 
 def vertical_range(channel: str, curves: Sequence[ShownCurve], generated: FloatArray | None) -> float:
-    """Return the displayed distance from 0, which includes all keys, handles and generated values."""
+    """Return the greatest displayed absolute value: it includes all keys, handles and generated values."""
     unit = CHANNELS[channel].unit
     most = LEAST_RANGE[unit]
     for shown in curves:
@@ -161,8 +163,8 @@ def rounded(channel: str, value: float) -> float:
 def hit(
     curves: Sequence[ShownCurve], selected: Collection[KeyRef], plane: Plane, x_px: float, y_px: float
 ) -> Hit | None:
-    """Return the object at a point: handles of selected keys before keys, keys before blends and curves; the nearest of
-    several.
+    """Return the object at a point: handles of selected keys take precedence over keys, keys over fades and curves;
+    among several the nearest.
     """
     found: list[tuple[int, float, Hit]] = []
 
@@ -225,7 +227,7 @@ def keys_in(
 
 
 def by_curve(keys: Iterable[KeyRef]) -> dict[str, frozenset[int]]:
-    """Return the ticks of keys by curve, in the form for edits."""
+    """Group keys by their curve: return the ticks of the keys by the name of the curve."""
     result: dict[str, set[int]] = {}
     for key in keys:
         result.setdefault(key.name, set()).add(key.tick)
@@ -245,12 +247,14 @@ def still_there(curves: Sequence[ShownCurve], selected: Collection[KeyRef]) -> f
 
 
 def clip_text(channel: str, keys: Sequence[CurveKey]) -> bytes:
-    """Return the text that holds copied keys of a channel on the clipboard."""
+    """Return the clipboard contents (JSON) for copied keys of a channel."""
     return msgspec.json.encode(_Clip(channel, tuple(keys)))
 
 
 def clip_keys(content: bytes, channel: str) -> tuple[CurveKey, ...]:
-    """Return the clipboard's keys for a channel; empty if they have another unit or are invalid."""
+    """Return the keys in clipboard contents; empty if they are invalid or their unit differs from that of
+    ``channel``.
+    """
     try:
         clip = decode_json(content, _Clip, "")
     except FileError:

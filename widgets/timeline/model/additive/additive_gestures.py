@@ -122,7 +122,9 @@ class DragHandle(EditGesture):
 
 
 def _tangents(shown: ShownCurve, at_key: int, clock: TempoMap) -> dict[Side, Tangent]:
-    """Return the Bezier handles of a key by side, relative to it, also where they are computed automatically."""
+    """Return the handles of the key with index ``at_key`` by side, as offsets from the key; automatic handles are
+    computed.
+    """
     key = shown.curve.keys[at_key]
     return {
         side: Tangent(max(abs(round(clock.ticks(time_s)) - key.tick), 1), value - key.value)
@@ -131,7 +133,7 @@ def _tangents(shown: ShownCurve, at_key: int, clock: TempoMap) -> dict[Side, Tan
 
 
 def in_line(tangents: dict[Side, Tangent]) -> bool:
-    """Return whether both handles are aligned with their key."""
+    """Return whether the two handles of a key lie on one line through it."""
     if len(tangents) < 2:
         return False
     one, other = (handle.value / handle.ticks for handle in (tangents["leave"], tangents["arrive"]))

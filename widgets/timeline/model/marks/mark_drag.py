@@ -22,7 +22,7 @@ FAR_PX = 3.0
 
 
 class MarkPlane(Protocol):
-    """The roll or the lane under the mouse."""
+    """The piano roll or lane in which a mark is dragged; a protocol, since both are widgets."""
 
     marks: ShownMarks
 
@@ -32,13 +32,13 @@ class MarkPlane(Protocol):
 
 
 class MarkDrag(MouseGesture):
-    """Drag of a mark. The piece changes only when the button is released; before that, `ShownMarks.preview` has the
-    result.
+    """Drag of a mark. The piece changes only when the button is released; before that, `ShownMarks.preview` is the mark
+    at its new place.
 
     Parameters
     ----------
     zone : str
-        Dragged part.
+        Dragged part of the mark.
     notes : NoteTable, optional
         Notes of the active player, for a mark anchored to notes.
     """
@@ -67,7 +67,7 @@ class MarkDrag(MouseGesture):
         self._plane.show_marks()
 
     def _to_ticks(self, mouse: LaneMouse) -> Mark:
-        """Return a mark anchored to ticks, moved on the grid."""
+        """Return the dragged mark, anchored to ticks, at its new place on the grid."""
         mark, grid, score = self.mark, self._session.grid, self._base.score
         by_tick = mouse.tick - self.at.tick
         if self._zone == "whole":
@@ -80,7 +80,9 @@ class MarkDrag(MouseGesture):
         return replace(mark, tick=max(start, 0), end_tick=end)
 
     def _to_note(self, mouse: LaneMouse, notes: NoteTable) -> Mark:
-        """Return a mark anchored to notes, with it or an end of it moved to the nearest note."""
+        """Return the dragged mark, anchored to notes, with itself or its dragged end moved to the note nearest to the
+        mouse.
+        """
         mark = self.mark
         place = notes.nearest(mouse.time_s)
         if place is None:

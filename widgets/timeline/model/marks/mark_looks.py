@@ -16,9 +16,9 @@ class MarkLook(NamedTuple):
     order : int
         Order from the note outwards among stacked marks.
     width, height : float
-        In units (`PlacedMarks.unit_px`); of text the height of a line counts instead.
+        In units of `PlacedMarks.unit_px`; for text, the height of a text line is used instead.
     place : {"stack", "end", "after", "before", "next"}
-        Above the note's start, above its end, a line from its end, a line to its start, a line to the next note.
+        Above the note's start; above its end; a line after the note; a line leading to it; a line to the next note.
     under_slur : bool
         Whether a slur passes above it.
     is_text : bool

@@ -31,9 +31,9 @@ class MarkList:
     ----------
     marks : list of Mark
     by_hand : array (N,)
-        Which marks the user wrote.
+        Whether the user wrote each mark.
     by_id : dict of str to int
-        Their numbers.
+        Index of each mark by its id.
     over_notes, at_notes, at_ticks : array
         Indices of the marks over several notes, at one note, and at ticks.
     order, height, line : array
@@ -72,9 +72,9 @@ class NoteSpans(NamedTuple):
     mark, first, last : array (N,)
         Index of the mark, indices of its first and last note.
     inner : array (N,)
-        Number of levels of other marks within, which it passes above.
+        Number of levels of marks nested within the span, above which it is drawn.
     chained_first, chained_last : array (N,)
-        Whether another mark ends at the first note, and whether one begins at the last note.
+        Whether another such mark ends at the first note, and whether one begins at the last note.
     """
 
     mark: IntArray
@@ -95,7 +95,7 @@ class MarksAtNotes(NamedTuple):
     units, lines : array (N,)
         Height of the marks between it and the note or slur below, in units and in lines of text.
     is_stacked, is_outer : array (N,)
-        As of `MarkList`.
+        See `MarkList`.
     """
 
     mark: IntArray
@@ -113,9 +113,11 @@ class MarkTable:
     Attributes
     ----------
     slurs : NoteSpans
+        Marks over several notes.
     spans : TimeSpans
-        Times during which the spans sound.
+        Time spans of ``slurs``.
     at_notes : MarksAtNotes
+        Marks at single notes.
     under_slurs : array (N,)
         Height of the marks on each note below a slur, in units.
     """
@@ -132,7 +134,9 @@ class MarkTable:
         np.add.at(self.under_slurs, at.note[inner], heights[inner])
 
     def _places(self, numbers: IntArray) -> tuple[IntArray, IntArray]:
-        """Return the indices (N,) of the first and of the last note of each mark, -1 if a note does not exist."""
+        """Return the indices (N,) of the first and of the last note of each mark in ``numbers``, -1 if a note does not
+        exist.
+        """
         marks, index, count = self.of_player.marks, self.notes.index, len(numbers)
         chosen = [marks[number] for number in numbers.tolist()]
         first = np.fromiter(map(index.get, (mark.note_id for mark in chosen), repeat(-1)), np.int64, count)
@@ -162,8 +166,10 @@ class MarkTable:
 
 
 def _within(heights: FloatArray, starts: IntArray, stack: IntArray) -> FloatArray:
-    """Return for each mark (N,) the sum of the heights below it in its own stack; ``stack`` is each mark's stack,
-    ``starts`` each stack's first mark."""
+    """Return for each mark (N,) the total height of the marks below it in the same stack.
+
+    ``stack`` is the index of each mark's stack, ``starts`` the index of the first mark of each stack.
+    """
     before = np.cumsum(heights) - heights
     result: FloatArray = before - before[starts][stack]
     return result

@@ -28,13 +28,14 @@ BEHIND_PX = 80.0
 
 
 class TimedMarks:
-    """The marks anchored to ticks, by time.
+    """The marks anchored to ticks, ordered by time.
 
     Attributes
     ----------
     numbers : list of int
-        In `MarkList.marks`.
+        Their indices in `MarkList.marks`.
     spans : TimeSpans
+        Their time spans.
     last_tick : int or None
         End tick of a part read from sound, in which a dynamic visibly replaces the heard loudness until the next mark
         or the end. None for a part of a score.
@@ -54,7 +55,9 @@ class TimedMarks:
         self.spans = TimeSpans(tempo.seconds(ticks), tempo.seconds(np.maximum(ticks, ends)))
 
     def _held(self) -> list[int]:
-        """Return the ticks until which dynamics without an end are in effect; 0 for other marks."""
+        """Return for each mark the tick until which it is in effect if it is a dynamic without an end; 0 for other
+        marks.
+        """
         marks = [self.of_player.marks[number] for number in self.numbers]
         if self.last_tick is None:
             return [0] * len(marks)
@@ -73,12 +76,13 @@ class PlacedDynamic(NamedTuple):
     Attributes
     ----------
     mark : int
-        Number in `MarkList.marks`.
+        Index in `MarkList.marks`.
     box : PixelRect
         Rectangle of the wedge or the letters.
     end_px : float or None
-        End of a dynamic with an explicit end.
+        x position of a dynamic's explicit end; else None.
     is_hairpin : bool
+        Whether it is a hairpin rather than a dynamic.
     holds_px : float or None
         For a dynamic without an end in a part read from sound: position of the next mark or the end of the part.
     """
@@ -122,7 +126,7 @@ def placed_dynamics(
     band : (float, float)
         Top and bottom of the letters, pixels.
     width_of : callable
-        Width of a dynamic's letters, pixels.
+        Returns the width of a text in pixels.
     kept : frozenset of int
         Indices of marks that are drawn even if they overlap others.
     """

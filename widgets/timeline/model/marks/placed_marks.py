@@ -48,7 +48,7 @@ _HEIGHT: Final = 4 * _T * (1 - _T)
 
 
 def arc_height(share: FloatArray) -> FloatArray:
-    """Return the height (N,) of a slur relative to its maximum at a share 0..1 of its width."""
+    """Return the relative height (N,), 0..1, of a slur's arc at shares (N,), 0..1, of its width."""
     height: FloatArray = np.interp(share, _ALONG, _HEIGHT)
     return height
 
@@ -59,13 +59,13 @@ class Arcs(NamedTuple):
     Attributes
     ----------
     mark : array
-        Numbers in `MarkList.marks`.
+        Indices in `MarkList.marks`.
     x0, y0, x1, y1 : array
-        The ends.
+        Left and right ends.
     lift : array
         Height in the middle above the line from end to end; negative below the notes.
     is_bracket : array
-        Whether it is straight, over notes expressly tongued one by one.
+        Whether it is a straight bracket, over notes that are tongued separately.
     """
 
     mark: IntArray
@@ -77,7 +77,9 @@ class Arcs(NamedTuple):
     is_bracket: BoolArray
 
     def y_at(self, arc: IntArray, x: FloatArray) -> FloatArray:
-        """Height (N,) in pixels of each slur or bracket with the index ``arc`` at the position ``x``."""
+        """Return the heights (N,) in pixels at positions ``x`` (N,) of the slurs or brackets with the indices ``arc``
+        (N,).
+        """
         x0, x1, y0, y1 = self.x0[arc], self.x1[arc], self.y0[arc], self.y1[arc]
         share = np.clip((x - x0) / np.maximum(x1 - x0, 1e-6), 0.0, 1.0)
         rise = np.where(self.is_bracket[arc], 1.0, arc_height(share))
@@ -91,9 +93,9 @@ class Glyphs(NamedTuple):
     Attributes
     ----------
     mark : array
-        Numbers in `MarkList.marks`.
+        Indices in `MarkList.marks`.
     x, y : array
-        Middle of the lower edge; for a line its beginning, or its end if it leads to a note.
+        Middle of the glyph's lower edge; for a line its start, or its end if it leads to a note.
     x_end, y_end : array
         End of a trill's line or a glissando.
     """
@@ -161,7 +163,7 @@ class PlacedMarks(NamedTuple):
         return int(arcs.mark[over[away.argmin()]]) if away.min() <= NEAR_PX else None
 
     def place_of(self, mark: int) -> tuple[float, float] | None:
-        """Return a point at which a mark is hit; None if it is not drawn."""
+        """Return a point in pixels at which a click hits the mark; None if it is not drawn."""
         at = np.flatnonzero(self.glyphs.mark == mark)
         if len(at):
             left, top, right, bottom = self.box_of_glyph(int(at[0]))
@@ -179,12 +181,13 @@ class MarkRoom(NamedTuple):
     Attributes
     ----------
     axis : Scale
+        Horizontal scale.
     width_px, height_px : float
-        Of the plot.
+        Size of the plot.
     row_px, line_px : float
-        Heights of a pitch and of a line of text.
+        Height of the row of a pitch, and of a line of text.
     highest : float
-        Pitch at the upper edge.
+        Pitch at the upper edge of the plot.
     start_s, end_s : float
         Start and end of the drawn time span in seconds.
     below_px : float
@@ -227,7 +230,7 @@ def placed_marks(table: MarkTable, room: MarkRoom) -> PlacedMarks | None:
 
 
 class _Placing:
-    """Notes from ``first`` to before ``end`` in pixels, with placed marks."""
+    """Computes marks' positions at the notes with the indices ``first`` to ``end`` (excluded)."""
 
     def __init__(self, table: MarkTable, room: MarkRoom, first: int, end: int) -> None:
         self.table, self.room, self.first = table, room, first
@@ -280,7 +283,7 @@ class _Placing:
         return arcs
 
     def _glyph_x(self, note: IntArray) -> FloatArray:
-        """Middle of the glyphs of notes: over the beginning, as over a note's head."""
+        """Return the x positions of glyphs on notes, near the note's start."""
         x: FloatArray = self.left[note] + np.minimum(self.width[note] / 2, 1.6 * self.unit)
         return x
 
@@ -312,8 +315,9 @@ class _Placing:
 
 
 class _Cleared(NamedTuple):
-    """Curves of slurs raised to be clear of their notes: ends, heights, and deviation from the usual shape, in
-    pixels."""
+    """Slurs raised to clear the notes below: heights of their ends and middles, and difference from the usual shape, in
+    pixels.
+    """
 
     x0: FloatArray
     y0: FloatArray
@@ -329,7 +333,7 @@ class _Over:
     Attributes
     ----------
     owner, note : array (M,)
-        The slur's number and the note's place.
+        Index of the slur and index of the note in each pair.
     """
 
     def __init__(self, first: IntArray, last: IntArray) -> None:
@@ -343,7 +347,7 @@ class _Over:
         self, top: FloatArray, edges: tuple[FloatArray, FloatArray], ends: tuple[FloatArray, FloatArray],
         away: FloatArray, is_straight: BoolArray,
     ) -> _Cleared:  # fmt: skip
-        """Return slurs at a distance ``away`` above the notes.
+        """Return the slurs raised so that they keep a distance ``away`` from the notes.
 
         Parameters
         ----------

@@ -17,7 +17,7 @@ _NONE = MarkList({})
 
 
 class MarkSession(Editing, Protocol):
-    """Interface of the session for the display of marks."""
+    """Part of the session that displaying marks needs."""
 
     @property
     def player(self) -> Player | None: ...
@@ -31,7 +31,7 @@ class ShownMarks:
     shown : bool
         Whether marks are visible.
     preview : (Mark, Mark) or None
-        A dragged mark, before and after.
+        The dragged mark at its old and at its new place.
     """
 
     def __init__(self, session: MarkSession) -> None:
@@ -75,7 +75,7 @@ class ShownMarks:
         return self._table
 
     def key(self, mark: Mark) -> EventKey:
-        """Name of a mark in the selection."""
+        """Return the key by which the selection refers to a mark."""
         player = self._session.player
         return EventKey(player.id if player is not None else "", mark.id)
 
@@ -89,7 +89,7 @@ class ShownMarks:
         return frozenset(by_id[id] for id in ids if id in by_id) if ids else frozenset()
 
     def select(self, mark: Mark, add: bool = False, toggle: bool = False) -> None:
-        """Select a mark, alone or in addition."""
+        """Select a mark alone; with ``add`` in addition to the selection, with ``toggle`` reversing its state."""
         key, events = self.key(mark), self._session.selection.events
         if add or toggle:
             self._session.select(Selection(events=events ^ {key} if toggle else events | {key}))

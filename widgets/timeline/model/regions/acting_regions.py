@@ -50,7 +50,9 @@ class Names(NamedTuple):
 
 
 def packed_group(members: Sequence[Region], clock: TempoMap) -> tuple[list[int], int]:
-    """Return the row of every member of a group, and the number of rows; underlying faces are in the last row."""
+    """Return the row of each region of a group, and the number of rows; expressions that last below others are in the
+    last row.
+    """
     packed = sorted(
         (*extent(region, clock), region.event_id, place)
         for place, region in enumerate(members)
@@ -74,7 +76,9 @@ def entry_near(onset_ticks: FloatArray, near_tick: float, clock: TempoMap, reach
 
 
 def extent(region: Region, clock: TempoMap) -> tuple[float, float]:
-    """Return the ticks of a region including outer fades; ticks are exact where neighbours touch."""
+    """Return the first and last tick of a region including fades outside of it; unlike its seconds they are exact, so
+    that neighbours touch without overlapping.
+    """
     start, end = float(region.start_tick), float(max(region.end_tick, region.start_tick + 1))
     if region.fades_outside:
         return min(start, clock.ticks(region.first_s)), max(end, clock.ticks(region.last_s))
@@ -82,13 +86,13 @@ def extent(region: Region, clock: TempoMap) -> tuple[float, float]:
 
 
 def in_guest(region: Region) -> Region:
-    """Return a region marked as another player's."""
+    """Mark a region as another player's, and return it."""
     region.guest = True
     return region
 
 
 def cue_region(event: CueEvent, name: str, pattern: str) -> Region:
-    """Return the region of a cue; ``pattern`` takes the giver's name."""
+    """Return the region of a cue; ``pattern`` is its label with ``{name}`` for ``name``."""
     return Region(
         event.player_id, event.id, "cue", event.start_tick, event.end_tick, event.start_s, event.end_s,
         label=pattern.format(name=name), reason=event.reason, by_hand=event.corrected, steady=True,
@@ -135,8 +139,9 @@ def style_region(player_id: str, event: StyleEvent, names: Names) -> Region:
 
 
 def strip(regions: Sequence[Region], kind: str) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return starts (N,), ends (N,) and amounts (N,) of the events of a kind drawn as a strip; curves of sway and lean
-    include changed events but not added ones."""
+    """Return starts (N,), ends (N,) and amounts (N,) of the events of a kind, such as sway, that are drawn as one
+    strip; includes events that the user changed but not those added.
+    """
     chosen = [
         region
         for region in regions

@@ -28,7 +28,9 @@ Edit = Callable[[Project, PlayerPlan, Sequence[str]], Edited]
 
 
 class RegionPlane(Plane, Protocol):
-    """Scales of the regions, and the limits of their moves; a protocol for the reason of `Plane`."""
+    """Scales of a lane with regions, and the limits within which they can be moved; a protocol, since lanes are
+    widgets.
+    """
 
     @property
     def session(self) -> Editing: ...
@@ -58,7 +60,7 @@ class RegionDrag(MouseGesture):
         Empty until the mouse has moved far enough; ``lasso``, ``move``, ``start``, ``end``, ``amount``, ``fade_in``,
         ``fade_out`` or ``none``.
     preview : mapping of EventKey to Region
-        The dragged regions after the drag, until a plan contains them.
+        Dragged regions at their new places, until a new plan contains them.
     hidden : frozenset of EventKey
         Regions of the plan that the preview replaces.
     """
@@ -87,7 +89,7 @@ class RegionDrag(MouseGesture):
 
     @property
     def lasso(self) -> PixelRect | None:
-        """Rectangle of a drag that selects."""
+        """Rectangle of a drag that selects regions; None for another drag."""
         return self._band.box
 
     @property
@@ -148,7 +150,7 @@ class RegionDrag(MouseGesture):
         lane.session.select(Selection(events=frozenset(inside)))
 
     def _place(self, region: Region, mouse: LaneMouse) -> None:
-        """Move the selected regions, or one of their ends."""
+        """Move the selected regions, or their start or end, as far as the mouse dragged ``region``."""
         lane, ticks = self._lane, mouse.tick - self.at.tick
         start = end = 0
         if self.mode == "move":
@@ -171,7 +173,7 @@ class RegionDrag(MouseGesture):
         self._apply(edit_of_events(lane.session, name, self._keys), edit, preview)
 
     def _change_amount(self, region: Region, mouse: LaneMouse) -> None:
-        """Change the amounts of all selected regions by the same difference."""
+        """Change the amounts of all selected regions by the same difference as ``region``'s."""
         height = max(self._lane.row_box(region.row)[1] - 2.0, 1.0)
         change = (self.at.y_px - mouse.y_px) / height * (2.0 if region.signed else 1.0)
         if mouse.shift:
@@ -208,7 +210,9 @@ class RegionDrag(MouseGesture):
         self._apply(Message("edit.set_fades"), edit, {region.key: shown})
 
     def _apply(self, name: Message, edit: Edit, preview: Mapping[EventKey, Region]) -> None:
-        """Edit the project of the press, so that a drag back has no effect; new ids are selected."""
+        """Apply an edit to the project as before the drag, show ``preview`` until it is planned, and select events with
+        new ids.
+        """
         session = self._lane.session
         by_player: dict[str, list[str]] = defaultdict(list)
         for key in self._keys:
@@ -236,7 +240,7 @@ class RegionDrag(MouseGesture):
         session.select(Selection(events=frozenset(new_keys.values())))
 
     def _as_corrected(self, region: Region) -> Region:
-        """Return a region as the correction would have it: a breath ends at its note at the latest."""
+        """Return a region limited as a correction is: a breath ends at its note's start at the latest."""
         project = self._lane.session.project
         for item in corrections_of(project, region.player_id, (region.event_id,)):
             if isinstance(item, SetBreath):

@@ -19,11 +19,11 @@ class Region(msgspec.Struct):
     Attributes
     ----------
     kind : str
-        The first part of the event's id.
+        First part of the event's id, such as ``cue``.
     row : int
-        Counted from the top.
+        Row from the top.
     amount : float
-        0..1, or -1..1 if ``signed``.
+        Strength 0..1, or -1..1 if ``signed``.
     fades, fades_outside : bool
         Whether it has fades that can be dragged; whether they are outside of its start and end.
     steady : bool
@@ -31,7 +31,7 @@ class Region(msgspec.Struct):
     guest : bool
         Whether it belongs to another player and is shown because it affects this one.
     fixed : bool
-        Whether it cannot be moved but only reverted.
+        Whether it cannot be moved, only removed.
     removed : bool
         Whether the user removed it, so that only its place is shown.
     """
@@ -84,7 +84,9 @@ def spans_of(regions: Sequence[Region]) -> TimeSpans:
 
 
 def place_of(event_id: str, onsets: Mapping[str, int]) -> int | None:
-    """Return the tick in an event's id: of its note, or after an @."""
+    """Return the tick of an event from its id: that of the note named in it, or the number after ``@``; None for
+    neither.
+    """
     for rest in EventId.parse(event_id).places:
         if rest in onsets:
             return onsets[rest]

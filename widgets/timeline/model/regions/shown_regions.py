@@ -38,7 +38,7 @@ def row_box(row: int, count: int, room_px: float, least_px: float, scrolled_px: 
 
 
 def most_scrolled(count: int, height_px: float, room_px: float) -> float:
-    """Return the largest scroll offset, pixels, of ``count`` rows in a room of ``room_px``."""
+    """Return the greatest scroll offset in pixels of ``count`` rows of ``height_px`` in a height of ``room_px``."""
     return max(max(count, 1) * height_px - room_px, 0.0)
 
 
@@ -87,7 +87,7 @@ class RegionTable:
     ----------
     regions : iterable of Region
     is_calm : callable
-        Whether a region is drawn with its whole row instead of singly.
+        Returns whether a region is drawn together with its row instead of singly.
     """
 
     def __init__(self, regions: Sequence[Region] = (), is_calm: Callable[[Region], bool] = lambda _: False) -> None:
@@ -111,7 +111,9 @@ class RegionTable:
         preview: Mapping[EventKey, Region],
         hidden: Collection[EventKey],
     ) -> Iterator[Region]:
-        """Yield the regions to draw singly: others, then selected ones, then previews of a drag."""
+        """Yield the regions between two x positions that are drawn singly: unselected ones, then selected ones, then
+        the ``preview`` of a drag; ``hidden`` ones are left out.
+        """
         margin_s = GLYPH_PX / scale.px_per_s
         found = self._single_spans.between(scale.seconds(left_px) - margin_s, scale.seconds(right_px) + margin_s)
         for index in self._distinct(found, scale).tolist():
@@ -126,10 +128,9 @@ class RegionTable:
         yield from preview.values()
 
     def _distinct(self, found: IntArray, scale: Scale) -> AnyIntArray:
-        """Return the indices of the regions that can be told apart: of narrow ones in the same column of pixels only
-        the strongest.
+        """Return the indices of the regions to draw: among narrow ones in the same column of pixels only the strongest.
 
-        At small zoom thousands share a column, and each takes as long to draw as a wide one.
+        Zoomed out, thousands share a column, and each would take as long to draw as a wide one.
         """
         traits = self._traits[found]
         narrow = traits["narrowable"] & (traits["length_s"] * scale.px_per_s < LEAST_REGION_PX)
@@ -167,8 +168,9 @@ class RegionTable:
         return (best[1], best[2]) if best is not None else (None, "")
 
     def beside(self, chosen: Sequence[Region], step: int, at_s: float) -> Region | None:
-        """Return the region ``step`` places next to the chosen ones, else the one nearest to a time; other players'
-        regions are ignored."""
+        """Return the region ``step`` places after those in ``chosen``; if these are none, the region nearest to the
+        time ``at_s``. Other players' regions are ignored.
+        """
         own = [region for region in self.regions if not region.guest]
         if not own:
             return None

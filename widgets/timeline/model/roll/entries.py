@@ -1,4 +1,6 @@
-"""Arrows from note to note for cues between players, and drags of their ends."""
+"""Arrows for cues in the piano roll, from the note of the player who gives the cue to that of the player who receives
+it, and drags of their ends.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,8 @@ FAR_PX: Final = 4.0
 class EntryArrow(NamedTuple):
     """Arrow from the preparatory beat of the player who gives a cue to the note of the player who receives it.
 
-    ``from_pitch`` and ``to_pitch`` are the pitches of their first notes, ``to_tick`` is the onset of the latter.
+    ``from_pitch`` and ``to_pitch`` are the pitches of the giver's and the receiver's first note there, ``to_tick`` is
+    the onset of the receiver's.
     """
 
     giver_id: str
@@ -78,7 +81,7 @@ def _note_at(project: Project, player_id: str, tick: int) -> tuple[int, int] | N
 
 
 class EntryPlane(Plane, Protocol):
-    """The roll under the mouse; a protocol for the reason of `Plane`."""
+    """The piano roll in which an arrow is dragged; a protocol, since it is a widget."""
 
     @property
     def session(self) -> RollSession: ...
@@ -89,7 +92,7 @@ class EntryPlane(Plane, Protocol):
 
 
 def end_at(plane: Plane, arrows: Iterable[EntryArrow], mouse: LaneMouse) -> tuple[EntryArrow, End] | None:
-    """Return the arrow with an end at a point, and which end."""
+    """Return the arrow whose tail or head is under the mouse, and which of them; None if there is none."""
     for arrow in arrows:
         x_px, y_px = plane.axis.x_px(arrow.to_s), plane.y_px(arrow.to_pitch + 0.5)
         if -HEAD_PX - 2.0 <= mouse.x_px - x_px <= 1.0 and abs(mouse.y_px - y_px) <= REACH_PX:
@@ -109,11 +112,11 @@ class EntryDrag(MouseGesture):
     Attributes
     ----------
     end : str
-        Dragged end.
+        Dragged end, tail or head.
     arrow, shown : EntryArrow
         Arrow before and after the drag.
     meant : bool
-        Whether releasing here would change something.
+        Whether releasing the mouse now would change the cue.
     """
 
     def __init__(self, plane: EntryPlane, mouse: LaneMouse, arrow: EntryArrow, end: End) -> None:

@@ -28,7 +28,9 @@ class TimedNotes:
         self._latest_end_s: FloatArray = np.maximum.accumulate(end_s) if len(end_s) else end_s
 
     def visible(self, start_s: float, end_s: float) -> slice:
-        """Return the range from the first to the last note that sounds between two times (some between may not)."""
+        """Return the range of indices from the first to the last note that sounds between two times; some between may
+        not sound then.
+        """
         first = int(self._latest_end_s.searchsorted(start_s, side="right"))
         last = int(self.onset_s.searchsorted(end_s, side="left"))
         return slice(first, max(first, last))
@@ -71,7 +73,9 @@ class NoteTable(TimedNotes):
         return result
 
     def at(self, time_s: float, pitch: int, slack_s: float) -> int | None:
-        """Return the note at a point, the last of several; a note is also hit within ``slack_s`` if none is nearer."""
+        """Return the index of the note at a time and pitch, the last of several; within ``slack_s`` of a note, that
+        note if none is nearer.
+        """
         near = self.visible(time_s - slack_s, time_s + slack_s)
         rows = np.arange(near.start, near.stop)[self.pitch[near] == pitch]
         if not len(rows):
@@ -97,12 +101,12 @@ class NoteTable(TimedNotes):
 
 
 class Together(TimedNotes):
-    """The notes of several tables as one, so that the visible notes of fifty players are found at once.
+    """Notes of several tables merged into one, so that the visible notes of many players are found in one search.
 
     Attributes
     ----------
     owner : array (N,)
-        Index of the table of every note.
+        Index of the table of each note.
     """
 
     def __init__(self, tables: Sequence[NoteTable]) -> None:
@@ -123,7 +127,7 @@ class Behind:
     Parameters
     ----------
     colours : sequence of str
-        For each table.
+        Colour of each table's notes.
     before : Behind, optional
         Previous value, whose combined notes are reused if the tables are the same.
     """

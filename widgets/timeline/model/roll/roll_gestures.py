@@ -1,4 +1,4 @@
-"""Gestures on the piano roll; each is a single edit of the project at its start."""
+"""Gestures on the piano roll; each edits the project as it was at its start, as a single undo step."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ VELOCITY_A_PX = 0.5
 
 
 class RollPlane(Plane, Protocol):
-    """The roll under the mouse, a protocol as `Plane` is; a press becomes a drag after ``drag_px``."""
+    """Part of the piano roll that gestures use, a protocol since the roll is a widget; a press becomes a drag after
+    ``drag_px`` pixels.
+    """
 
     @property
     def session(self) -> RollSession: ...
@@ -30,19 +32,19 @@ class RollPlane(Plane, Protocol):
 
 
 class RollGesture(MouseGesture):
-    """A press on the roll, with a single undo step.
+    """A press on the roll and the drag that follows it, which edits as a single undo step.
 
     Parameters
     ----------
     mouse : LaneMouse
-        The press.
+        Position of the press.
 
     Attributes
     ----------
     moved, sounded : str
         Ids of the notes whose new pitch or velocity is displayed.
     copies : bool
-        Whether the mouse carries copies.
+        Whether the drag moves copies of the notes.
     """
 
     copies = False
@@ -65,7 +67,7 @@ class RollGesture(MouseGesture):
 
 
 class Move(RollGesture):
-    """Drag of notes in time and pitch; Shift limits it to one of these, Alt disables the grid."""
+    """Drag of notes in time and pitch; Shift limits it to one of the two, Alt disables snapping to the grid."""
 
     def __init__(self, roll: RollPlane, mouse: LaneMouse, note: Note, narrow: bool) -> None:
         super().__init__(roll, mouse, together(roll.drag_px))
@@ -164,7 +166,7 @@ class Resize(RollGesture):
 
 
 class Velocity(RollGesture):
-    """Drag up or down: louder or softer."""
+    """Vertical drag that changes the velocity of notes: louder upwards, softer downwards."""
 
     def __init__(self, roll: RollPlane, mouse: LaneMouse, note: Note) -> None:
         super().__init__(roll, mouse)

@@ -51,14 +51,18 @@ class RollSession(Editing, Protocol):
 
 
 def kept_pitches(bottom: float, rows: float) -> tuple[float, float]:
-    """Return the displayed pitch range nearest to a requested one within the limits."""
+    """Return the range of pitches, from the bottom to the top of the plot, that shows ``rows`` pitches from ``bottom``
+    on, limited to pitches that exist.
+    """
     rows = min(max(rows, LEAST_ROWS), MOST_ROWS)
     bottom = min(max(bottom, 0.0), MOST_ROWS - rows)
     return bottom, bottom + rows
 
 
 def fitted_pitches(low: float, high: float, room_px: float) -> tuple[float, float]:
-    """The lowest and the highest pitch to show around a range, with some air."""
+    """Return the lowest and the highest displayed pitch so that the range ``low`` to ``high`` is visible with a margin
+    in ``room_px`` pixels.
+    """
     rows = max(high - low + AIR_ROWS, min(USUAL_ROWS, room_px / LEGIBLE_ROW_PX))
     return kept_pitches((low + high) / 2 - rows / 2, rows)
 
@@ -87,7 +91,7 @@ def legible_pitches(pitches: FloatArray, air: float, room_px: float) -> tuple[fl
 
 
 def zoomed_pitches(pitches: tuple[float, float], factor: float, at: float) -> tuple[float, float]:
-    """Return a pitch range divided by ``factor`` in which the pitch ``at`` keeps its position."""
+    """Return a displayed pitch range with ``factor`` times fewer pitches, in which ``at`` keeps its position."""
     bottom, top = pitches
     rows = min(max((top - bottom) / factor, LEAST_ROWS), MOST_ROWS)
     return kept_pitches(at - (at - bottom) / (top - bottom) * rows, rows)
@@ -130,7 +134,9 @@ def boxes(
 
 
 def edge_of(left_px: float, right_px: float, x_px: float) -> bool | None:
-    """Return True at the start of a note, False at its end, None in its middle."""
+    """Return which edge of a note's box the position ``x_px`` grabs: True for the start, False for the end, None for
+    the middle.
+    """
     reach = min(EDGE_PX, max((right_px - left_px) / 4, 1.5))
     if right_px - x_px <= reach:
         return False
@@ -139,7 +145,9 @@ def edge_of(left_px: float, right_px: float, x_px: float) -> bool | None:
 
 
 def cell(score: Score, grid: Grid, mouse: LaneMouse) -> tuple[int, int]:
-    """Beginning and length in ticks of the grid's cell under the mouse; with Alt the very tick."""
+    """Return the first tick and the length in ticks of the grid cell under the mouse; with Alt the cell begins exactly
+    at the mouse.
+    """
     length = max(round(grid.quarters * score.ticks_per_quarter), 1)
     tick = max(mouse.tick, 0.0)
     if mouse.alt or not grid.enabled:
@@ -164,7 +172,7 @@ class RollModel:
         """The players behind, and what that was found from: it is asked with every repaint."""
 
     def forget(self) -> None:
-        """Discard everything cached about the previous piece, since another one is open."""
+        """Discard everything cached for the previous project."""
         self._tables.clear()
         self._flags.clear()
 
@@ -204,7 +212,9 @@ class RollModel:
         return Behind(tables, [self._session.colour(player) for player in behind.values()], self._ghosts_of[1])
 
     def _touchable(self) -> list[NoteTable]:
-        """Return the notes that respond to the mouse: the active player's, and if all are shown, then the others'."""
+        """Return the notes that respond to the mouse: the active player's, then all others' if these are not drawn
+        pale.
+        """
         front = self.front()
         tables = [] if front is None else [front[0]]
         return tables + list(self.ghosts().tables) if self.ghosts_mode is Ghosts.ALL else tables
@@ -216,7 +226,9 @@ class RollModel:
         return front[0].part.notes[place] if front is not None and place is not None else None
 
     def note_at(self, mouse: LaneMouse) -> Note | None:
-        """Return the note at a point: of the active player, or if all are shown, of another."""
+        """Return the note under the mouse: the active player's, or another player's if these are not drawn pale; None
+        if there is none.
+        """
         slack_s = SLACK_PX / self._axis.px_per_s
         for table in self._touchable():
             place = table.at(mouse.time_s, int(mouse.value // 1), slack_s)
@@ -225,7 +237,7 @@ class RollModel:
         return None
 
     def note_near(self, mouse: LaneMouse, row_px: float) -> Note | None:
-        """The note nearest to a place, at most `NEAR_PX` away in time and pitch."""
+        """Return the note nearest to the mouse, at most `NEAR_PX` away in time and pitch; None if there is none."""
         near_s, rows = NEAR_PX / self._axis.px_per_s, NEAR_PX / row_px
         best: tuple[float, Note] | None = None
         for table in self._touchable():
@@ -256,11 +268,11 @@ class RollModel:
         return known[2]
 
     def notes_within(self, start_s: float, end_s: float, low: int, high: int) -> frozenset[str]:
-        """Return the ids of the notes that overlap a rectangle of seconds and pitches."""
+        """Return the ids of the selectable notes in a rectangle of seconds and pitches."""
         return frozenset(id for table in self._touchable() for id in table.within(start_s, end_s, low, high))
 
     def notes_of_pitch(self, pitch: int) -> frozenset[str]:
-        """Ids of every note of a pitch in the part in front."""
+        """Return the ids of all notes of a pitch in the active player's part."""
         front = self.front()
         if front is None:
             return frozenset()
@@ -280,7 +292,7 @@ class RollModel:
 
     @property
     def selects_behind(self) -> bool:
-        """Return whether notes of other than the active player are selected."""
+        """Return whether notes of a player other than the active one are selected."""
         notes, front = self._session.selection.notes, self.front()
         return bool(notes) and (front is None or not front[0].index.keys() >= notes)
 

@@ -29,12 +29,12 @@ _DECIMALS: Final = 4
 
 @dataclass(frozen=True)
 class Anchor:
-    """A bar line or beat.
+    """A bar line or beat that can be pinned to the recording.
 
     Attributes
     ----------
     pin : BeatPin or None
-        Pin; None for the automatic place.
+        The user's pin; None if its place is computed.
     """
 
     tick: int
@@ -44,7 +44,7 @@ class Anchor:
 
 
 def anchors(project: Project, axis: Scale, lines: Lines) -> list[Anchor]:
-    """Anchors in the visible range, from left to right; nothing without a recording."""
+    """Return the bar lines and beats in the visible range, from left to right; empty without a recording."""
     audio, clock = project.audio, project.score.tempo_map
     if audio is None:
         return []
@@ -60,7 +60,7 @@ def anchors(project: Project, axis: Scale, lines: Lines) -> list[Anchor]:
 
 
 def anchor_at(among: Sequence[Anchor], mouse: LaneMouse, height_px: float) -> Anchor | None:
-    """Return the handle under the mouse; of two equally near, the pinned one."""
+    """Return the bar line or beat whose handle is under the mouse; of two equally near, the pinned one."""
     if mouse.y_px < height_px - HANDLE_PX:
         return None
     near = [anchor for anchor in among if abs(anchor.x_px - mouse.x_px) <= _SLACK_PX]
@@ -68,7 +68,7 @@ def anchor_at(among: Sequence[Anchor], mouse: LaneMouse, height_px: float) -> An
 
 
 def anchor_beside(project: Project, tick: int, step: int) -> int:
-    """Return the tick of the next bar line or pin (step 1) or the previous one (-1) within the piece."""
+    """Return the tick of the next bar line or pin (step 1) or the previous one (-1) from ``tick``, within the piece."""
     metre_map, audio = project.score.metre_map, project.audio
     bar = metre_map.bar_of_tick(tick)
     pins = [pin.tick for pin in audio.pins] if audio is not None else []
@@ -78,7 +78,7 @@ def anchor_beside(project: Project, tick: int, step: int) -> int:
 
 
 def doubt_at(project: Project, tick: float) -> Doubt | None:
-    """Return the uncertain bar at a tick, if any."""
+    """Return the doubt about the alignment of the bar at a tick; None if there is none."""
     doubts = project.audio.doubts if project.audio is not None else ()
     return next((doubt for doubt in doubts if doubt.start_tick <= tick < doubt.end_tick), None)
 

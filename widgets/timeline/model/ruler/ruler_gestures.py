@@ -15,7 +15,7 @@ Place = TypeVar("Place", int, float)
 
 
 class SelectSpan(MouseGesture):
-    """Drag that selects a span from the press on; a press alone deselects."""
+    """Drag that selects the time span from the press to the mouse; a press without a drag deselects."""
 
     def __init__(self, session: Editing, at: LaneMouse, far: Far, tick_at: Callable[[LaneMouse, bool], int]) -> None:
         super().__init__(at, far)
@@ -34,7 +34,7 @@ class SelectSpan(MouseGesture):
 
 
 class Scrub(MouseGesture):
-    """Drag of the playhead; Escape returns it."""
+    """Drag of the playhead; Escape returns it to its former place."""
 
     def __init__(
         self, session: Editing, at: LaneMouse, far: Far, seek: Callable[[float], None], before_s: float
@@ -53,7 +53,7 @@ class Scrub(MouseGesture):
 
 
 class HoldEdge(MouseGesture):
-    """Drag of one edge of a span, limited by the other.
+    """Drag of one edge of a span, such as the loop; it stops at the other edge.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class HoldEdge(MouseGesture):
     put : callable
         Sets the span.
     place : callable
-        Returns the edge's value in the span's unit from a tick.
+        Converts a tick to the span's unit.
     """
 
     def __init__(
@@ -95,8 +95,8 @@ class HoldEdge(MouseGesture):
 
 
 class HoldMark(MouseGesture):
-    """Drag of a tempo to the grid, or of a metre to bar lines that exist without it; the first marks of the piece are
-    fixed.
+    """Drag of a tempo mark along the grid, or of a metre mark along the bar lines of the piece without that mark; the
+    first marks of the piece are fixed.
 
     Attributes
     ----------
@@ -155,6 +155,6 @@ class HoldMark(MouseGesture):
 
 
 def drop_span(session: Editing) -> None:
-    """Clear the selected time range, keeping selected notes and events."""
+    """Clear the selected time span; selected notes and events stay selected."""
     if session.selection.span is not None:
         session.select(Selection(session.selection.notes, session.selection.events))

@@ -26,7 +26,7 @@ Labels = list[tuple[float, str]]
 
 
 def bar_labels(score: Score, lines: Lines) -> Labels:
-    """Numbers of the bars. Bars before the piece have lines, but no numbers."""
+    """Return the numbers of the labelled bars at their times. Bars before the piece have lines, but no numbers."""
     first = 0 if score.pickup_ticks else 1
     return [
         (seconds, str(bar) if bar >= first else "")
@@ -35,7 +35,7 @@ def bar_labels(score: Score, lines: Lines) -> Labels:
 
 
 def frame_labels(axis: VisibleSpan, fps: Fraction) -> Labels:
-    """Round numbers of frames, no denser than can be read; frame 0 is at second 0."""
+    """Return round frame numbers at their times, as dense as legible; frame 0 is at second 0."""
     step = next(
         (step for step in STEPS_FRAMES if step / float(fps) * axis.px_per_s >= LEAST_LABEL_PX), STEPS_FRAMES[-1]
     )
@@ -44,7 +44,7 @@ def frame_labels(axis: VisibleSpan, fps: Fraction) -> Labels:
 
 
 def clock_labels(axis: VisibleSpan) -> Labels:
-    """Round times, no denser than can be read."""
+    """Return round times in minutes and seconds at their positions, as dense as legible."""
     step_s = next((step for step in STEPS_S if step * axis.px_per_s >= LEAST_LABEL_PX), STEPS_S[-1])
     first, last = int(axis.start_s // step_s), int(axis.end_s // step_s) + 1
     decimals = 0 if step_s >= 1 else 1 if step_s >= 0.1 else 2
@@ -70,7 +70,7 @@ class Metrics(Protocol):
 
 @dataclass(frozen=True)
 class RulerMark:
-    """A tempo (``"tempo"``) or a metre (``"metre"``) with its rectangle on the ruler."""
+    """A mark of tempo (``"tempo"``) or metre (``"metre"``), and its rectangle on the ruler."""
 
     kind: str
     tick: int
@@ -81,14 +81,15 @@ class RulerMark:
 def lay_marks(
     score: Score, axis: Scale, metrics: Metrics, left_px: float, right_px: float, height_px: float
 ) -> list[RulerMark]:
-    """Return the marks without overlaps, metres before tempi. The mark in effect at the left edge stays visible.
+    """Place the marks of tempo and metre on the ruler without overlaps; where there is no space for both, the metre is
+    shown. The mark in effect at the left edge stays visible.
 
     Parameters
     ----------
     axis : Scale
         Scale whose pixels count from ``left_px``.
     left_px, right_px : float
-        Available range.
+        Visible range in pixels.
     """
     metres, bpm = score.metres, score.tempo_map.bpm
     texts: dict[str, Callable[[int], str]] = {
@@ -129,7 +130,7 @@ def lay_marks(
 
 
 def mark_text(score: Score, kind: str, tick: int) -> str:
-    """Return the tempo or metre in effect at a tick, in the form for typing."""
+    """Return the tempo or metre in effect at a tick, as the text that the user edits."""
     if kind == "tempo":
         return f"{next(bpm for at, bpm in reversed(score.tempo_map.bpm) if at <= tick):.6g}"
     metre = score.metre_map.metre_at(tick)
@@ -137,7 +138,9 @@ def mark_text(score: Score, kind: str, tick: int) -> str:
 
 
 def typed(kind: str, tick: int, text: str) -> tuple[Message, Callable[[Project], Project]]:
-    """Return the edit for a typed tempo or metre, and its name; the edit raises an error for invalid text."""
+    """Return an edit that sets the tempo or metre at a tick as typed, and its name for undo; the edit raises an error
+    for invalid text.
+    """
     if kind == "tempo":
         try:
             bpm = float(text.replace(",", "."))

@@ -1,4 +1,4 @@
-"""Contents of the takes lane: a row for each take, its spans used in the part, and the result of a swipe."""
+"""Contents of the takes lane: a row for each take, its spans used in the part, and the drag that chooses a span."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ EDGE_PX = 4.0
 
 
 class Recorded(Editing, Protocol):
-    """Part of the session that takes use; a protocol for the reason given at `Editing`."""
+    """Part of the session that takes use; a protocol, since the session is a QObject."""
 
     @property
     def player(self) -> Player | None: ...
@@ -34,8 +34,9 @@ class Recorded(Editing, Protocol):
 
 
 class Swipe(MouseGesture):
-    """Swipe over a row, or drag of a boundary; then ``edge`` has the adjacent spans, and the take is the one that
-    grows.
+    """Drag over a take's row to use that span of it, or drag of the boundary between two used spans.
+
+    At a boundary, ``edge`` holds the two spans, and the take is that of the span that grows.
     """
 
     def __init__(self, at: LaneMouse, take_id: str, tick: int, edge: tuple[CompSpan, CompSpan] | None = None) -> None:
@@ -44,7 +45,7 @@ class Swipe(MouseGesture):
         self.start_tick = self.end_tick = tick
 
     def span(self) -> CompSpan | None:
-        """Return the span that would be used if the swipe ended now."""
+        """Return the span that would be used if the drag ended now."""
         start, end = sorted((self.start_tick, self.end_tick))
         if not self.began or start == end:
             return None
@@ -54,7 +55,7 @@ class Swipe(MouseGesture):
         return CompSpan(start, end, (left if self.end_tick > self.start_tick else right).take_id)
 
     def follow(self, mouse: LaneMouse) -> None:
-        """Continue to a position; a boundary is limited by the next one."""
+        """Continue the drag to a position; a boundary cannot pass the next one."""
         tick = mouse.snapped_tick
         if self.edge is not None:
             tick = min(max(tick, self.edge[0].start_tick), self.edge[1].end_tick)
@@ -62,7 +63,7 @@ class Swipe(MouseGesture):
 
 
 class TakesModel:
-    """The takes of the active player for drawing, the comp assembled from them, and the swipe in progress."""
+    """The takes of the active player for drawing, the comp (the part assembled from them), and the current drag."""
 
     def __init__(self, session: Recorded, axis: Limited) -> None:
         self._session, self._axis = session, axis
@@ -73,7 +74,7 @@ class TakesModel:
         self._sources: tuple[PlayerTakes | None, TempoMap, tuple[Metre, ...]] | None = None
 
     def refresh(self) -> bool:
-        """Read the active player's recordings again, and return whether they changed."""
+        """Read the active player's takes again, and return whether they changed."""
         player, project = self._session.player, self._session.project
         recorded = project.takes.get(player.id) if player is not None else None
         sources = (recorded, project.score.tempo_map, project.score.metres)
@@ -103,18 +104,18 @@ class TakesModel:
         return next((number for number, row in enumerate(self.rows) if row.take_id == take_id), None)
 
     def swiped(self) -> CompSpan | None:
-        """Return the span that would be used if the swipe ended now."""
+        """Return the span that would be used if the drag ended now; None without a drag."""
         return self.swipe.span() if self.swipe is not None else None
 
     def shown_comp(self) -> tuple[CompSpan, ...]:
-        """Return the comp as it would be if the swipe ended now."""
+        """Return the comp (the part assembled from takes) as it would be if the drag ended now."""
         swiped = self.swiped()
         if swiped is None:
             return self.comp
         return comp_with(self.comp, swiped.start_tick, swiped.end_tick, swiped.take_id)
 
     def outlined(self) -> CompSpan | None:
-        """Return the swiped span, else the selected one, with the take used there."""
+        """Return the dragged span, else the selected one; None for neither."""
         selection = self._session.selection
         if self.swipe is not None and self.swipe.began:
             return self.swiped()
@@ -133,16 +134,17 @@ class TakesModel:
         )
 
     def end_tick(self) -> int:
-        """The end tick of the visible range."""
+        """Return the tick at the right end of the visible range."""
         return max(round(self._session.project.score.tempo_map.ticks(self._axis.limits_s[1])), 1)
 
     def span_at(self, tick: float) -> CompSpan:
-        """Span of the part at a tick."""
+        """Return the used span or gap of the part at a tick."""
         return span_at(self.comp, max(tick, 0.0), self.end_tick())
 
     def edge_at(self, mouse: LaneMouse, row: TakeRow | None) -> tuple[CompSpan, CompSpan] | None:
-        """Return the spans of the comp beside a boundary under the mouse: in the strip (no row), or in the rows of both
-        takes.
+        """Return the two spans on either side of a boundary near the mouse; None if there is none.
+
+        In the strip above the takes (``row`` None) all boundaries count, in a take's row only those of its spans.
         """
         clock = self._session.project.score.tempo_map
         near: dict[float, tuple[CompSpan, CompSpan]] = {}
@@ -153,7 +155,7 @@ class TakesModel:
         return near[min(near)] if near else None
 
     def current(self) -> str | None:
-        """Return the selected take, else the one used in the selected span."""
+        """Return the id of the selected take, else of the one used in the selected span."""
         selection = self._session.selection
         if selection.take is None and selection.span is not None:
             return self.span_at(float(selection.span[0])).take_id
@@ -194,7 +196,7 @@ class TakesModel:
             )
 
     def move_lane(self, take_id: str, before: int) -> None:
-        """Move a take before the row of an index."""
+        """Move a take in the order of rows, before the row with the index ``before``."""
         player, take = self._session.player, self.take_of(take_id)
         if player is not None and take is not None:
             self._session.attempt(

@@ -33,15 +33,17 @@ class TakeRow:
     take : Take or None
         Take; None for the notes before the first take.
     kept : TimeSpans
-        Notes that the part would have, in seconds.
-    pitches, onset_ticks : int64, as long
+        Time spans of the notes that remain after cleaning.
+    pitches, onset_ticks : int64 array
+        Pitch and onset of each of these notes.
     left_out : TimeSpans
-        Notes omitted by cleaning, as played.
-    left_out_pitches : int64
+        Time spans of the notes that cleaning omits, as played.
+    left_out_pitches : int64 array
+        Their pitches.
     faults : tuple of Fault
-        Why.
+        Reason for the omission of each.
     breath : StepCurve or None
-        Breath, 0..1; None if it was not recorded.
+        Recorded breath, 0..1; None if it was not recorded.
     """
 
     take: Take | None
@@ -55,7 +57,7 @@ class TakeRow:
 
     @property
     def take_id(self) -> str:
-        """Return the id of the take as used in edits."""
+        """Id of the take, empty for the notes before the first take."""
         return BEFORE if self.take is None else self.take.id
 
 
@@ -79,7 +81,9 @@ def owners(comp: Sequence[CompSpan], ticks: IntArray) -> IntArray:
 
 
 def span_at(comp: Sequence[CompSpan], tick: float, end_tick: int) -> CompSpan:
-    """Return the span of a comp at a tick; outside of takes, the gap up to ``end_tick``."""
+    """Return the span of the comp (the part assembled from takes) at a tick; between used spans the gap, which ends at
+    ``end_tick`` at the latest.
+    """
     start = 0
     for span in comp:
         if tick < span.start_tick:
@@ -91,7 +95,9 @@ def span_at(comp: Sequence[CompSpan], tick: float, end_tick: int) -> CompSpan:
 
 
 def edges(comp: Sequence[CompSpan], end_tick: int) -> tuple[tuple[CompSpan, CompSpan], ...]:
-    """Return pairs of adjacent spans of a comp, including gaps up to ``end_tick``."""
+    """Return all pairs of adjacent spans of a comp (the part assembled from takes), with gaps as spans; the last ends
+    at ``end_tick``.
+    """
     met: list[CompSpan] = []
     at = 0
     for span in comp:
@@ -103,7 +109,7 @@ def edges(comp: Sequence[CompSpan], end_tick: int) -> tuple[tuple[CompSpan, Comp
 
 
 def pitch_range(rows: Sequence[TakeRow]) -> tuple[int, int]:
-    """Return the lowest and highest pitch of all rows, at least an octave apart, so that rows are comparable."""
+    """Return the lowest and highest pitch of all rows, at least an octave apart, as the common scale of the rows."""
     found = [pitches for row in rows for pitches in (row.pitches, row.left_out_pitches) if len(pitches)]
     if not found:
         return 60, 72
@@ -155,7 +161,9 @@ def _drawn_breath(curve: ControllerCurve, clock: TempoMap) -> StepCurve:
 
 
 def _moved(seconds: FloatArray, own: TempoMap, clock: TempoMap) -> FloatArray:
-    """Convert seconds (N,) of a take's own tempo to seconds of the piece, whose tempo may have changed since."""
+    """Convert times (N,) of a take, recorded at the tempi in ``own``, to seconds of the piece, whose tempi are now
+    ``clock``.
+    """
     return clock.seconds(own.ticks(seconds))
 
 
