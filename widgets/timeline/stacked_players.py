@@ -318,7 +318,7 @@ class StackedPlayers(Retranslated, QWidget):
 
     @property
     def _left_out_count(self) -> int:
-        """Return how many selected players are not shown because the number of stacked players is limited."""
+        """Return the number of selected players that are not shown because the number of stacked players is limited."""
         return len(self._chosen - {*self._ids}) if self.active else 0
 
     def _show_captions(self) -> None:

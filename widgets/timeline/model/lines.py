@@ -90,7 +90,7 @@ def visible_lines(score: Score, grid: Grid, start_s: float, end_s: float, px_per
 
 
 def _bar_step(score: Score, first: int, last: int, px_per_s: float) -> int:
-    """Return how many bars apart labels are (1, 2, 4 and so on), chosen by the length of the visible bars in pixels."""
+    """Return the spacing of labelled bars (1, 2, 4 and so on bars), chosen by the length of visible bars in pixels."""
     start_s, end_s = (score.tempo_map.seconds(float(score.metre_map.tick_of_bar(bar))) for bar in (first, last))
     px = (end_s - start_s) / max(last - first, 1) * px_per_s
     every = 1

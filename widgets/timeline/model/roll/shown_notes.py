@@ -134,7 +134,7 @@ def boxes(
 
 
 def edge_of(left_px: float, right_px: float, x_px: float) -> bool | None:
-    """Return which edge of a note's box the position ``x_px`` grabs: True for the start, False for the end, None for
+    """Return the edge of a note's box that the position ``x_px`` grabs: True for the start, False for the end, None for
     the middle.
     """
     reach = min(EDGE_PX, max((right_px - left_px) / 4, 1.5))
