@@ -184,7 +184,9 @@ class EnsemblePlanning:
         return {player_id: self.plan(player_id) for player_id in self.player_ids}
 
     def _player(self, number: int) -> StepResults:
-        """Begin the steps of a player's plan, after the players whose breaths are already planned."""
+        """Create the planning steps of the player with this index, after planning the breaths of all
+        players before it.
+        """
         part = self._parts[number]
         player_id, results = part.player_id, self._playable[part.player_id]
         if player_id in self._begun:
@@ -229,7 +231,7 @@ def _shared_by_all(
 def _shared_lines(
     playable: Mapping[str, StepResults], everyone: Mapping[str, object], runs: StepRuns
 ) -> list[SharedLine]:
-    """Return a summary of each player's line, by which players are found who play the same."""
+    """Return a summary of each player's part, used to find players who play the same notes or rhythm."""
     return [
         runs.begin(SHARED_LINE, player_id, **everyone, times=results.of(note_times)).of(shared_line)
         for player_id, results in playable.items()

@@ -37,7 +37,7 @@ class GestureRow(NamedTuple):
     id : str
         First part of the events' ids; also stored in project files.
     names : (str, str)
-        Of an event, in English and Japanese.
+        Name of such an event, in English and Japanese.
     command : str
         English title of the command that adds one; empty if there is none.
     part : str
@@ -76,7 +76,7 @@ class BreathRow(NamedTuple):
     id : str
         First part of the events' ids; also stored in project files.
     names : (str, str)
-        Of an event, in English and Japanese.
+        Name of such an event, in English and Japanese.
     draws_air : bool
         Whether it fills the lungs; otherwise it is the motion before a breath.
     within : bool

@@ -41,7 +41,7 @@ class Parameter:
     usual : float or None
         Upper end of the slider, beyond which values can be typed; None: the highest value.
     step : float
-        Of the control.
+        Step of the slider or number field.
     choices : tuple of (value, word)
         A list instead of a slider; the words are ids of texts.
     names : tuple of str
@@ -65,7 +65,7 @@ class Parameter:
     texts : str
         First part of its text ids.
     name, kind, default
-        Of the field.
+        Name, type and default value of the field that declares the parameter.
     """
 
     unit: str = ""

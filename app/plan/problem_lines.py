@@ -40,6 +40,7 @@ def problem_lines(
     score : Score
         Score with the notes.
     wording : callable
+        Turns a message into text in the user's language.
     part_id : str or None
         The player's part, whose notes are searched first.
     instrument : InstrumentMap or None

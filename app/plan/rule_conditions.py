@@ -121,7 +121,7 @@ def matches(when: When, facts: Facts) -> BoolArray:
 
 
 def concerns(when: When, styles: Collection[str], habits: Sequence[str]) -> bool:
-    """Return whether a player of some styles and habits is meant."""
+    """Return whether a rule applies to a player with these styles and habits."""
     if when.styles and set(when.styles).isdisjoint(styles):
         return False
     if when.not_styles and set(styles) <= set(when.not_styles):

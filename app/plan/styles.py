@@ -105,8 +105,8 @@ def share_at(styles: Sequence[StyleEvent], layer: str, times_s: FloatArray) -> F
 
 
 def shown_in_style(plan: PlayerPlan) -> PlayerPlan:
-    """The plan with cues and gestures scaled by style spans, relative to `most_shown`; the same plan without spans.
-    Cached by its tuples.
+    """The plan with cues and gestures scaled by style spans, relative to `most_shown`; the same plan if it has no style
+    spans. Unchanged cues and gestures give the same objects as before.
     """
     if not plan.styles:
         return plan

@@ -78,8 +78,9 @@ def air_stock(breather: Breather, score: BreathScore, given: GivenBreaths, spare
 def air_taken(
     breather: Breather, score: BreathScore, given: GivenBreaths, spare: Collection[int] = ()
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Air used (as played, and at the score's tempo), and the share of the lungs filled by the breath before each note;
-    rests before notes in ``spare`` add none.
+    """Return the air used before each note, as played and at the score's tempo (each (N + 1,), see `BreathScore`), and
+    the share (N,) of the lungs that the breath before each note fills. Breaths before the notes with the indices
+    ``spare`` are not counted.
     """
     refill = np.zeros(len(breather.notes))
     within: dict[int, list[_Within]] = {}
@@ -115,9 +116,10 @@ def _breathe_within(
     refill: FloatArray,
     lung_s: float,
 ) -> None:
-    """Account for the breaths taken within note ``index`` in ``spent`` and ``refill``. Lungs are counted from note to
-    note, so the air used before the first breath is added to the previous note, as if the breaths came before this
-    note."""
+    """Subtract the air inhaled within note ``index`` from ``spent`` (air used by each note, changed in place) and set
+    the ``refill`` of the lungs after it. Lungs are counted from note to note, so the air used before the first breath
+    is added to the previous note, as if the breaths came before this note.
+    """
     onset_s, end_s = float(breather.times.onset_s[index]), float(breather.times.played_end_s[index])
     first_s, last_s = max(breaths[0].start_s - onset_s, 0.0), max(end_s - breaths[-1].end_s, 0.0)
     held_s = end_s - breaths[0].start_s - sum(breath.end_s - breath.start_s for breath in breaths)

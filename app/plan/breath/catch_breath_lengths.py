@@ -111,8 +111,8 @@ def _length_s(times: LineTimes, rests: IntArray, least_s: float) -> FloatArray:
 
 
 def drop_lengths_s(score: LineTimes, times: LineTimes) -> tuple[FloatArray, IntArray]:
-    """Return the length of a catch breath before each note that replaces previous notes, and the number of notes
-    replaced, as few as possible. The first note of a part is never replaced.
+    """Return how long a catch breath before each note can be if some notes just before it are left out for it, and how
+    many notes that takes (as few as possible). The first note of a part is never left out.
 
     Parameters
     ----------
@@ -139,7 +139,9 @@ def drop_lengths_s(score: LineTimes, times: LineTimes) -> tuple[FloatArray, IntA
 
 
 def _left_out_s(times: LineTimes, notes: int) -> tuple[FloatArray, FloatArray]:
-    """Usual and longest duration (N - notes - 1,) of a breath that replaces this number of notes."""
+    """Usual and longest duration, each (N - notes - 1,), of a breath for which ``notes`` successive notes are left out,
+    for each place in a part of N notes.
+    """
     span_s = times.onset_s[notes + 1 :] - times.onset_s[1:-notes] + gaps_s(times)[1:-notes]
     before_s = times.duration_s[: -notes - 1]
     share_s = CATCH_NOTE_SHARE * before_s

@@ -112,13 +112,14 @@ class ComparedLine(NamedTuple):
 
 
 class _Places(NamedTuple):
-    """Notes with their positions in the bar.
+    """The N notes of a part with their positions in the bar, and features of the K places that are compared.
 
     Attributes
     ----------
     onsets, steps, strength : (N,) int64
         Quantised onset in ticks, ticks to the next onset, and metrical strength.
     bars : (B,) int64
+        Ticks at which bars begin.
     beat : (K,) int64
         Ticks of the felt beat at each place.
     falls : (K,) int64
@@ -143,7 +144,7 @@ class _Places(NamedTuple):
 
 
 def place_costs(line: ComparedLine, at: IntArray, dropped: IntArray | int = 0) -> FloatArray:
-    """Cost (K,) of a breath before each of the notes ``at`` (1 and up).
+    """Cost (K,) of a breath before each of the K notes with the indices ``at``, which do not include the first note.
 
     Below 0 at a clear phrase end, where a breath is taken even with air left.
 
@@ -284,8 +285,9 @@ def _like_entries(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArra
 
 
 def _squareness(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray) -> FloatArray:
-    """Return for K places (K,) 2 a multiple of four bars after the entry before the place, 1 an odd multiple of two
-    bars, 0 elsewhere."""
+    """Rate (K,) how square the phrase before each of K places is: 2 if it lasts a multiple of four bars since the last
+    entry after a rest, 1 if an odd multiple of two bars, else 0.
+    """
     entries = np.flatnonzero(rests > 0)
     entry = onsets[entries[np.maximum(np.searchsorted(entries, at, side="right") - 1, 0)]]
     bar = _usual_bar(bars)
@@ -322,7 +324,7 @@ def _rest_follows(rests: IntArray, onsets: IntArray, at: IntArray, beat_ticks: I
 
 
 def _lengths_around(duration_s: FloatArray) -> FloatArray:
-    """Median length (N,) of up to eight notes before each note."""
+    """For each of N notes the median length (N,) of the up to eight notes before it."""
     count = len(duration_s)
     around = np.empty(count)
     if count > 8:

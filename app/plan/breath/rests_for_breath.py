@@ -48,11 +48,11 @@ class RestNeeds(NamedTuple):
 
     Attributes
     ----------
-    least_s : seconds
+    least_s
         Seconds of playing since the last breath below which the rest is never used.
-    played_s : seconds
+    played_s
         Seconds of playing since the last breath from which the rest is always used.
-    share : 0..1
+    share
         Share of the lungs used up from which the rest is used.
     """
 
@@ -141,8 +141,9 @@ def breathed_in(used: FloatArray, played_s: FloatArray, lung_s: float, refill: F
 
 
 def why(index: int, rest_s: FloatArray, needs: RestNeeds, decided: Decided) -> dict[str, Argument]:
-    """Return the arguments of the message that explains the breath in the rest before a note; ``why`` is the id of its
-    text."""
+    """Arguments of the message that explains why a player breathes in the rest before the note ``index``. Their item
+    ``why`` is the id of the reason's text; the others are the numbers in it.
+    """
     least_s, enough_s, share = (float(column[index]) for column in needs)
     since_s, spent = float(decided.played_s[index]), float(decided.spent[index])
     if rest_s[index] >= ALWAYS_S - EPSILON:

@@ -62,17 +62,17 @@ class SharedLine(NamedTuple):
     Attributes
     ----------
     places : tuple of Place
-        Places of its notes.
+        One number for each note, made of its notated onset and pitch class: equal for notes in unison or octaves.
     known : frozenset of Place
         The places as a set.
     onsets : tuple of int
-        The places without their pitches, and ...
+        Notated onset of each note, as a number.
     rhythm : frozenset of int
-        The rhythm as a set.
+        The onsets as a set.
     ordered : tuple of int
         Note indices in the order of their places.
     held_s : tuple of (int, float)
-        Notes that last at least `HELD_S`: place and length in seconds.
+        Notes that last at least `HELD_S`: index and length in seconds.
     """
 
     places: tuple[Place, ...]
@@ -83,7 +83,7 @@ class SharedLine(NamedTuple):
     held_s: tuple[tuple[int, float], ...]
 
     def notes_at(self, place: Place) -> tuple[int, ...]:
-        """Return the indices of the line's notes at a place of the score."""
+        """Return the indices of the part's notes at a place (onset and pitch class)."""
         first = bisect_left(self.ordered, place, key=self.places.__getitem__)
         return self.ordered[first : bisect_right(self.ordered, place, first, key=self.places.__getitem__)]
 
@@ -249,7 +249,9 @@ def _in_unison(line: SharedLine, other: SharedLine, index: int) -> bool:
 
 
 def _together(places: Sequence[int], known: frozenset[int], index: int, least: int) -> bool:
-    """Return whether a run of at least ``least`` consecutive places around ``index`` is in ``known``."""
+    """Return whether ``places[index]`` is in a run of at least ``least`` consecutive places that are all in
+    ``known``.
+    """
     count = 1
     for step in (-1, 1):
         place = index + step

@@ -36,7 +36,7 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
     @property
     def subject(self) -> str:
-        """The note, event or name for a message."""
+        """Note id, event id or name by which messages refer to the correction."""
         return self.anchor
 
     @property
@@ -51,7 +51,9 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
     @property
     def named(self) -> tuple[str, str]:
-        """Kind of name and name for lists; by default the kind of its event."""
+        """Name of the correction for lists, as a pair: the kind of name (such as ``"event"`` or ``"style"``) and the
+        name. By default ``"event"`` and the kind of the corrected event.
+        """
         return "event", EventId.parse(self.about).kind
 
     @property

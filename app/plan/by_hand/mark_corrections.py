@@ -15,7 +15,7 @@ class OfMark(Correcting, frozen=True):
     Attributes
     ----------
     note_id, last_note_id : str or None
-        Note of the mark, and the last one if it has several.
+        First note of the mark, and the last one if it spans several.
     start_tick : int or None
         Tick of a mark without a note.
     text : str

@@ -89,7 +89,9 @@ def _at_hand(leader: int, tick: int, parts: tuple[MonophonicPart, ...], all_time
 
 
 def _section(part: MonophonicPart) -> str:
-    """Return the section of a part: the family of its instrument, or the instrument."""
+    """Return the name of the section a part belongs to: the family of its instrument, or the instrument itself if it
+    has no family.
+    """
     return vocabulary().family(part.instrument_map.plays) or part.instrument_map.id
 
 

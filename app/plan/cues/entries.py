@@ -52,7 +52,7 @@ class Entry(msgspec.Struct, frozen=True):
     Attributes
     ----------
     reason : str
-        Id of the message, but for a section.
+        Id of the message that says why a cue is needed; a message of its own is used if a whole section enters.
     number : float or None
         Number in the cue's reason: seconds of rest, or beats per minute.
     players : tuple of (int, int)
@@ -111,7 +111,7 @@ class _Spans(msgspec.Struct, frozen=True):
 
 
 def _stretches(times: NoteTimes) -> tuple[IntArray, IntArray]:
-    """Return start and end ticks of a line's spans without rests; about a tenth as many as notes."""
+    """Return the start and end ticks of a part's spans without rests, which are about a tenth as many as its notes."""
     stops = times.onset_tick[1:] > times.played_end_tick[:-1]
     return times.onset_tick[np.concatenate(([True], stops))], times.played_end_tick[np.append(stops, True)]
 
@@ -131,7 +131,7 @@ def played_together(piece: Piece, tick: int) -> int:
 
 
 def coming_in(sounding: list[tuple[int, NoteTimes]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
-    """Return the players (line, note) that begin a note in [tick, tick + ticks)."""
+    """Return the players that begin a note in [tick, tick + ticks), as pairs of part index and note index."""
     found = []
     for line, times in sounding:
         index = int(np.searchsorted(times.onset_tick, tick))
@@ -141,7 +141,7 @@ def coming_in(sounding: list[tuple[int, NoteTimes]], tick: int, ticks: int) -> t
 
 
 def _common_entries(sounding: list[tuple[int, NoteTimes]], lines: _Spans, piece: Piece) -> list[Entry]:
-    """The first entry, and entries after silences of everything, on stage or not."""
+    """The first entry of the piece, and each entry after a silence of all parts, the accompaniment included."""
     accompaniment = np.array(piece.accompaniment, np.int64).reshape(-1, 2)
     all_spans = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
     first = int(lines.starts[0])
@@ -185,7 +185,7 @@ def _silence(sounding: list[tuple[int, NoteTimes]], end: int, tick: int, rest_s:
 
 
 def _held_entries(sounding: list[tuple[int, NoteTimes]], piece: Piece) -> list[Entry]:
-    """Return entries of all players after common notes that were held too long to count."""
+    """Entries of all players after notes that all held together for so long that they lost count of the beats."""
     held: dict[int, int] = {}
     for _, times in sounding:
         ends, beats = times.played_end_tick[:-1], piece.beat_ticks_at(times.onset_tick[:-1])
@@ -204,7 +204,7 @@ def _held_entries(sounding: list[tuple[int, NoteTimes]], piece: Piece) -> list[E
 
 
 def _nothing_begins(times: NoteTimes, begin: int, tick: int) -> bool:
-    """Return whether a line begins nothing between two ticks, nor sounds on at the second."""
+    """Return whether a part starts no note from ``begin`` to ``tick`` and has no note that still sounds at ``tick``."""
     index = int(np.searchsorted(times.onset_tick, tick)) - 1
     return index < 0 or bool(times.onset_tick[index] <= begin and times.played_end_tick[index] <= tick)
 

@@ -73,7 +73,8 @@ def glances_of(
     gestures : sequence of GestureEvent
         The player's gestures, corrections applied.
     places : mapping of str to StagePlace
-        Place of every player and the conductor; without a place of both no look is planned.
+        Place of every player and of the conductor, by id; a look is planned only if both the player and its target have
+        one.
     up : tuple of GlanceEvent
         Looks up to the conductor while playing (`app.plan.faces.looks_at_conductor`).
     """
@@ -187,7 +188,9 @@ def _glance(name: str, at: str, start_s: float, end_s: float, yaw_rad: float, aw
 
 
 def _turned(glance: GlanceEvent, lowered: Spans) -> GlanceEvent:
-    """Return the glance with the head's share of the turn, limited to the range of eyes and head."""
+    """Return the glance with the head's share of its turn filled in, limited to the range of eyes and head; ``lowered``
+    are the spans in which the instrument is off the lips, so that the head can turn further.
+    """
     free = lowered.hold(glance.start_s - 0.5, glance.end_s + 0.5)
     share = FREE_HEAD if free else PLAYING_HEAD
     most_rad = min(EYES_RAD / (1.0 - share), MOST_RAD)

@@ -97,14 +97,15 @@ TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class Motions:
-    """Motions from each fingering of a note to each fingering of the next.
+    """Motions from each of the K fingerings of a note to each of the K fingerings of the next, for a part of N notes.
 
     Attributes
     ----------
     pair : (N-1,) int64
-        Row in ``moves`` for each step.
+        Row in ``moves`` for the step from each note to the next.
     moves : (U, K, K) float64
-        Fingers that move, by pair of pitches; a move between keys counts as several.
+        Number of fingers that move, for each of the U different pairs of pitches; a move between keys counts as
+        several.
     slide_m, needed_s, share : (N-1, K, K) float64, or (N-1, 1, 1) without a slide
         Slide travel in metres, the time it takes, and its share of the available time (over 1: it starts early).
     cost : (N-1, K, K) float64
@@ -146,7 +147,7 @@ class FingeringProblem:
 
     @cached_property
     def in_trill(self) -> BoolArray:
-        """(N-1,): whether the step from a note to the next is part of a trill."""
+        """Mask (N-1,) of the steps from a note to the next that are part of a trill."""
         return trill_steps(self.times)
 
     @cached_property
@@ -174,8 +175,9 @@ class FingeringProblem:
 
     @property
     def _beside(self) -> BoolArray:
-        """Mask (N, K) of those of K fingerings of N notes that keep a lever turned which the first choice of a
-        neighbour at another pitch turns."""
+        """Mask (N, K) of fingerings that keep a lever turned because the usual fingering of the note just before or
+        after, at another pitch, needs it turned.
+        """
         table, times, index = self.table, self.times, self.pitch_index
         near = (times.onset_s[1:] - times.played_end_s[:-1] < BESIDE_S) & (index[1:] != index[:-1])
         first = table.levers[index, 0]
@@ -186,7 +188,9 @@ class FingeringProblem:
         return np.asarray(found & table.beside[index] & (here != 0))
 
     def _where(self, tag: str) -> BoolArray:
-        """Mask (N,) of the notes for which fingerings with this tag are meant."""
+        """Mask (N,) of the notes to which a tag of fingerings applies, such as ``"trill"``, ``"fast"`` or
+        ``"forte"``.
+        """
         times = self.times
         match tag:
             case "trill":
@@ -380,8 +384,9 @@ def fingering_problem(
 def _in_score(
     written: Sequence[str], choices: Sequence[tuple[Fingering, ...]], pitch_index: IntArray, instrument: InstrumentMap
 ) -> dict[int, int]:
-    """Return for each note with a fingering in the score the column of that fingering among its choices, by index of
-    the note; fingerings that the map lacks are omitted."""
+    """Find the fingerings that the score prescribes: for each such note, by index, the column of that fingering among
+    the note's choices. Fingerings that the instrument map lacks are omitted.
+    """
     found = {}
     for index, text in enumerate(written):
         column = written_choice(text, choices[pitch_index[index]], instrument.controls) if text else None
@@ -391,7 +396,7 @@ def _in_score(
 
 
 def _either_side(steps: BoolArray, count: int) -> BoolArray:
-    """Mask (N,) of notes with a marked step before or after them."""
+    """Mask (N,) of N notes (``count``) that have a marked step (N-1,) to the next or from the previous note."""
     notes = np.zeros(count, dtype=bool)
     notes[:-1] |= steps
     notes[1:] |= steps

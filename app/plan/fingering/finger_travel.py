@@ -35,18 +35,27 @@ finger, which is why its keys are there twice."""
 
 @dataclass(frozen=True)
 class Ways:
-    """Finger movements between all fingerings of two pitches; each array (U, K, K) float64.
+    """Finger movements from each of the K fingerings of one pitch to each of the K fingerings of the next, for U pairs
+    of pitches; each array (U, K, K) float64.
 
     Attributes
     ----------
-    moves : fingers that move at all
-    weighted : the same, levers and contrary motion weighted
-    key_to_key : cost of the fingers that go from one key to another without being free
-    apart : how many fingers do
-    rolls : fingers that roll onto a further key, or off it
-    levers : thumbs' levers that are turned
-    turns : hands in which one finger goes to a key with its side, or leaves one, while others move
-    together : 1 where a thumb's lever is turned while fingers move
+    moves
+        Number of fingers that move.
+    weighted
+        The same number, with thumb levers and contrary motion (fingers up and down together) counted more.
+    key_to_key
+        Cost of the fingers that go from one key to another.
+    apart
+        Number of fingers that go from one key to another.
+    rolls
+        Number of fingers that roll onto a further key, or off it.
+    levers
+        Number of thumb levers that are turned.
+    turns
+        Number of hands in which one finger goes to or leaves a key with its side while others move.
+    together
+        1 where a thumb lever is turned while fingers move, else 0.
     """
 
     moves: FloatArray
@@ -61,18 +70,18 @@ class Ways:
 
 @dataclass(frozen=True)
 class FingerPlaces:
-    """Place of every finger in every fingering of a table, as bits of controls.
+    """Controls under each of F fingers in each of the K fingerings of P pitches, as bit masks of controls.
 
     Attributes
     ----------
     holds, half : (F, P, K) int64
         Controls that each finger holds fully, and half.
     levers : int
-        Bits of the thumbs' levers.
+        Mask of the controls that are thumb levers.
     aside : int
-        Bits of controls worked with the side of a finger, for which the hand turns.
+        Mask of the controls worked with the side of a finger, for which the hand turns.
     hands : tuple of list of int
-        The rows of the fingers of each hand.
+        For each hand the rows (first axis) of its fingers.
     weight, key_to_key : (F, 1, 1, 1) float64
         Weight of a finger's move in a hurry, and cost of its move between keys.
     """
@@ -86,8 +95,9 @@ class FingerPlaces:
     key_to_key: FloatArray
 
     def between(self, before: IntArray, after: IntArray) -> Ways:
-        """Return the movements of fingers from each fingering of the pitches ``before`` to each fingering of ``after``,
-        for U steps, both (U,)."""
+        """Return the movements of fingers from each fingering of the pitches ``before`` to each fingering of the
+        pitches ``after``; both arrays (U,) have rows of pitches in the table.
+        """
         a, b = self.holds[:, before, :, None], self.holds[:, after, None, :]
         whole = self.holds | self.half
         whole_a, whole_b = whole[:, before, :, None], whole[:, after, None, :]

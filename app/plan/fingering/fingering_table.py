@@ -32,15 +32,16 @@ RARE_COST = 10.0
 
 @dataclass(frozen=True)
 class FingeringTable:
-    """Fingerings of a part's pitches, padded to K per pitch.
+    """Ranked fingerings of the P pitches of a part, padded to K per pitch.
 
     Attributes
     ----------
     values : (P, K, C) float64
-        Of the controls of pitch.
+        Value of each of the C controls that determine the pitch (`pitch_controls`).
     cost : (P, K) float64
         Cost of each fingering by its rank.
     cents : (P, K) float64
+        Deviation of each fingering's intonation, in cents.
     valid : (P, K) bool
         Mask of fingerings that the search may choose; obsolete ones are left to corrections.
     meant_for : dict of str to (P, K) bool

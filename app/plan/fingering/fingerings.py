@@ -127,7 +127,7 @@ def _searched(fingering: Fingering, first_choice: Fingering, in_trill: bool, ste
 
 
 def _glides_s(glides: tuple[bool, ...], onset_s: Sequence[float]) -> dict[int, float]:
-    """Start times of slide glides, by the note they lead to."""
+    """Time in seconds at which each slide glide starts, by the index of the note it leads to."""
     return {
         index: onset_s[index - 1] + GLIDE_AFTER * (onset_s[index] - onset_s[index - 1])
         for index in range(1, len(onset_s))
@@ -161,14 +161,16 @@ def _controls(
 
 @lru_cache(maxsize=1024)
 def _reason(rule: str, label: str, instead: tuple[str, int] | None = None) -> Message:
-    """Return the reason of a fingering as one shared object for equal ones; ``instead`` of which first choice, and
-    in how little time."""
+    """Message with the reason of a fingering, cached so that equal reasons share one object. ``instead`` has the label
+    of the first choice that was not used, and the available time in milliseconds.
+    """
     more: dict[str, Argument] = {} if instead is None else {"first": instead[0], "time_ms": instead[1]}
     return Message(rule, {"label": label, **more})
 
 
 def _vented(event: FingeringEvent, ranked: Sequence[Fingering], instrument: InstrumentMap) -> FingeringEvent:
-    """The fingering of an attack, whose vents are let go once the note speaks, if it lasts.
+    """Return the event with the controls that only help the attack released once the note speaks, if the note is long
+    enough; else unchanged.
 
     Parameters
     ----------

@@ -40,11 +40,14 @@ class NextFingering:
         self._controls = pitch_controls(instrument)
 
     def fingering(self, pitch: int, column: int) -> Fingering:
-        """Choose a fingering of a concert pitch within the range."""
+        """Return the fingering with the rank ``column`` of a concert pitch, which must be within the instrument's
+        range.
+        """
         return self._table.choices[pitch - self._low][column]
 
     def column(self, before: Sequence[Fingered], pitch: int, onset_s: float, loudness: float) -> int:
-        """Return the column of the fingering for a note within the instrument's range.
+        """Choose a fingering for the note that begins now: its rank (0: first choice) among the fingerings of its
+        pitch, which must be within the instrument's range.
 
         Parameters
         ----------

@@ -32,7 +32,7 @@ def _windows(problem: FingeringProblem, path: IntArray) -> list[tuple[int, int]]
     """Return the spans of notes in which a path cheaper than ``path`` may leave it; ``path`` has the fingerings that
     are cheapest by themselves.
 
-    A run of notes that leaves the path costs at least ``dearer`` per note, and saves at most the excess cost of its
+    Each note that leaves ``path`` costs at least a known least amount more, and saves at most the excess cost of its
     steps over their minimum. Spans in which the savings cannot exceed the costs are excluded, by cumulative sums.
     """
     count = len(path)

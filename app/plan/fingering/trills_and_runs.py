@@ -38,7 +38,7 @@ def _runs(steps: BoolArray, least: int) -> BoolArray:
 
 
 def trill_steps(times: LineTimes) -> BoolArray:
-    """(N-1,): whether the step to the next note belongs to a trill or tremolo."""
+    """Mask (N-1,) of the steps from a note to the next that belong to a trill or tremolo."""
     count = len(times.pitch)
     result = np.zeros(max(count - 1, 0), dtype=bool)
     if count < TRILL_NOTES:
@@ -54,7 +54,7 @@ def trill_steps(times: LineTimes) -> BoolArray:
 
 
 def glissando_steps(times: LineTimes) -> BoolArray:
-    """(N-1,): whether the step to the next note belongs to a glissando (see `GLISSANDO_STEPS`)."""
+    """Mask (N-1,) of the steps from a note to the next that belong to a glissando (see `GLISSANDO_STEPS`)."""
     interval = np.diff(times.pitch)
     quick = np.diff(times.onset_s) <= TRILL_S + TOLERANCE
     slurred = times.onset_s[1:] - times.played_end_s[:-1] < TOUCHING_S

@@ -53,14 +53,18 @@ def foot_of(event: GestureEvent) -> Foot:
 
 
 def moves_s(span_s: Span, step_s: float) -> tuple[Span, Span]:
-    """Return the spans in which the foot of a step is in the air: on the way out, and on the way back."""
+    """Split a step (``span_s``: start and end in seconds) into the two spans in which the foot is in the air: the way
+    out and the way back, each ``step_s`` long or shorter if the step is short.
+    """
     start_s, end_s = span_s
     lasts_s = min(step_s, 0.45 * (end_s - start_s))
     return (start_s, start_s + lasts_s), (end_s - lasts_s, end_s)
 
 
 def lifted_s(gestures: Iterable[GestureEvent], foot: Foot, step_s: float) -> list[Span]:
-    """Return the spans in which a foot, or part of it, is off the ground, in the order of the gestures."""
+    """Return the spans in seconds in which a foot, or part of it, is off the ground, in the order of the gestures;
+    ``step_s`` is the time that a foot needs for one way of a step.
+    """
     found: list[Span] = []
     for event in gestures:
         if event.kind in FOOT_KINDS and event.end_s > event.start_s and foot_of(event) == foot:
@@ -86,8 +90,9 @@ def footwork(
     Parameters
     ----------
     found : tuple of Phrase
+        Phrases of the part.
     shifts : sequence of GestureEvent
-        Of the weight.
+        Gestures that shift the weight from foot to foot.
     tap : float
         Frequency of toe taps; 1 is usual.
     alone : bool

@@ -77,7 +77,9 @@ def in_long_rests(
 def _rest(
     note_id: str, place: int, down_s: tuple[float, float], rest_s: float, piece: Piece, seeds: Seeds
 ) -> list[GestureEvent]:
-    """Gestures in the rest before the note at the tick ``place`` while the instrument is down, ``down_s``."""
+    """Plan the gestures in the rest before a note at the tick ``place``; the instrument is down during the span
+    ``down_s``.
+    """
     first_s, last_s = down_s
     said = {"rest_s": round(rest_s, 2)}
     events: list[GestureEvent] = []
@@ -118,7 +120,9 @@ def _counted(first_s: float, last_s: float, piece: Piece, later: float) -> tuple
 def _looks(
     place: int, free: tuple[float, float], piece: Piece, seeds: Seeds, said: Mapping[str, float]
 ) -> list[GestureEvent]:
-    """Plan looks around during a rest, at times that differ between players; ``free`` is the rest in seconds."""
+    """Plan looks around and renewed grips during a rest, at times that differ between players; ``free`` is the usable
+    part of the rest (start and end in seconds), ``said`` the arguments of the reason.
+    """
     events: list[GestureEvent] = []
     free_s, last_s = free
     for number in range(MOST_LOOKS):

@@ -58,7 +58,7 @@ CUED_S = 0.35
 
 
 class Phrase(NamedTuple):
-    """Notes from ``first`` to before ``end``."""
+    """A phrase of a part, as a range of note indices: from ``first`` to before ``end``."""
 
     first: int
     end: int
@@ -87,7 +87,7 @@ def phrases(times: NoteTimes, breaths: Sequence[BreathEvent]) -> tuple[Phrase, .
 
 
 def _after_breaths(times: NoteTimes, breaths: Sequence[BreathEvent]) -> IntArray:
-    """Index (N,) of the first note after each breath; the number of notes if none follows."""
+    """For each of N breaths the index (N,) of the first note after it; the number of notes if none follows."""
     drawn_s = [breath.end_s for breath in breaths if breath.draws_air]
     return np.asarray(np.searchsorted(times.onset_s, np.array(drawn_s) - ON_BEAT_S))
 

@@ -114,7 +114,9 @@ def _in_hand(gesture: Gesture, instrument: InstrumentMap) -> Gesture:
 
 
 def without_idle_hands(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
-    """Remove events generated for idle hands while a hand is away; returns the same tuple if there are none."""
+    """Remove the generated small gestures of hands at rest (looking around, settling the grip) while a gesture from the
+    tables takes a hand off the instrument; returns the same tuple if there are no such gestures.
+    """
     away = [(one.start_s, one.end_s) for one in events if one.gesture is not None and one.gesture.needs_lowered]
     if not away:
         return events

@@ -76,16 +76,16 @@ def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
 
 @dataclass(frozen=True, eq=False)
 class Swings:
-    """Position of the trunk at the end of each shortest swing, arrays (N,).
+    """Swings of the trunk from side to side, divided into N units of the shortest swing.
 
     Attributes
     ----------
     beats : int
-        Felt beats of the shortest.
+        Felt beats in one unit.
     ticks, ends, starts_s, ends_s, amounts
-        Start and end of each swing, and the position of the trunk at its end, -1..1.
+        Start and end of each unit in ticks and seconds, and the position of the trunk at its end, -1..1.
     lasts : (N,) int64
-        Number of shortest swings that form the swing it belongs to; 0 where the body is still.
+        Number of units in the swing that the unit belongs to; 0 where the body is still.
     """
 
     beats: int
@@ -128,7 +128,7 @@ def swings_of(
     stillness : float
         Share 0..1 of the blocks in which the body is still except at their end.
     styles : tuple of StyleEvent
-        Spans with another share.
+        Spans in another style, with another share of stillness.
     """
     beats, beat_s = pulse.swing_beats, pulse.beat_s
     if seeds.chance("swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
@@ -152,8 +152,8 @@ def swings_of(
 def _shaped(
     units: IntArray, ticks: IntArray, ends: IntArray, vigours: FloatArray, seeds: Seeds, stillness: FloatArray
 ) -> tuple[FloatArray, IntArray]:
-    """Return the position (N,) of the trunk, -1..1, at the end of each unit, and the number of units of the swing the
-    unit belongs to (0: still).
+    """Return the position (N,) of the trunk, -1..1, at the end of each unit (shortest swing), and the number of units
+    of the swing the unit belongs to (0: still).
 
     Side and size at the end of a block depend on that block alone, so blocks can be changed independently.
     """
@@ -166,8 +166,10 @@ def _shaped(
     flip = 1.0 if seeds.chance("side") < 0.5 else -1.0
 
     def ended(number: IntArray, begun: IntArray, reach: IntArray) -> FloatArray:
-        """Return the positions (N,) of the trunk, -1..1, at the ends of blocks of units, mostly on the other side than
-        the previous one. ``reach`` is the tick at which the next block ends, which starts at this position."""
+        """Return the positions (N,) of the trunk, -1..1, at the ends of blocks of units; successive blocks mostly end
+        on opposite sides. ``number`` counts the blocks, ``begun`` has their start ticks, and ``reach`` the ticks up to
+        which they affect the motion.
+        """
         size = 0.35 + 0.65 * seeds.chances_at("sway", begun, number, reach)
         stays = seeds.chances_at("sway held", begun, number, reach) < 0.2
         side = np.where((number % 2 == 0) ^ stays, flip, -flip)
@@ -220,8 +222,9 @@ def _turns() -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
 
 
 def sways(swings: Swings, pulse: Pulse) -> list[GestureEvent]:
-    """Return a gesture event for each shortest swing of the body; its id is made of the tick, so it stays the same when
-    another division is chosen."""
+    """Return a gesture event for each unit (shortest swing) of the body. Its id is made of the tick, so corrections
+    still find it if units are grouped into swings differently.
+    """
     beat_s = round(pulse.beat_s, 3)
     reasons = {
         parts: Message("gesture.sway", {"beats": parts * swings.beats, "beat_s": beat_s}) for parts in (1, 2, 4)

@@ -34,8 +34,8 @@ def tension_of(pitch: FloatArray, instrument: InstrumentMap) -> FloatArray:
 
 
 def strain_of(register: FloatArray, loudness: FloatArray, length_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Lip tension (before the player's factor) and effort, 0..1, of notes by `tension_of`, loudness 0..1 and length in
-    seconds.
+    """Return lip tension (before the player's factor) and effort, 0..1 each, of notes. ``register`` is the tension by
+    pitch from `tension_of`; ``loudness`` is 0..1.
     """
     loud = np.clip((loudness - MEZZOFORTE) / (1.0 - MEZZOFORTE), 0.0, 1.0)
     high = np.clip((register - EASY_TENSION[1]) / (1.0 - EASY_TENSION[1]), 0.0, 1.0)

@@ -122,7 +122,9 @@ def _with_marks(written: WrittenMarks, kinds: list[Articulation]) -> list[Articu
 def _write_strokes(
     tonguing: Sequence[str], attacked: IntArray, strokes: list[Stroke], why: list[tuple[str, float]]
 ) -> None:
-    """Apply the double, triple and flutter tonguing of the score to the strokes."""
+    """Change ``strokes`` and their reasons ``why`` in place where the score prescribes double, triple or flutter
+    tonguing.
+    """
     since, before = 0, ""
     for place, at in enumerate(attacked.tolist()):
         mark = tonguing[at]

@@ -103,7 +103,9 @@ def read_velocities(parts: Iterable[Velocities]) -> VelocityReading:
 
 @lru_cache(maxsize=8)
 def _reading(parts: tuple[tuple[bytes, int | None], ...]) -> VelocityReading:
-    """The reading without the levels of staves: kept, since most edits change no velocity."""
+    """Interpret the velocities of a piece, without the dynamics of its staves; cached, since most edits change no
+    velocity.
+    """
     given = [(np.frombuffer(velocities, np.uint8).astype(np.int64), program) for velocities, program in parts]
     alone = {int(velocity) for velocities, _ in given for velocity in np.unique(velocities)}
     if not given or (len(alone) == 1 and alone <= DEFAULTS):
@@ -214,7 +216,7 @@ def _by_distribution(velocity: IntArray, reading: VelocityReading) -> tuple[Floa
 
 
 def phrase_levels(loudness: FloatArray) -> FloatArray:
-    """(N,): the loudness of several notes around each: an accent is no dynamic."""
+    """Smooth the loudness of notes by a running median (N,), so that single accents do not count as dynamics."""
     if len(loudness) < 4 * STROKES:
         return loudness
     padded = np.pad(loudness, STROKES // 2, mode="edge")
@@ -222,6 +224,6 @@ def phrase_levels(loudness: FloatArray) -> FloatArray:
 
 
 def nearest_marks(loudness: FloatArray) -> IntArray:
-    """(N,): the rows in `DYNAMICS` of the marks nearest to each loudness 0..1."""
+    """Return for each loudness 0..1 the row (N,) in `DYNAMICS` of the nearest dynamic mark."""
     between = np.append(_BETWEEN[:-1], _LOUDEST_FROM)
     return np.asarray(np.searchsorted(between, loudness), np.int64)

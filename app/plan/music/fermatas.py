@@ -207,7 +207,7 @@ def _fermata(place: int, gaps: _Gaps, piece: Piece) -> Fermata | None:
 
 
 def _moves(place: int, gaps: _Gaps) -> bool:
-    """Return whether a gap is the larger part of a hold during which one voice moved."""
+    """Return whether the gap with this index is the larger part of a hold during which one voice moved."""
     own, before = (float(gaps.ends[at] - gaps.starts[at]) for at in (place, place - 1))
     ratio = float(gaps.slowness[place - 1] / gaps.slowness[place])
     return own >= before and 1.0 / ONE_TEMPO <= ratio <= ONE_TEMPO

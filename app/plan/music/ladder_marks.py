@@ -101,8 +101,8 @@ def _gain(name: str, program: int | None, levels: dict[int, int]) -> float:
 
 
 def _written_as(name: str, levels: dict[int, int], program: int | None, whole_range: bool = False) -> int | None:
-    """General MIDI program in whose range LilyPond wrote a part: its own, that of an earlier instrument, or a range set
-    in the score.
+    """Return the program whose velocity range LilyPond most probably used for a part: that of the part's instrument, of
+    an earlier instrument, or None for the whole range. For other notation programs the part's own ``program``.
     """
     if name != LILYPOND:
         return program
@@ -113,8 +113,8 @@ def _written_as(name: str, levels: dict[int, int], program: int | None, whole_ra
 
 
 def _may_be_set(one: int, levels: dict[int, int], program: int | None) -> bool:
-    """Return whether enough levels are exactly dynamics of a range, and over twice as many as in the usual ranges; some
-    always match by hairpins and articulations.
+    """Return whether the score probably sets the velocity range ``one`` itself: enough ``levels`` are exactly its
+    dynamics, and more than twice as many as those of the usual ranges.
     """
     marked = [count for at, count in levels.items() if count >= RUN and at in _marks_of(one)]
     plain = max(sum(levels[at] for at in levels.keys() & _marks_of(own)) for own in (program, None))
@@ -128,7 +128,9 @@ def _marks_of(program: int | None) -> frozenset[int]:
 
 
 def _range_cost(wrote: int | None, program: int | None) -> float:
-    """Return the cost of assuming a range other than that of the instrument."""
+    """Return the cost of assuming that LilyPond wrote a part in the range ``wrote`` instead of that of its
+    ``program``.
+    """
     if wrote == program:
         return 0.0
     return _SET_RANGE if wrote in SET_RANGES else _OWN_RANGE

@@ -63,6 +63,7 @@ def written_onsets(
     Parameters
     ----------
     onsets : (N,) int64
+        Played onsets in ticks.
     bars : (B,) int64
         Ticks at which bars begin; positions are counted from there.
     reach_ticks : (N,) int64, optional
@@ -79,8 +80,8 @@ def written_onsets(
 
 
 def _rarer_division(quarters: FloatArray) -> int:
-    """Return 3 or 4 if hardly any notes are at such fractions of a quarter but many at the others; 0 if neither is
-    rare.
+    """Return 3 if hardly any notes are on thirds of a quarter but many on fourths, 4 in the opposite case, and 0 if
+    neither division is rare.
     """
     parts = np.array([0.0, 1.0 / 4.0, 1.0 / 3.0, 1.0 / 2.0, 2.0 / 3.0, 3.0 / 4.0, 1.0])
     counts = np.bincount(np.searchsorted((parts[1:] + parts[:-1]) / 2.0, quarters % 1.0), minlength=len(parts))

@@ -188,12 +188,12 @@ class LineTimes(NoteTimes):
 
     @cached_property
     def rhythm(self) -> NoteTimes:
-        """Onsets and ends of the line's notes."""
+        """Only the onsets and ends of the part's notes, without pitch and loudness."""
         return NoteTimes(self.onset_tick, self.played_end_tick, self.onset_s, self.played_end_s)
 
     @cached_property
     def leaps(self) -> BoolArray:
-        """(N-1,): whether the next note is a leap away."""
+        """Mask (N-1,) of the notes from which the part leaps to the next."""
         return np.asarray(np.abs(np.diff(self.pitch)) >= LEAP_SEMITONES)
 
     @cached_property
@@ -314,7 +314,9 @@ def without_sound(notes: tuple[Note, ...]) -> tuple[Note, ...]:
 
 @lru_cache(maxsize=64)
 def _digests(parts: tuple[str | int, ...], places: bytes) -> bytes:
-    """Hash of the parts with each place (int64); cached, since an edit of a pitch moves no note."""
+    """Hash ``parts`` together with each place: one digest per int64 in ``places``, joined as bytes; cached, since an
+    edit of a pitch moves no note.
+    """
     head = partial_digest(parts)
     digests = []
     for place in np.frombuffer(places, np.int64).tolist():
@@ -381,5 +383,5 @@ class Seeds(msgspec.Struct, frozen=True):
 
 
 def gaps_s(times: LineTimes) -> FloatArray:
-    """(N,): the silence before each note; 0 before the first."""
+    """Silence (N,) in seconds before each note; 0 before the first."""
     return np.concatenate(([0.0], np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)))

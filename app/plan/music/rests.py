@@ -46,7 +46,7 @@ class Rests(NamedTuple):
     Attributes
     ----------
     sounding_tick : int64
-        As long as nothing sounds.
+        Length of the silence as it sounds, in ticks.
     written_tick : int64
         Notated length in ticks.
     lasts_s : float64

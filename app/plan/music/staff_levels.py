@@ -12,21 +12,21 @@ from app.plan.music.velocity_ladders import DYNAMICS, MF
 
 
 class MarkChanges(msgspec.Struct, frozen=True):
-    """Changes of the mark in force.
+    """Changes over time of the dynamic mark in force.
 
     Attributes
     ----------
     ticks : tuple of int
-        Ascending.
+        Ticks of the changes, ascending.
     marks : tuple of int
-        Rows of `DYNAMICS`.
+        Mark from each tick on, as a row of `DYNAMICS`.
     """
 
     ticks: tuple[int, ...] = ()
     marks: tuple[int, ...] = ()
 
     def at(self, onsets: IntArray) -> IntArray:
-        """(N,): the mark in force at each tick; -1 before the first."""
+        """Dynamic mark (N,) in force at each onset, as a row of `DYNAMICS`; -1 before the first."""
         return np.array((-1, *self.marks), np.int64)[np.searchsorted(self.ticks, onsets, side="right")]
 
 

@@ -40,7 +40,7 @@ class Ladder:
     accent_share : float
         Factor of an accent; 1: no effect.
     usual : float
-        Frequency of the program, as the logarithm of a share.
+        How common files of this program are: logarithm of their share of all files.
     passed : tuple of int
         Velocities at the end of hairpins without a target.
     """

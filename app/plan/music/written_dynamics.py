@@ -41,7 +41,7 @@ class WrittenDynamics(NamedTuple):
     spans : tuple of (tick, end tick, row)
         Dynamics for a passage only.
     swells : tuple of (tick, end tick, rows)
-        Hairpins relative to the sound, with the change in rows at their end.
+        Hairpins without a written dynamic, relative to the loudness heard, with the change in rows at their end.
     struck : tuple of int
         Ticks of sforzandi.
     """
@@ -64,7 +64,7 @@ class WrittenDynamics(NamedTuple):
         return found
 
     def swell_at(self, ticks: FloatArray) -> FloatArray:
-        """Change in rows by hairpins at some ticks, relative to the sound."""
+        """Change of loudness by hairpins at given ticks, in rows of `DYNAMICS` relative to the loudness heard."""
         found = np.zeros(len(ticks))
         for start, end, rows in self.swells:
             within = (ticks >= start) & (ticks < end)
@@ -103,8 +103,9 @@ def written_dynamics(marks: Iterable[Mark], source: Source, quarter: int) -> Wri
 
 
 def note_dynamics(onsets: IntArray, written: WrittenDynamics, quarter: int) -> tuple[FloatArray, FloatArray, BoolArray]:
-    """Return loudness (N,) 0..1 of each note at its onset (NaN without a dynamic in force), its change in rows of
-    `DYNAMICS` by hairpins, and a mask of those whose loudness applies to that note alone."""
+    """Return for each note at its onset the loudness (N,) 0..1 (NaN without a dynamic in force), the change (N,) by
+    hairpins in rows of `DYNAMICS`, and a mask (N,) of the notes whose dynamic applies to them alone.
+    """
     at = onsets.astype(np.float64)
     rows = written.rows_at(at)
     struck = np.zeros(len(onsets), dtype=bool)
