@@ -111,8 +111,8 @@ def _length_s(times: LineTimes, rests: IntArray, least_s: float) -> FloatArray:
 
 
 def drop_lengths_s(score: LineTimes, times: LineTimes) -> tuple[FloatArray, IntArray]:
-    """Return how long a catch breath before each note can be if some notes just before it are left out for it, and how
-    many notes that takes (as few as possible). The first note of a part is never left out.
+    """Longest catch breath before each note, in seconds, if some notes just before it are left out for it, and the
+    number of notes that takes (as few as possible). The first note of a part is never left out.
 
     Parameters
     ----------
