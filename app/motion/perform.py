@@ -205,7 +205,9 @@ class PerformanceCurves:
         )
 
     def _moved(self, levels: LayerSamples, look: GazeFrames, times_s: FloatArray) -> BodyMotion:
-        """Body motion without dance and additive curves, with the instrument in the hands."""
+        """Compute the body motion of the layers, without dance and additive curves, as if the instrument were never put
+        aside.
+        """
         return body_motion(
             levels,
             Sizes(self.body, self.parameters, self.player_id, self.acting, self.posture),

@@ -20,12 +20,13 @@ class PlayedFrames:
     Attributes
     ----------
     times_s : (F,) float64
-        Ascending.
+        Ascending times in seconds.
     levels, look, face
         Samples of body, eyes and face.
     controls : dict of str to (F,) float64
+        Values of the instrument's controls.
     raised : (F,) float64
-        As in `PerformanceCurves`.
+        Height of waiting fingers above their keys, 0..1.
     danced : (F, 12) float64 or None
         Values of the dance layer; None: no dance.
     stepped : dict of str to (F,) float64

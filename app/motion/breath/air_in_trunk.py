@@ -46,15 +46,17 @@ MOST_QUIET: Final = 60
 
 
 class LungCurves(NamedTuple):
-    """Fullness of the lungs, and lean of the preparatory motion, both 0..1."""
+    """Two curves of breathing, both 0..1: the fullness of the lungs, and the backward lean of the preparatory motion
+    before an entry.
+    """
 
     full: Curve
     leaning: Curve
 
 
 def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
-    """Return the fullness of the lungs (rising over each breath, falling over the phrase) and the preparation's lean,
-    both 0..1.
+    """Return two curves, both 0..1: the fullness of the lungs (rising over each breath, falling over the phrase), and
+    the backward lean of the preparatory motion.
     """
     full: list[tuple[float, float, float]] = []
     lean: list[tuple[float, float, float]] = []

@@ -33,6 +33,7 @@ def leaning_further(
     Parameters
     ----------
     breaths : sequence of BreathEvent
+        Breaths of the player.
     full : Curve
         Fullness of the lungs without the addition.
     torso_rad : callable

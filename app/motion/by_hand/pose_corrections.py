@@ -93,7 +93,9 @@ def hold_body(
     left_rad: dict[str, FloatArray],
     turn_rad: dict[str, FloatArray],
 ) -> None:
-    """Add the offsets of trunk and neck to the angles of their joints, within the joints' ranges."""
+    """Add the ``offsets`` for trunk and neck to the angles of their joints (in place, by joint), within the joints'
+    ranges.
+    """
     torso, head, bell = offsets.get("torso"), offsets.get("head"), offsets.get("bell")
     for shares, own, part in ((TRUNK_SHARES, torso, "trunk"), (NECK_SHARES, head, "neck")):
         if own is None and bell is None:

@@ -66,8 +66,14 @@ def solve_arms(
     swung: FloatArray | None = None,
     away: Away | None = None,
 ) -> dict[int, FloatArray]:
-    """Rotations of clavicles, arms and hands by joint; ``swung`` (F, 4) is the rotation of the elbows with swinging
-    arms.
+    """Rotations (F, 4) of clavicles, arms and hands by joint index, with each hand on its grip of the instrument.
+
+    Parameters
+    ----------
+    swung : (F, 4) float64, optional
+        Additional rotation of the elbows, for arms that lag behind the chest.
+    away : Away, optional
+        Targets of hands that have left the instrument.
     """
     rotations: dict[int, FloatArray] = {}
     body, carried = upper.trunk, upper.carried
@@ -121,7 +127,9 @@ def _solve_arm(
 def _relieve(
     wrist: Wrist, limb: Limb, pose: LimbPose, line: FloatArray, clavicle: FloatArray, target_rotation: FloatArray
 ) -> None:
-    """Rotate the arms about the line from shoulder to hand where the wrist is bent too far."""
+    """Turn the arm about the line from shoulder to hand, in place in ``pose``, in the frames in which the wrist is bent
+    sideways too far.
+    """
     aside_rad = wrist.aside_rad(pose.end)
     beyond_rad = wrist.beyond_rad(aside_rad)
     bent = np.flatnonzero(beyond_rad)

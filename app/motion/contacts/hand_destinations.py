@@ -48,9 +48,13 @@ def hands_off_instrument(
     ----------
     base : Trunk
         Trunk before any motion, one frame.
+    carried : InstrumentTransform
+        Placement of the instrument.
     hands : mapping of str to array
         Values from `app.motion.gestures.hand_gestures.limited_hand_gestures`, and the closure of the bell by a hand
         (`STOPPING`).
+    water, stopped : Water, Stopped or None
+        Place of the water key, and hand position that closes the bell, if the instrument has them.
     """
     found = Away({}, {}, {})
     if stopped is not None and STOPPING in hands:

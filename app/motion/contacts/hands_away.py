@@ -38,6 +38,7 @@ class Away:
     places : dict of side to list of (share (F,), position (F, 3), rotation (F, 4))
         Weight, position and rotation of wrists in world space.
     offsets_m : dict of side to (F, 3)
+        Offset added to the position of wrists, in metres.
     elbows : dict of side to (share (F,), direction (3,))
         Direction of elbows in the chest's frame, with its weight.
     shifts : dict of side to Shift

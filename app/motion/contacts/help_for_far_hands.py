@@ -75,7 +75,8 @@ def needed_help(
     placed: Mapping[str, StationBlend],
     away: Away | None = None,
 ) -> Help:
-    """The help needed by a body without any; exactly 0 where the arms alone reach and the hands stay.
+    """Help of shoulders and trunk that the hands need to reach their grips; ``body`` is the trunk without help. Exactly
+    0 where the arms alone reach and the hands stay.
 
     First the shoulders help, then the trunk turns; the remaining distance is returned. Both follow slightly when a hand
     moves out and back.
@@ -155,7 +156,9 @@ def _girdle(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -
 
 
 def _waist(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Swing:
-    """Rotation of the chest about the vertical axis with its shoulder fully forward."""
+    """Effect of a rotation of the chest about the vertical axis on the distance from a shoulder, brought fully forward,
+    to the target of its hand.
+    """
     shoulder, clavicle = clavicle_of(skeleton, side)
     forwards = quaternion.from_axis_angle(forwards_axis(skeleton, side), CLAVICLE_RAD)
     root_m = skeleton.offsets_m[shoulder] + quaternion.rotate(forwards, clavicle)

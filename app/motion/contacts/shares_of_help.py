@@ -32,7 +32,9 @@ DRAW_DOWN_RAD, DRAW_RIGHT_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(8.0))
 
 
 def smoothed_help(parts: list[Help], half: int) -> Help:
-    """Smooth help so that it begins early and changes slowly, given the needed help in stretches of frames."""
+    """Join the needed help of consecutive stretches of frames (``parts``), smoothed so that it begins early and changes
+    slowly: over ``half`` frames before and after, less for shoulders.
+    """
     quick = max(1, round(ROOM_EASE_S / HELP_EASE_S * half))
     swift = max(1, round(SHOULDER_EASE_S / HELP_EASE_S * half))
     sides = parts[0].protraction_rad.keys()

@@ -61,7 +61,7 @@ LEAST_NEAR_PER_M = 1e-3
 
 @dataclass(frozen=True)
 class PlayerBody(StillPlayer):
-    """A player with data computed once for all times."""
+    """A player's body with instrument and posture: the data for solving contacts that do not change over time."""
 
     def standing_on(self, endpin: Endpin | None) -> PlayerBody:
         """The player with the instrument on its endpin, if its usual place is low enough."""

@@ -69,6 +69,7 @@ class ContactCurves:
     Attributes
     ----------
     controls, morphs : dict of str to (F,) float64
+        Values 0..1 of the instrument's controls, and weights of the face's morphs, by name.
     mouth_open : (F,) float64
         Opening of the mouth for a breath.
     placed : dict of str to StationBlend

@@ -45,7 +45,7 @@ class Wrist:
     twist : (3,) float64
         Axis of forearm rotation.
     low_rad, high_rad : (2,) float64
-        The ranges.
+        Lowest and highest angle of flexion and of sideways bending.
     """
 
     axes: FloatArray
@@ -93,7 +93,7 @@ class Wrist:
         aside_rad, beyond_rad : (F,) float64
             Sideways angle with the elbow in its usual place, and its excess.
         at : callable
-            Function from elbow rotations to sideways angles.
+            Function that returns the sideways angle of the wrist for each rotation of the elbow.
         """
         slope = (at(np.full(len(aside_rad), PROBE_RAD)) - aside_rad) / PROBE_RAD
         gain = slope**3 / ((slope * slope + STIFF * STIFF) * (slope * slope + VAIN * VAIN))

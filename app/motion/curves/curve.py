@@ -97,8 +97,8 @@ class Curve:
         return result
 
     def between(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the positions before and after each time and the share of the way between them, (F,) each, for values
-        that are position numbers.
+        """For a curve whose values are numbers of places: return, each (F,), the place left last, the place reached
+        next and the share of the way between them at each time.
         """
         rows = self._described(times_s)
         resting = rows[:, 1] == rows[:, 0]

@@ -52,8 +52,9 @@ AFTER_S: Final = 8.0
 
 
 class Exertion(NamedTuple):
-    """Exertion visible in the face at F times, each (F,), 0..1, but ``contour`` and ``swell`` -1..1; see
-    `FaceMotion`."""
+    """Exertion that shows in the face, sampled at F times: each field (F,) is 0..1, but ``contour`` (direction of the
+    melody) and ``swell`` are -1..1. `FaceMotion` defines their effect.
+    """
 
     working: FloatArray
     strain: FloatArray
@@ -66,7 +67,7 @@ class Exertion(NamedTuple):
 
 @dataclass(frozen=True)
 class Lungs:
-    """Seconds that a full breath lasts at mezzoforte, and its change with loudness."""
+    """Air of a player: seconds that a full breath lasts at mezzoforte, and how the use of air changes with loudness."""
 
     full_s: float
     air: Air | None = None

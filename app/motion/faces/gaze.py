@@ -292,7 +292,9 @@ def _glances(plan: PlayerPlan) -> _Looks:
 
 
 def _head(plan: PlayerPlan, at_s: FloatArray, yaw: FloatArray, pitch: FloatArray) -> Spline:
-    """Head motion that follows the eyes, delayed and slow."""
+    """Curve of the head's turn, delayed and slow, that follows the eyes to the directions ``yaw`` and ``pitch`` (K,)
+    they take at the times ``at_s``.
+    """
     first = int(np.floor(plan.time_frame.first_frame_s / HEAD_STEP_S)) - 1
     count = int(np.ceil(plan.time_frame.end_s / HEAD_STEP_S)) + 2 - first
     grid_s = (first + np.arange(count)) * HEAD_STEP_S

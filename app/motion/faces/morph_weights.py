@@ -180,7 +180,10 @@ def usual_morphs(embouchure: EmbouchureWeights, lips: Lips) -> dict[str, float]:
 
 
 def _part_lips(morphs: dict[str, FloatArray], lips: Lips, around: FloatArray, formed: FloatArray) -> None:
-    """Open the jaw so that the lips have the required distance, plus the opening for a breath."""
+    """Set the weight of the jaw in ``morphs`` so that the lips have the required distance, plus the opening for a
+    breath. ``around`` and ``formed`` (F,) are the degrees, 0..1, to which the lips enclose the mouthpiece and form an
+    opening.
+    """
     needed = lips.jaw_for(lips.apart_m + lips.opening_m * formed, morphs, len(around))
     beyond = morphs.get(lips.jaw, np.zeros(len(around)))
     morphs[lips.jaw] = np.clip(around * needed + beyond, 0.0, 1.0)

@@ -30,6 +30,7 @@ class Silences:
     quick_s : (Q, 2) float64
         Spans of notes that follow each other within `QUICK_S`.
     breaths_s : (B, 2) float64
+        Spans of the breaths.
     carried_s : (C, 2) float64
         Spans in which the instrument moves from or to the lips.
     """
@@ -90,7 +91,7 @@ def _lowered_s(plan: PlayerPlan) -> list[tuple[float, float]]:
 
 
 def holds(spans_s: FloatArray, times_s: FloatArray) -> BoolArray:
-    """Return a mask (F,) of the times within one of K spans (K, 2), which are ordered by start."""
+    """Mask (F,) of the times that lie within any of K spans (K, 2), which are ordered by start."""
     return overlaps(spans_s, times_s, times_s)
 
 

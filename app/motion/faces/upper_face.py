@@ -22,7 +22,9 @@ def upper_face(
     face: FaceMotion,
     size: FloatArray | float,
 ) -> list[Driver]:
-    """Curves and morph weights of the upper face, scaled to a player."""
+    """Return the motion of brows, lids, cheeks and nostrils as pairs of a curve and the morph weights it drives, scaled
+    by the player's ``size``.
+    """
     up, down = np.maximum(exertion.contour, 0.0), np.maximum(-exertion.contour, 0.0)
     louder, softer = np.maximum(exertion.swell, 0.0), np.maximum(-exertion.swell, 0.0)
     followed = (

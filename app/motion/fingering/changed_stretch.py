@@ -106,5 +106,5 @@ def _spliced(before: Curve, within: Curve, stretch: ChangedStretch) -> Curve | N
 
 
 def _crossed(curve: Curve, stretch: ChangedStretch) -> bool:
-    """Return whether something still moves in the middle of the silences."""
+    """Return whether a curve is moving at either boundary of a stretch, so that it cannot be cut there."""
     return any(bool(((curve.start_s < at_s) & (at_s < curve.end_s)).any()) for at_s in (stretch.start_s, stretch.end_s))

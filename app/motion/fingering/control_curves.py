@@ -58,7 +58,7 @@ def _unhurried_s(control: Control, distances: FloatArray) -> FloatArray:
 
 
 def window_s(control: Control, distances: FloatArray, durations_s: FloatArray, gaps_s: FloatArray) -> FloatArray:
-    """Return the seconds before its onsets (M,) at which a control may leave its place.
+    """Time (M,) in seconds before each of M onsets at which a control may leave its previous position.
 
     A move that fits into its share of the note is unhurried. If the share is too short for a human speed (the plan
     reports such notes), the control starts earlier, but not before the note's first frame at 24 frames/s.
@@ -81,7 +81,8 @@ def window_s(control: Control, distances: FloatArray, durations_s: FloatArray, g
 
 
 def _unseen_phase(control: Control, distances: FloatArray) -> FloatArray:
-    """Initial share of the time of moves over ``distances`` (M,) in which a control visibly still is in place.
+    """Share (M,) of the time of moves over ``distances`` (M,), from their start, in which the move is still too small
+    to see.
 
     Finger or hand accelerate in this time, so that the motion is not jerky.
     """
@@ -92,8 +93,8 @@ def _unseen_phase(control: Control, distances: FloatArray) -> FloatArray:
 
 
 def _unseen_s(control: Control, distances: FloatArray, windows_s: FloatArray) -> FloatArray:
-    """Return the seconds by which a control may start moving before its windows (M,), since it is still visibly in
-    place.
+    """Time (M,) in seconds by which a control may start moving before ``windows_s``, because the beginning of the move
+    is too small to see.
     """
     phase = _unseen_phase(control, distances)
     return windows_s * phase / (1.0 - phase)
@@ -189,8 +190,9 @@ def _curve(notes: _Notes, control: Control, farthest: float) -> Curve:
 
 
 def _at_once(notes: _Notes, control: Control, targets: FloatArray, changes: IndexArray) -> FloatArray:
-    """Return M moves (M, 3) of a control, start, end and value, from note to note without a rest, to the notes with the
-    indices ``changes``."""
+    """Return the moves of a control between notes without a rest, as rows (M, 3) of start and end in seconds and value;
+    ``changes`` are the indices of the M notes to which it moves.
+    """
     before_s, onset_s = notes.start_s[changes - 1], notes.start_s[changes]
     end_s = np.minimum(notes.end_s[changes - 1], onset_s)
     distances = targets[changes] - targets[changes - 1]
@@ -206,7 +208,7 @@ def _at_once(notes: _Notes, control: Control, targets: FloatArray, changes: Inde
 
 
 def _free_window_s(control: Control, distance: float) -> float:
-    """Time in seconds of the move to a note without a previous note."""
+    """Time in seconds that a move over ``distance`` takes if no note before it limits its start."""
     distances = np.array([distance])
     windows_s = window_s(control, distances, np.array([0.0]), np.array([np.inf]))
     return float(windows_s[0] + (_unseen_s(control, distances, windows_s)[0] if distance else 0.0))

@@ -1,4 +1,4 @@
-"""Curves of every finger between its positions, made from the notes.
+"""Curves of every finger between its stations (the positions at its keys, 0 is its home), made from the notes.
 
 A finger is above its key before the key goes down, and stays for repeated notes. After release it moves directly to its
 next key, or home if that is needed much later. It waits higher above keys in fast passages (Palmer & Dalla Bella 2004;
@@ -65,9 +65,9 @@ def station_curves(
 ) -> dict[str, Curve]:
     """Return the station curve of each finger that leaves its home.
 
-    Moves lead from one station number to another, as `sampled` reads them. The name `giving_for` a finger has the
-    station for which the hand gives way: a finger waits above its key while others are still at theirs, and the hand
-    moves only as the key goes down.
+    Values are station numbers, between which the curves move; read them with `sampled`. A second curve per finger,
+    under the name from `giving_for`, has the station for which the whole hand shifts: a finger waits above its key
+    while others are still at theirs, and the hand shifts only as the key goes down.
 
     Parameters
     ----------
@@ -96,7 +96,9 @@ def station_curves(
 def _others_away(
     finger: str, travelled: Mapping[str, Sequence[Station]], at_work: Sequence[Mapping[str, frozenset[str]]]
 ) -> list[frozenset[tuple[str, int]]]:
-    """Stations away from home of the other fingers of the hand, for every kind of note."""
+    """For each combination of controls in ``at_work`` the set of (finger, station) of all other fingers of the same
+    hand that are away from their home stations.
+    """
     hand = finger.split(".")[0]
     others = {name: places for name, places in travelled.items() if name != finger and name.split(".")[0] == hand}
     found = [
@@ -114,7 +116,9 @@ def _silences_s(fingerings: Sequence[FingeringEvent]) -> FloatArray:
 
 
 def sampled(curve: Curve, times_s: FloatArray) -> StationBlend:
-    """Stations between which a finger is at ascending times."""
+    """Sample a finger's curve at ascending times: the station it leaves, the one it moves to, and its share
+    of the way.
+    """
     return StationBlend(*curve.between(times_s))
 
 
@@ -247,10 +251,11 @@ def _ways(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
 def _givings(
     visits: Sequence[_Visit], kinds: IndexArray, others: Sequence[frozenset[tuple[str, int]]]
 ) -> list[tuple[float, float, float]]:
-    """Moves (start_s, end_s, station) of a hand that gives way: together with the keys, and held where a trill returns.
+    """Moves (start_s, end_s, station) of a hand that shifts to bring a finger to its stations: together with the keys,
+    and held where the notes return to the station, as in a trill.
 
-    Excludes times when other fingers of the hand are away from home: ``others`` has their stations for all ``kinds``
-    (N,) of notes.
+    The hand does not stay shifted while other fingers leave home: ``others`` has their stations, selected for each note
+    by ``kinds`` (N,).
     """
     ways: list[tuple[float, float, float]] = []
 

@@ -22,8 +22,9 @@ class Fingers(NamedTuple):
     Attributes
     ----------
     grips : tuple of FingeringEvent
+        Successive fingerings from which the curves were made.
     made_for : tuple
-        Further inputs of the curves.
+        The other inputs of the curves, compared to decide whether they can be reused.
     controls, stations, raised
         As in `PerformanceCurves`.
     """

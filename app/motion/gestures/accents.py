@@ -24,7 +24,7 @@ class Accents:
     Attributes
     ----------
     start_s, length_s, amount : (N,) float64
-        In order of start.
+        Start and length in seconds and size of each dip, in order of start.
     """
 
     start_s: FloatArray

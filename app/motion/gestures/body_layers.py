@@ -39,7 +39,9 @@ STEP_IN_HIPS = 0.3
 
 
 class StyleShares(NamedTuple):
-    """Shares of layers in style spans: of gestures, and of random motion with sway and weight."""
+    """Factors of layers of body motion in spans with another style: of gestures, of sway and of weight shifts, each
+    with its random motion; (F,) or constant.
+    """
 
     gestures: FloatArray | float = 1.0
     sway: FloatArray | float = 1.0
@@ -54,7 +56,10 @@ def body_motion(
     shares: StyleShares,
     steps: bool,
 ) -> BodyMotion:
-    """Sum all layers at ascending ``times_s`` (F,) on top of the posture; without ``steps`` feet only tap."""
+    """Sum all layers of body motion at ascending ``times_s`` (F,) on top of the posture. ``levels`` has the layers'
+    values, ``sizes`` their scale for the player, ``look`` the gaze, and ``shares`` the factors of spans in another
+    style; without ``steps`` feet only tap.
+    """
     body, acting, amplitude = sizes.body, sizes.acting, sizes.parameters.amplitude
     shown, wandering = acting.gestures * shares.gestures, shares.sway * acting.sway
     uneasy, frames = shares.weight_shift * acting.weight_shift, len(times_s)

@@ -32,6 +32,7 @@ class Feet:
     kinds, sides : (N,) float64
         Index in `FOOT_KINDS`; 1: left foot, -1: right foot.
     start_s, end_s, size : (N,) float64
+        Start and end in seconds, and size 0..1.
     step_s : float
         Seconds for which a stepping foot is in the air.
     """

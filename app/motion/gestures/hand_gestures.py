@@ -25,7 +25,7 @@ LEAST_SIZE: Final = 0.05
 
 
 class ReachingHands(NamedTuple):
-    """Hands moving away from or back to the instrument in some frames, grouped by amplitude scale; empty: none.
+    """Motion of hands that leave the instrument, over F frames; empty where no hand leaves.
 
     Attributes
     ----------
@@ -47,11 +47,11 @@ class Reaching(KeyedGestures):
 
     @staticmethod
     def takes(gesture: Gesture) -> bool:
-        """Return whether a gesture is one of the hands."""
+        """Return whether a gesture takes a hand off the instrument or raises it, so that this class handles it."""
         return gesture.needs_lowered
 
     def sample(self, times_s: FloatArray) -> Reaches:
-        """Sample the hands' motion at ascending times."""
+        """Sample the hands' motion at ascending times, grouped by the amplitude scale of the gestures."""
         found: Reaches = {}
         for gesture, amount, phase, here in self.done(times_s):
             if amount >= LEAST_SIZE:

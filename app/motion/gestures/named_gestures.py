@@ -100,7 +100,7 @@ class KeyedGestures:
 
     @staticmethod
     def takes(gesture: Gesture) -> bool:
-        """Return whether this class handles a gesture."""
+        """Return whether this class handles a gesture; subclasses accept only some."""
         return True
 
     def done(self, times_s: FloatArray) -> Iterator[tuple[Gesture, float, FloatArray, slice]]:

@@ -117,8 +117,9 @@ class Sum:
         self._add(2, shares, values)
 
     def all(self) -> tuple[dict[str, FloatArray], dict[str, FloatArray], dict[str, FloatArray]]:
-        """Return the angles (F,) of all joints of the trunk in radians, by joint: bend forward, lean to the left, turn
-        to the left."""
+        """Return three dicts of the angles (F,) in radians by joint of the trunk and neck: bend forward, lean to the
+        left, turn to the left.
+        """
         nothing = np.zeros(self.frames)
         forward, left, turn = ({joint: one.get(joint, nothing) for joint in TRUNK} for one in self.angles)
         return forward, left, turn
@@ -212,6 +213,8 @@ class Angles:
         total.turn(NECK_SHARES, self.twist.head - self.twist.chest)
 
     def elbows_late(self) -> dict[str, FloatArray]:
-        """Return the lag of the elbows behind the chest, by angle."""
+        """Return the angles (F,) in radians by which the elbows lag behind the chest, as ``forward``, ``turn`` and
+        ``left``.
+        """
         angles = {"forward": self.bowed, "turn": self.twist, "left": self.side}
         return {name: angle.elbows - angle.chest for name, angle in angles.items()}
