@@ -11,6 +11,7 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IndexArray
 from app.contacts.bounds import in_place
+from app.motion.fingering.control_curves import tail_of_note_s
 from app.plan.model import FingeringEvent
 from instrument_maps.model import Control
 
@@ -184,11 +185,12 @@ class NoteFrames:
         """Earliest times (N,) at which a control may leave its places: the ends of notes, or shortly before.
 
         If its share of the note is too short for the map's speed, it may take the time it needs (the plan reports such
-        notes); if the share allows an unhurried move, that may be used.
+        notes); if the share allows an unhurried move, that may be used, and of a hurried slide a note's tail too.
         """
         starts_s, next_s = self._starts_s[:-1], self._starts_s[1:]
         needed_s, unhurried_s = np.zeros((2, len(next_s)))
-        distances_m = np.abs(targets[1:] - targets[:-1]) * control.travel_m
+        distances = targets[1:] - targets[:-1]
+        distances_m = np.abs(distances) * control.travel_m
         if control.max_speed_m_s:
             needed_s = distances_m / control.max_speed_m_s
         if control.unhurried_speed_m_s:
@@ -197,6 +199,8 @@ class NoteFrames:
         ends_s = np.minimum(self._ends_s[:-1], next_s)
         allowed_s = np.maximum(next_s - ends_s, control.move_note_share * (ends_s - starts_s))
         window_s = np.maximum(needed_s, np.minimum(np.maximum(control.move_window_s, unhurried_s), allowed_s))
+        tail_s = tail_of_note_s(control, distances, ends_s - starts_s, next_s - ends_s)
+        window_s = np.maximum(window_s, tail_s)
         if control.kind == "slide":
             glides_s = np.array([note.glide_from_s or math.inf for note in self.notes[1:]])
             window_s = np.maximum(window_s, next_s - glides_s)

@@ -34,7 +34,22 @@ _PHASES: Final = np.linspace(0.0, 0.5, 201)
 _PROGRESS: Final = minimum_jerk(_PHASES)
 _PRESSED_PHASE: Final = float(np.interp(STILL_PRESSED, _PROGRESS, _PHASES))
 """Share of the time of a minimum-jerk move at which a key's motion becomes visible."""
-LEAST_HELD_SHARE = 0.3
+LEAST_HELD_SHARE = 0.25
+"""Share of a note, from its onset to the next, in which no control leaves its place at all, however hurried."""
+TAIL_SHARE = 0.65
+"""Largest share of a sounding note that a slide may take where its own share would fling the hand.
+
+The ear takes a note's pitch from its beginning, and the next note's tongue covers its end: with the first third in its
+place (to `STILL_IN_PLACE_M`, four hundredths of a semitone) a note is in tune. Longer notes lose less: see
+`TAIL_PEAK_M_S`.
+"""
+TAIL_PEAK_M_S = 2.05
+"""Peak speed of a slide that takes more than its own share of a note, if the tail is long enough.
+
+Measured on six pieces, the hand's speed is 0.84 to 0.87 of that, as the instrument gives way: under 1.8 m/s.
+"""
+PEAK_TO_MEAN = 15.0 / 8.0
+"""Peak speed of a minimum-jerk move as a multiple of its mean speed."""
 RELEASE_S = 0.12
 """A finger's way back to rest after a note, unhurried."""
 CARRY_BACK_S = 0.25
@@ -60,8 +75,9 @@ def _unhurried_s(control: Control, distances: FloatArray) -> FloatArray:
 def window_s(control: Control, distances: FloatArray, durations_s: FloatArray, gaps_s: FloatArray) -> FloatArray:
     """Time (M,) in seconds before each of M onsets at which a control may leave its previous position.
 
-    A move that fits into its share of the note is unhurried. If the share is too short for a human speed (the plan
-    reports such notes), the control starts earlier, but not before the note's first frame at 24 frames/s.
+    A move that fits into its share of the note is unhurried. If the share is too short for that, a slide takes some of
+    the note's tail too (`TAIL_SHARE`). If it is too short for a human speed (the plan reports such notes), the control
+    starts earlier, but not before the note's first frame at 24 frames/s.
 
     Parameters
     ----------
@@ -73,11 +89,26 @@ def window_s(control: Control, distances: FloatArray, durations_s: FloatArray, g
     needs = np.zeros(len(distances))
     if control.max_speed_m_s is not None and control.travel_m:
         needs = np.abs(distances) * control.travel_m / control.max_speed_m_s
-    usual = np.maximum(needs, _unhurried_s(control, distances) * (1.0 - _unseen_phase(control, distances)))
-    allowed = np.maximum(gaps_s, control.move_note_share * durations_s)
-    unhurried = np.minimum(np.maximum(control.move_window_s, usual), allowed)
+    seen = 1.0 - _unseen_phase(control, distances)
+    usual = np.maximum(needs, _unhurried_s(control, distances) * seen)
+    share = np.maximum(gaps_s, control.move_note_share * durations_s)
+    unhurried = np.minimum(np.maximum(control.move_window_s, usual), share)
+    tail_s = tail_of_note_s(control, distances, durations_s, gaps_s)
+    unhurried = np.maximum(unhurried, tail_s)
+    allowed = np.maximum(share, tail_s)
     hurried = np.minimum(needs, np.maximum(allowed, durations_s + gaps_s - SLOWEST_FRAME_S))
     return np.where(needs <= allowed, unhurried, hurried)
+
+
+def tail_of_note_s(control: Control, distances: FloatArray, durations_s: FloatArray, gaps_s: FloatArray) -> FloatArray:
+    """Return the seconds (M,) before its onsets that a slide may take beyond its own share of the notes before.
+
+    They are 0 for controls without an unhurried speed. Parameters are those of `window_s`.
+    """
+    if control.kind != "slide" or control.unhurried_speed_m_s is None:
+        return np.zeros(len(distances))
+    calm_s = np.abs(distances) * control.travel_m * PEAK_TO_MEAN / TAIL_PEAK_M_S
+    return np.minimum(calm_s * (1.0 - _unseen_phase(control, distances)), gaps_s + TAIL_SHARE * durations_s)
 
 
 def _unseen_phase(control: Control, distances: FloatArray) -> FloatArray:

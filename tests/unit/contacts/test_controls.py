@@ -94,15 +94,30 @@ def test_a_slide_may_leave_the_last_note_of_a_cut_for_the_note_after_it() -> Non
 def test_a_slide_may_leave_as_early_as_an_unhurried_way_needs_but_not_before_half_its_note() -> None:
     slide = control(
         kind="slide",
-        motion=ControlMotion((0.0, 0.0, 1.0), travel_m=0.6),
+        motion=ControlMotion((0.0, 0.0, 1.0), travel_m=0.5),
         move_note_share=0.5,
         max_speed_m_s=2.5,
-        unhurried_speed_m_s=1.0,
+        unhurried_speed_m_s=0.8,
     )
-    values = np.full(40, 0.5)  # 0.6 s of way before 2.0 s; half a note is 0.5 s
+    values = np.full(40, 0.5)  # 0.63 s of way before 2.0 s; half a note is 0.5 s
     values[11:16], values[20:] = 1.0, 0.0
     assert measured([event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)], slide, values).held_wrong == 0
     values[15] = 0.5
+    assert measured([event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)], slide, values).held_wrong == 1
+
+
+def test_a_hurried_slide_may_take_two_thirds_of_its_note_but_not_more() -> None:
+    slide = control(
+        kind="slide",
+        motion=ControlMotion((0.0, 0.0, 1.0), travel_m=0.8),
+        move_note_share=0.5,
+        max_speed_m_s=2.5,
+        unhurried_speed_m_s=0.9,
+    )
+    values = np.full(40, 0.5)  # at its calmest, 0.67 s of way before 2.0 s; two thirds of the note are 0.65 s
+    values[11:14], values[20:] = 1.0, 0.0
+    assert measured([event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)], slide, values).held_wrong == 0
+    values[13] = 0.5
     assert measured([event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)], slide, values).held_wrong == 1
 
 
