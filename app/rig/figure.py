@@ -27,12 +27,13 @@ class Figure:
     Attributes
     ----------
     file : str
-        For messages.
+        Name of the file, for messages.
     bone_names : tuple of str
-        As in the file, each once.
+        Names in the file, made unique.
     parents : tuple of int
-        Parents, each before its children; -1 for a root.
+        Parent of each bone, before its children; -1 for a root.
     translations_m : (B, 3) float64
+        Positions relative to the parent at rest.
     rotations : (B, 4) float64
         ``parent_from_bone`` at rest.
     meshes : tuple of Mesh
@@ -44,8 +45,8 @@ class Figure:
     notes : tuple of Message
         Notes about guesses of the reader.
     posed : (B, 4) float64 or None
-        ``parent_from_bone`` of the nodes in a VRM file, which are in T-pose; differs from `rotations` if the skin was
-        bound in another pose. None for other files.
+        ``parent_from_bone`` of the nodes as stored in a VRM file, which are in T-pose; differs from `rotations` if the
+        skin was bound in another pose. None for other files.
     """
 
     file: str
@@ -94,13 +95,14 @@ class OwnSkeleton:
     bone_of_joint : tuple of int
         Bone of the figure for each joint of the skeleton; -1 for an added joint (a mitten's finger, the root).
     joint_from_bone : (J, 4) float64
-        In the T-pose, as a rotation: ``world_from_bone = world_from_joint * joint_from_bone`` in every pose.
+        Rotation from bone to joint in the T-pose: ``world_from_bone = world_from_joint * joint_from_bone`` in every
+        pose.
     t_pose : (B, 4) float64
         ``parent_from_bone`` of the figure's bones in T-pose; bones that are no joints keep their rest rotation.
     morphs : mapping of str to mapping of str to float
         Weights of the figure's morphs by ARKit shape.
     beside : mapping of int to int
-        Joint by bone for additional bones of a joint, as in a hand with a bone for each finger from the wrist on.
+        Joint of each additional bone of a joint, as in a hand with a bone for each finger from the wrist on.
     """
 
     figure: Figure

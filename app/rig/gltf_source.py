@@ -33,7 +33,7 @@ class GltfSource:
     Attributes
     ----------
     world_from_node : (N, 4, 4) float64
-        At rest.
+        World transforms of the N nodes at rest.
     """
 
     file: str
@@ -53,7 +53,7 @@ def read_source(path: Path, *, animated: bool = False) -> GltfSource:
 
 
 def invalid(path: Path | str, detail: str) -> FileError:
-    """Return the error for a file with unsuitable content."""
+    """Return the error for a file whose content cannot be used; ``detail`` describes the fault."""
     return FileError("model.invalid", file=str(path), detail=detail)
 
 
@@ -113,7 +113,7 @@ def build_mesh(source: GltfSource, index: int, name: str) -> tuple[Mesh, bool]:
 
 
 def moved_mesh(mesh: Mesh, change: FloatArray, joints: npt.NDArray[np.int32], weights: SingleArray) -> Mesh:
-    """Return a mesh with transformed vertices and other skinning."""
+    """Return a mesh with its vertices transformed by the matrix ``change`` (4, 4), and with other skinning."""
     values = {field: getattr(mesh, field) for field in Mesh.__dataclass_fields__}
     values.update(joints=joints, weights=weights)
     if np.abs(change - np.eye(4)).max() > 1e-9:

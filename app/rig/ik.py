@@ -34,7 +34,7 @@ class Limb:
     upper, lower, end : int
         Joints: shoulder, elbow, wrist; or hip, knee, ankle.
     upper_vector_m, lower_vector_m : (3,) float64
-        From each joint to the next at rest.
+        Vector from each joint to the next at rest.
     hinge_axis : (3,) float64
         Unit axis at rest about which a positive rotation of the lower bone bends the limb.
     twist_share : float
@@ -51,12 +51,12 @@ class Limb:
 
     @cached_property
     def upper_m(self) -> float:
-        """Length of the upper bone."""
+        """Length of the upper bone in metres."""
         return float(np.linalg.norm(self.upper_vector_m))
 
     @cached_property
     def lower_m(self) -> float:
-        """Length of the lower bone."""
+        """Length of the lower bone in metres."""
         return float(np.linalg.norm(self.lower_vector_m))
 
     @property
@@ -66,7 +66,9 @@ class Limb:
 
     @cached_property
     def rest_frames(self) -> tuple[FloatArray, FloatArray]:
-        """Return the rotation (4,) from the world to each bone's direction and hinge at rest."""
+        """Return for both bones the rotation (4,) at rest from the world to a frame of the bone's direction
+        and hinge.
+        """
         upper = _rest_frame(self.upper_vector_m / self.upper_m, self.hinge_axis)
         return upper, _rest_frame(self.lower_vector_m / self.lower_m, self.hinge_axis)
 
@@ -145,13 +147,17 @@ def solve_limb(
 def swivelled(
     limb: Limb, pose: LimbPose, turn: FloatArray, parent_rotation: FloatArray, target_rotation: FloatArray
 ) -> LimbPose:
-    """Return the limb rotated (F, 4) in the world about the line from its root to its target; the end is unchanged."""
+    """Return the limb rotated by ``turn`` (F, 4), in the world, about the line from its root to its target; the end
+    keeps its place and rotation.
+    """
     upper_world, lower_world = (quaternion.multiply(turn, bone) for bone in pose.bones)
     return _posed(limb, (upper_world, lower_world), parent_rotation, target_rotation, pose.miss_m)
 
 
 def end_of(limb: Limb, lower_world: FloatArray, target_rotation: FloatArray) -> FloatArray:
-    """Return ``parent_from_joint`` (F, 4) of the end for a lower bone without its share of the twist."""
+    """Return the rotation ``parent_from_joint`` (F, 4) of the end; ``lower_world`` is the lower bone before its share
+    of the twist.
+    """
     twisted = _with_twist(limb, lower_world, target_rotation)
     return quaternion.multiply(quaternion.conjugate(twisted), target_rotation)
 
@@ -190,8 +196,9 @@ def _soft_limit(distance: FloatArray, longest: float, shortest: float) -> FloatA
 
 
 def _rest_frame(rest: FloatArray, hinge: FloatArray) -> FloatArray:
-    """Return the rotation (4,) that takes a bone's direction at rest, and the part of its hinge orthogonal to that, to
-    the coordinate axes."""
+    """Return the rotation (4,) from the world to a frame whose axes are a bone's rest direction, and the component of
+    its hinge orthogonal to that.
+    """
     hinge = hinge - rest * float(rest @ hinge)
     return quaternion.conjugate(quaternion.from_frames(rest, hinge / np.linalg.norm(hinge)))
 

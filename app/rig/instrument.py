@@ -19,8 +19,8 @@ from instrument_maps.model import ROOT, ControlMotion, InstrumentMap, MovingPart
 def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentModel:
     """Load an instrument's model.
 
-    The node that the map names as root gives the frame; nodes that the map's controls move follow in its order. Every
-    other node belongs to its nearest ancestor among these.
+    Node 0 of the model is the root named in the map, whose frame is the instrument's. Nodes that controls move follow
+    in the map's order. Meshes of every other node belong to its nearest ancestor among these.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def part_transform(motion: ControlMotion, values: npt.ArrayLike) -> tuple[FloatA
     ----------
     motion : instrument_maps.model.ControlMotion
     values : (F,)
-        0..1.
+        Positions of the part, 0..1.
 
     Returns
     -------

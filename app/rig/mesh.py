@@ -29,13 +29,16 @@ class Mesh:
     Attributes
     ----------
     positions_m, normals : (V, 3) float32
+        In the mesh's bind space.
     uvs : (V, 2) float32
+        Texture coordinates.
     triangles : (T, 3) int32
+        Vertex indices.
     triangle_materials : (T,) int32
         Index into ``materials``.
     joints, weights : (V, K) int32 and float32
-        Skinning of a character's mesh; weights of a vertex sum to 1. An instrument's mesh is rigid: K = 1 and the
-        index is a node of the `InstrumentModel`.
+        Skinning of a character's mesh; weights of a vertex sum to 1. An instrument's mesh is rigid: K = 1 and the index
+        is a node of the `InstrumentModel`.
     """
 
     name: str
@@ -61,6 +64,6 @@ def plain_materials(mesh: Mesh) -> tuple[Material, ...]:
 
 
 def scaled_mesh(mesh: Mesh, size: float) -> Mesh:
-    """A mesh made larger or smaller as a whole."""
+    """Return a mesh scaled as a whole."""
     morphs = tuple(replace(morph, deltas_m=(size * morph.deltas_m).astype(np.float32)) for morph in mesh.morphs)
     return replace(mesh, positions_m=(size * mesh.positions_m).astype(np.float32), morphs=morphs)

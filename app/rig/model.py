@@ -26,7 +26,7 @@ class Skeleton:
     names : tuple of str
         ``root``, then VRM 1.0 humanoid names and any further joints of the character.
     parents : tuple of int
-        Index of the parent, -1 for the root.
+        Index of each joint's parent, -1 for the root.
     offsets_m : (J, 3) float64
         Offset of each joint in its parent's frame at rest, metres.
     """
@@ -60,13 +60,13 @@ class Character:
     joint_from_mesh : (J, 4, 4) float64
         Inverse bind matrices; skinning is ``world_from_joint @ joint_from_mesh @ position``.
     own : OwnSkeleton or None
-        Skeleton of the character's file; None if it is this skeleton.
+        Original figure and its bones, if the skeleton was made from those of the user's file; else None.
     hands_of : Character or None
         Character with identical hands, down to the vertices; None if the hands are unique.
     made_from : Character or None
-        Body that a person is made from; None for the body of a file.
+        Bundled body that a person is made from; None for a character read from a file.
     made_of : str
-        Digest of the phenotype that a person is made of; empty for other bodies.
+        Digest of the phenotype of a bundled body that was made from another one; empty for other bodies.
     """
 
     id: str
@@ -91,7 +91,7 @@ class InstrumentModel:
     node_positions_m : (N, 3) float64
         Rest position of each node in the instrument's frame (rest rotations are the identity).
     meshes : tuple of Mesh
-        Vertices in the instrument's frame at rest; `Mesh.joints` names the node each vertex moves with.
+        Meshes with vertices in the instrument's frame at rest; `Mesh.joints` is the node that each vertex moves with.
     """
 
     id: str

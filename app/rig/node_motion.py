@@ -1,8 +1,8 @@
-"""Animations of FBX and glTF files in the form of BVH files for `app.choreography.read_motion`.
+"""Animations of FBX and glTF files, converted to the form of BVH files for `app.choreography.read_motion`.
 
 Nodes have rest rotations and scales, which joints of BVH files lack. So each node becomes a joint with the node's
-rotation relative to its rest, below a common root. The rest is the bind pose of its skin, or the file's pose without
-animation. The longest animation is read.
+rotation relative to its rest, below a common root. The rest pose is the bind pose of the skin, or the file's pose
+without animation. The longest animation is read.
 """
 
 from __future__ import annotations
@@ -46,13 +46,13 @@ class _Nodes:
     Attributes
     ----------
     names, parents
-        Parents in any order; -1 for none.
+        Name and parent of each node; parents in any order, -1 for none.
     other : collection of int
         Nodes that are not bones unless bones are below them: meshes, cameras, lights.
     rest : (N, 4, 4) float64
-        World transforms.
+        World transforms at rest.
     translations_m, rotations, scales : (F, N, 3), (F, N, 4), (F, N, 3) float64
-        Relative to the parent; F frames.
+        Values relative to the parent in F frames.
     """
 
     names: Sequence[str]
@@ -66,7 +66,7 @@ class _Nodes:
 
 
 def read_fbx_motion(path: Path) -> BvhClip:
-    """The longest animation of an FBX file. Raises FileError."""
+    """Read the longest animation of an FBX file. Raises FileError."""
     content = read_foreign_motion(path)
     require_frames(str(path), content.length_s, float(content.fps), len(content.nodes), path.stat().st_size)
     if len(content.transforms) < 2:
@@ -89,7 +89,7 @@ def read_fbx_motion(path: Path) -> BvhClip:
 
 
 def read_gltf_motion(path: Path) -> BvhClip:
-    """The longest animation of a glTF file (.glb, .gltf, .vrma). Raises FileError."""
+    """Read the longest animation of a glTF file (.glb, .gltf, .vrma). Raises FileError."""
     source = read_source(path, animated=True)
     gltf = source.gltf
     bones, no_bones = _vrm_animation(gltf)
@@ -113,7 +113,7 @@ def read_gltf_motion(path: Path) -> BvhClip:
 
 
 def _vrm_animation(gltf: GltfModel) -> tuple[dict[int, str], set[int]]:
-    """Return humanoid bones by node, and the nodes for expressions and gaze, in a VRM animation."""
+    """Return the humanoid bone of each node, and the nodes that carry expressions and gaze, of a VRM animation."""
     extension = field(gltf.extensions, VRM_ANIMATION)
     kinds = field(extension, "expressions")
     faces = [one for kind in ("preset", "custom") for one in _members(field(kinds, kind)).values()]
@@ -148,8 +148,9 @@ def _usual_fps(animation: GltfAnimation) -> Fraction:
 
 
 def _sampled(gltf: GltfModel, animation: GltfAnimation, times_s: FloatArray) -> list[FloatArray]:
-    """Return translations, rotations and scales (F, N, W) of N nodes at F times, with the file's values for those
-    without animation; W is 3 or 4 numbers."""
+    """Return translations (F, N, 3), rotations (F, N, 4) and scales (F, N, 3) of N nodes at F times; nodes without
+    animation keep the file's values.
+    """
     kept: dict[str, tuple[str, int]] = {
         "translation": ("translation", 3),
         "rotation": ("rotation_xyzw", 4),
@@ -167,7 +168,7 @@ def _sampled(gltf: GltfModel, animation: GltfAnimation, times_s: FloatArray) -> 
 
 
 def _clip(nodes: _Nodes) -> BvhClip:
-    """Return joints with the nodes' rotations relative to their rest."""
+    """Return the animation as a BVH clip with a joint for each bone, rotated relative to its rest."""
     order = _bones(nodes.parents, nodes.other)
     joint_of = {node: 1 + at for at, node in enumerate(order)}
     frames = len(nodes.rotations)
@@ -208,7 +209,9 @@ def _clip(nodes: _Nodes) -> BvhClip:
 
 
 def _bones(parents: Sequence[int], other: Collection[int]) -> list[int]:
-    """Return the nodes that are bones or have bones below them, parents first."""
+    """Return the nodes that are bones or have bones below them, parents first; ``other`` nodes are no bones
+    themselves.
+    """
     children: dict[int, list[int]] = {}
     for node, parent in enumerate(parents):
         children.setdefault(parent, []).append(node)

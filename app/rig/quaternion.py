@@ -42,7 +42,7 @@ _PRODUCT = (
 
 
 def _is_one(a: npt.NDArray[Any], size: int) -> bool:
-    """Return whether `a` is a single float64 vector, for which plain Python is faster with equal results."""
+    """Return whether ``a`` is a single float64 vector of ``size`` numbers, for which plain Python is faster."""
     return a.size == size and a.dtype == np.float64
 
 
@@ -52,7 +52,7 @@ def _are_few(a: npt.NDArray[Any], b: npt.NDArray[Any]) -> bool:
 
 
 def columns(*components: ArrayLike) -> FloatArray:
-    """Return vectors (..., n) of n components (...), copied component by component in memory."""
+    """Return vectors (..., n) made of n components (...); in memory, each component is contiguous."""
     result = np.empty((len(components), *np.broadcast(*components).shape))
     for index, values in enumerate(components):
         result[index] = values
@@ -60,7 +60,7 @@ def columns(*components: ArrayLike) -> FloatArray:
 
 
 def repeated(vector: ArrayLike, count: int) -> FloatArray:
-    """Return one vector (n,) repeated as (count, n), in the memory layout of `columns`."""
+    """Return a vector (n,) repeated as (count, n); in memory, each component is contiguous as in `columns`."""
     components = np.empty((np.shape(vector)[0], count))
     components[...] = np.asarray(vector)[:, None]
     return _together(components)
@@ -81,7 +81,7 @@ def dot(a: ArrayLike, b: ArrayLike) -> FloatArray:
 
 
 def multiply(a: ArrayLike, b: ArrayLike) -> FloatArray:
-    """Return the product: first b, then a. Shapes (..., 4)."""
+    """Return the product of quaternions (..., 4), the rotation by b and then by a."""
     a, b = np.asarray(a), np.asarray(b)
     if _is_one(a, 4) and _is_one(b, 4):
         ax, ay, az, aw = a.ravel().tolist()
@@ -113,7 +113,7 @@ def multiply(a: ArrayLike, b: ArrayLike) -> FloatArray:
 
 
 def conjugate(q: ArrayLike) -> FloatArray:
-    """Return the inverse rotation. Shape (..., 4)."""
+    """Return the inverse of unit quaternions (..., 4)."""
     result: FloatArray = np.asarray(q, dtype=np.float64) * _CONJUGATE
     return result
 
@@ -180,7 +180,7 @@ def from_rotation_vector(v: ArrayLike) -> FloatArray:
 
 
 def to_rotation_vector(q: ArrayLike) -> FloatArray:
-    """Return rotation vectors (..., 3) of the shorter turn of quaternions (..., 4)."""
+    """Return rotation vectors (..., 3), in radians, of quaternions (..., 4), each by the shorter of the two ways."""
     q = np.asarray(q, dtype=np.float64)
     sine = np.sqrt(dot(q[..., :3], q[..., :3]))
     sign = np.where(q[..., 3] < 0.0, -1.0, 1.0)
@@ -228,7 +228,7 @@ def from_matrix(m: ArrayLike) -> FloatArray:
 
 
 def _from_entries(m: Sequence[FloatArray]) -> FloatArray:
-    """Return quaternions of matrices given by their nine entries (...), row by row."""
+    """Return quaternions (..., 4) of matrices given by their nine entries (...), row by row."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = m
     diagonal = (1.0 + xx - yy - zz, 1.0 - xx + yy - zz, 1.0 - xx - yy + zz, 1.0 + xx + yy + zz)
     sums, differences = (zy + yz, xz + zx, yx + xy), (zy - yz, xz - zx, yx - xy)
@@ -273,7 +273,7 @@ def from_frames(x_axis: ArrayLike, y_axis: ArrayLike) -> FloatArray:
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return a x b (..., 3), as `numpy.cross` does with less ado."""
+    """Return the cross product (..., 3) of vectors; faster than `numpy.cross`."""
     if _is_one(a, 3) and _is_one(b, 3):
         x, y, z = a.ravel().tolist()
         u, v, w = b.ravel().tolist()
@@ -376,7 +376,9 @@ def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -
 
 
 def mixed(near: FloatArray, far: FloatArray, share: FloatArray) -> FloatArray:
-    """Interpolate rotations from the first (share 0) to the second (share 1), the shorter way."""
+    """Return normalised linear mixtures of rotations (..., 4), by the shorter way: ``near`` at share 0, ``far`` at
+    share 1.
+    """
     sign = np.where(dot(near, far) < 0.0, -1.0, 1.0)[..., None]
     mixed: FloatArray = near * (1.0 - share) + far * (sign * share)
     mixed /= np.sqrt(dot(mixed, mixed))[..., None]

@@ -20,8 +20,9 @@ class JointTransforms:
     Attributes
     ----------
     joints : tuple of int
-        Ascending (topological).
+        Indices of the joints, ascending, so that parents come first.
     positions_m : (F, len(joints), 3) float64
+        World positions.
     rotations : (F, len(joints), 4) float64
         ``world_from_joint``.
     """
@@ -82,7 +83,7 @@ def forward(
     hips_m : (F, 3), optional
         Translation of the hips in the root's frame; the rest offset if absent.
     joints : iterable of int, optional
-        All if absent.
+        Requested joints; all if absent.
     """
     requested = closure(skeleton, range(len(skeleton.names)) if joints is None else joints)
     place = {joint: index for index, joint in enumerate(requested)}

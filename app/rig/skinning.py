@@ -22,11 +22,13 @@ class Skin:
     Attributes
     ----------
     positions_m : (V, 3) float64
-        In the mesh's bind space.
+        Positions in the mesh's bind space.
     joints : (J,) int
         Joints with weight for any of the vertices.
     weights : (V, J) float64
+        Weight of each joint on each vertex.
     joint_from_mesh : (J, 3, 4) float64
+        Inverse bind matrices.
     morphs : dict of str to (V, 3) float64
         Displacements of the morphs that move any of the vertices.
     """
@@ -39,13 +41,15 @@ class Skin:
 
     @cached_property
     def _blend(self) -> FloatArray:
-        """Matrix (4 J, V) that skins V vertices with J joints in all frames by one product."""
+        """Return the matrix (4 J, V) whose product with the joints' matrices of all frames gives the skinned
+        vertices.
+        """
         homogeneous = np.concatenate([self.positions_m, np.ones((len(self.positions_m), 1))], axis=1)
         blend: FloatArray = np.einsum("vj,vi->jiv", self.weights, homogeneous).reshape(-1, len(self.positions_m))
         return blend
 
     def part(self, rows: AnyIntArray) -> Skin:
-        """Return the data prepared for skinning, of only the vertices ``rows``."""
+        """Return the skinning data of only the vertices ``rows``."""
         weights = self.weights[rows]
         used = np.flatnonzero(weights.any(axis=0))
         morphs = {name: deltas[rows] for name, deltas in self.morphs.items() if deltas[rows].any()}
@@ -58,7 +62,7 @@ class Skin:
         Parameters
         ----------
         world_from_joint : (F, A, 4, 4) float64
-            Of all joints.
+            Transforms of all joints of the character.
         morphs : dict of str to (F,), optional
             Weight curves by morph name.
         """
@@ -82,7 +86,7 @@ class Skin:
 
 @dataclass(frozen=True, eq=False)
 class Patch(Skin):
-    """Vertices prepared for skinning as `Skin`, with the normals (V, 3) of the V vertices."""
+    """Skinning data as in `Skin`, with the normals (V, 3) of the vertices."""
 
     normals: FloatArray
 
@@ -108,14 +112,15 @@ def skin_of(
     Parameters
     ----------
     vertices : (V,) int
+        Indices of the vertices.
     positions_m : (N, 3)
-        Of all vertices of the mesh.
+        Positions of all vertices of the mesh.
     joints, weights : (V, K)
         Joints and weights of the vertices; weights of a repeated joint are added.
     joint_from_mesh : (J, 3 or more, 4) float64
-        Of all joints.
+        Inverse bind matrices of all joints.
     morphs : iterable of (name, vertices, displacements)
-        Of the mesh; displacements (M, 3) in metres.
+        Morphs of the mesh: M vertices, and their displacements (M, 3) in metres.
     """
     dense = np.zeros((len(vertices), len(joint_from_mesh)))
     np.add.at(dense, (np.arange(len(vertices))[:, None], joints), weights)
@@ -165,9 +170,13 @@ class LandmarkSet:
     Attributes
     ----------
     joints : (J,) int
+        Joints that influence any of the landmarks.
     joint_from_mesh : (J, 3, 4) float64
+        Their inverse bind matrices.
     points : (J, 4, L) float64
+        Weighted homogeneous point of each joint for each of L landmarks.
     morphs : dict of str to (J, 3, L) float64
+        Weighted displacement of these points by each morph.
     """
 
     names: tuple[str, ...]

@@ -19,13 +19,15 @@ FOOT_PART: Final = 1.6
 
 
 def foot_tip_m(skeleton: Skeleton, side: Side) -> FloatArray:
-    """(3,) the tip of a foot's sole, from the ankle, in the T-pose."""
+    """Return the tip (3,) of a foot's sole relative to the ankle in the T-pose, in metres."""
     way, ankle_m = sole_way_m(skeleton, side)
     return np.array([(1.0 + TIP_PART) * way[0], -ankle_m, (1.0 + TIP_PART) * way[2]])
 
 
 def sole_way_m(skeleton: Skeleton, side: Side) -> tuple[FloatArray, float]:
-    """(3,) from the ankle to the joint of the toes in the T-pose, and the height of the ankle."""
+    """Return the vector (3,) from the ankle to the joint of the toes in the T-pose, and the height of the ankle, in
+    metres.
+    """
     rest = rest_positions(skeleton)
     ankle, toes = rest[skeleton.index(f"{side}Foot")], f"{side}Toes"
     way = rest[skeleton.index(toes)] - ankle if toes in skeleton.names else np.array([0.0, 0.0, FOOT_PART * ankle[1]])

@@ -1,7 +1,8 @@
 """The available characters: bundled ones, and those in the user's own folder (see `app.formats.user_folder`).
 
-A character of the user's is a file (VRM, glTF or FBX) with ``<id>.toml`` beside it, which contains the file's name and
-manual corrections of joints and face shapes. Or it is only ``<id>.toml`` with a person made from a bundled body.
+A character of the user is a file (VRM, glTF or FBX) with ``<id>.toml`` beside it, which contains the file's name and
+manual corrections of joints and face shapes. A person made from a bundled body has no file of its own, only
+``<id>.toml``.
 """
 
 from __future__ import annotations
@@ -57,7 +58,7 @@ class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, om
     morphs : dict of str to dict of str to float
         Weights of the file's morphs for each corrected ARKit shape.
     height_m : float
-        Of the character; 0: as tall as in the file.
+        Height of the character; 0 for the height in the file.
     hidden : list of str
         Meshes of the file that are hidden.
     person : Person or None
@@ -84,7 +85,7 @@ class CharacterSource:
     entry : CharacterEntry or None
         Contents of ``<id>.toml`` in the user's folder; None for a bundled character.
     stamp : frozenset
-        State of the files when they were read.
+        Size and time of change of the files when they were read.
     """
 
     path: Path
@@ -94,7 +95,7 @@ class CharacterSource:
 
 @dataclass(frozen=True)
 class CharacterLibrary(Shelf[CharacterSource]):
-    """All characters in the state of the last reading of the folder."""
+    """All characters as of the last reading of the folder."""
 
     @property
     def sources(self) -> Mapping[str, CharacterSource]:
@@ -109,7 +110,7 @@ class CharacterLibrary(Shelf[CharacterSource]):
 
 @cache
 def bundled_characters() -> Mapping[str, Path]:
-    """Return the finished bodies: id and file, in the order of their ids. Looked up once."""
+    """Return the files of the bundled bodies by id, in the order of their ids. Looked up once."""
     folder = Path(str(files("resources"))) / "characters"
     return MappingProxyType({path.stem: path for path in sorted(folder.glob("*.glb"))})
 
@@ -142,7 +143,7 @@ def _own_source(path: Path) -> Read[CharacterSource]:
 
 
 def read_entry(path: Path) -> CharacterEntry:
-    """Read the description of a character of the user's. Raises FileError, MapError."""
+    """Read the entry (``<id>.toml``) of a character of the user. Raises FileError, MapError."""
     entry = shaped(read_toml(path), CharacterEntry, str(path))
     if entry.person is not None:
         checked(entry.person, str(path))
@@ -179,7 +180,7 @@ def characters() -> Mapping[str, Path]:
 
 
 def character_revision(id: str) -> int:
-    """Return the number of times that the character of an id was replaced; part of the keys of caches."""
+    """Return the number of times that the character with an id was replaced, as part of cache keys."""
     return character_library().revisions.get(id, 0)
 
 
@@ -235,7 +236,9 @@ def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
 
 
 def carriage_of(id: str, instrument_id: str) -> tuple[float, float, float] | None:
-    """Return the carriage of an instrument by a person, three shares as in `Person.carriages`; None: as usual."""
+    """Return the carriage of an instrument by a person: pitch, yaw and roll as in `Person.carriages`; None for the
+    usual one.
+    """
     entry = character_library().own.get(id)
     person = bundled_person(id) if id in bundled_people() else None if entry is None else entry.person
     return None if person is None else person.carriages.get(instrument_id)
@@ -302,7 +305,7 @@ def add_character(
 
 
 def _keep_images(path: Path, folder: Path) -> None:
-    """Copy the images beside an FBX file into a folder. Raises FileError."""
+    """Copy into a folder the images that an FBX file uses and that are next to it. Raises FileError."""
     from app.rig.characters.figure_fbx import fbx_images  # starts a process, for FBX files alone
 
     images = fbx_images(path)
@@ -379,7 +382,7 @@ def _free_id(title: str, folder: Path) -> str:
 
 
 def _suffix_of(path: Path) -> str:
-    """Return the suffix that a file's content requires."""
+    """Return the suffix (``.glb``, ``.fbx`` or ``.gltf``) that fits a file's first bytes."""
     with open_file(path) as opened:
         start = opened.read(16)
     return ".glb" if start.startswith(b"glTF") else ".fbx" if start.startswith(b"Kaydara") else ".gltf"

@@ -1,4 +1,4 @@
-"""Characters in outfits: people can change their clothes, other figures cannot."""
+"""Characters in outfits: clothes can be changed on persons, not on other figures."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def person_behind(id: str) -> Person | None:
 
 
 def character_in(id: str, choice: OutfitChoice) -> Character:
-    """Return a character in an outfit, or unchanged if it is not a person. Raises as `character_named`."""
+    """Return a character in an outfit, or unchanged if it is not a person. Raises the errors of `character_named`."""
     character = character_named(id)
     return _dressed(character, choice) if choice.id else character
 
 
 def dressed_as(id: str, choice: OutfitChoice) -> str:
-    """Return the id of the result of `character_in`, which is unique for the clothes and colours, without building
-    it.
+    """Return the id of the character that `character_in` returns, without building it. It differs for all clothes and
+    colours.
     """
     person = person_behind(id)
     return id if person is None else dressed_id(id, person, choice)

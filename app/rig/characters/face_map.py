@@ -79,7 +79,7 @@ _kept: WeakKeyDictionary[Figure, dict[str, dict[str, dict[str, float]]]] = WeakK
 
 
 def _found(figure: Figure) -> dict[str, dict[str, dict[str, float]]]:
-    """Return the mapping of a figure by each table, cached, since every correction needs it."""
+    """Return the mapping of a figure's morphs by each table of face names, cached, since every correction needs it."""
     known = _kept.get(figure)
     if known is None:
         known = _kept[figure] = {name: _shapes(figure, table) for name, table in load_face_names().items()}

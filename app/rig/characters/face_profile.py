@@ -1,4 +1,4 @@
-"""Profile of a face that does not move: its chin, its nose, and the height at which its lips meet."""
+"""Measurement of a face at rest in profile: chin, nose, and the height at which the lips meet."""
 
 from __future__ import annotations
 
@@ -22,8 +22,11 @@ MOUTH_SHARE, MOUTH_SPREAD = 0.63, 0.09
 
 
 def lowest_of_face_m(profile: FloatArray, forward: BoolArray, joint_m: float) -> float:
-    """Lowest height of a profile (V, 3) above which it does not go back behind its front: a collar that hangs on the
-    head, below its joint, is not its chin."""
+    """Return the lowest height of a face, in metres, from V points of its front (V, 3).
+
+    ``forward`` (V,) marks the points whose skin faces forward. The face ends above a gap without such points, so that a
+    collar below the head's joint (at the height ``joint_m``) is not taken for the chin.
+    """
     heights = np.unique(profile[forward, 1])[::-1]
     for above_m, below_m in pairwise(heights):
         between = ~forward & (profile[:, 1] < above_m) & (profile[:, 1] > below_m)
@@ -33,8 +36,9 @@ def lowest_of_face_m(profile: FloatArray, forward: BoolArray, joint_m: float) ->
 
 
 def nose_base_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float | None:
-    """Return the height, metres, at which the nose of a profile of V points (V, 3) ends; None where no nose stands
-    out."""
+    """Return the height in metres of the lower end of the nose in a profile of V points (V, 3), between eyes and chin;
+    None if no nose protrudes.
+    """
     high, deep, long_m = profile[:, 1], profile[:, 2], eyes_m - chin_m
     of_chin_m = chin_m + CHIN_SHARE * long_m
     middle = np.flatnonzero((high > of_chin_m) & (high < eyes_m))
@@ -53,9 +57,9 @@ def nose_base_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float | No
 
 
 def at_height(profile: FloatArray, height_m: float, patch_m: float, count: int) -> IndexArray:
-    """At most ``count`` vertices of a profile (V, 3) about a height.
+    """Return the indices of at most ``count`` vertices of a profile (V, 3) near a height, all within ``patch_m`` of it.
 
-    Where no vertex is near, the next ones above and below it are taken if their middle is nearer than either.
+    If none is that near, the next vertices above or below are used, or both if their middle is nearer to the height.
     """
     off_m = np.abs(profile[:, 1] - height_m)
     if float(off_m.min()) > patch_m:
@@ -70,8 +74,9 @@ def at_height(profile: FloatArray, height_m: float, patch_m: float, count: int) 
 
 
 def notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:
-    """Return the height, metres, at which a profile of V points (V, 3) goes in between two lips; where it does not,
-    that at which most faces do."""
+    """Return the height in metres at which a profile of V points (V, 3) recedes between two lips; without such a notch,
+    the usual height between eyes and chin.
+    """
     steps = np.round((eyes_m - profile[:, 1]) / max(eyes_m - chin_m, 1e-6) * STEPS).astype(np.intp)
     low, high = (round((MOUTH_SHARE + sign * MOUTH_SPREAD) * STEPS) for sign in (-1, 1))
     depths_m = np.array([profile[steps == step, 2].max(initial=-np.inf) for step in range(low, high + 1)])

@@ -46,7 +46,7 @@ class NodeHierarchy:
     parents : sequence of int
         Parents in any order; -1 for none.
     world_from_node : (N, 4, 4) float64
-        At rest, scales and all.
+        Transforms at rest, including scales.
     joints : collection of int
         Nodes that the file uses as bones: of skins or of the humanoid.
     other : collection of int
@@ -73,7 +73,9 @@ class FigurePart:
     Attributes
     ----------
     mesh : Mesh
-        `Mesh.joints` are places in `nodes`.
+        Mesh whose `Mesh.joints` are indices in `nodes`.
+    nodes : tuple of int
+        Nodes of the file that move the mesh, M of them.
     world_from_mesh : (M, 4, 4) float64
         Transform of the mesh's space for each of these nodes, at rest.
     """
@@ -96,10 +98,17 @@ def build_figure(
     Parameters
     ----------
     file : str
-        For messages.
+        Name of the file, for messages.
     origin : str
+        Format of the file.
+    nodes : NodeHierarchy
+        All nodes of the file.
+    parts : sequence of FigurePart
+        Meshes and the nodes that move them.
     humanoid : mapping of str to int
-        VRM 1.0 joint to node.
+        Node of each VRM 1.0 joint that the file names.
+    expressions : mapping of str to mapping of str to float, optional
+        Weights of morphs in each expression of the file.
 
     Raises
     ------
@@ -145,9 +154,10 @@ def transforms_differ(a: FloatArray, b: FloatArray) -> bool:
 
 
 def rest_pose(parents: Sequence[int], posed: FloatArray, bound: Mapping[int, FloatArray]) -> FloatArray:
-    """Return rest transforms (N, 4, 4): joints as bound, other nodes relative to these.
+    """Return rest transforms (N, 4, 4): joints in the pose in which their skin was bound, other nodes relative to them.
 
-    Skinning is exact only in that pose; in others, vertices with several bones are blended twice.
+    The result is the bind pose of the skin: only there skinning changes nothing, whereas in any other pose vertices
+    with several bones would already be blended.
 
     Parameters
     ----------
@@ -223,7 +233,7 @@ def _nearest_above(nodes: NodeHierarchy, node: int, bone_of: Mapping[int, int]) 
 
 
 def nearest_rotations(world: FloatArray) -> FloatArray:
-    """Return the rotations (N, 4) nearest to transforms that may scale, shear and mirror."""
+    """Return the rotations (N, 4) nearest to N transforms (N, 4, 4) that may also scale, shear and mirror."""
     left, _, right = np.linalg.svd(world[:, :3, :3])
     left[:, :, 2] *= np.linalg.det(left @ right)[:, None]
     return quaternion.from_matrix(left @ right)
@@ -235,7 +245,7 @@ def _named_apart(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
 
 
 def _unheld(part: FigurePart, file: str) -> Message | None:
-    """Return a note about vertices without bones in a skinned mesh, if there are any."""
+    """Return a note for the user if vertices of a skinned mesh have no bones; None otherwise."""
     count = int((part.mesh.weights.sum(axis=1) <= 0.0).sum())
     if not count:
         return None
@@ -243,7 +253,9 @@ def _unheld(part: FigurePart, file: str) -> Message | None:
 
 
 def _at_rest(part: FigurePart, above: Sequence[int]) -> Mesh:
-    """Return the mesh with its vertices in the world at rest, with bones as joints."""
+    """Return the mesh with its vertices in world space at rest. ``above`` is the bone of each node, to which the joints
+    are converted.
+    """
     mesh = part.mesh
     weights = np.maximum(mesh.weights.astype(np.float64), 0.0)
     total = weights.sum(axis=1)

@@ -68,8 +68,9 @@ def fbx_images(path: Path) -> dict[str, bytes]:
 
 
 def _bind_pose(content: FbxContent) -> Mapping[int, FloatArray]:
-    """Return the transform (4, 4) of each bone in the world when its skin was bound, by bone; empty if skins contradict
-    each other."""
+    """Return the world transform (4, 4) of each bone in the pose in which its skin was bound, by bone; empty if skins
+    contradict each other.
+    """
     bound: dict[int, FloatArray] = {}
     for mesh in content.meshes:
         for skin in mesh.skins:
@@ -128,8 +129,11 @@ def _parts(
 
 
 def _influences(clusters: list[FbxCluster], count: int) -> tuple[npt.NDArray[np.int32], SingleArray]:
-    """Return the clusters (bones) and weights (P, K) of each of P points of an FBX mesh, the heaviest first, as wide as
-    the busiest point needs."""
+    """Return the indices of clusters (each of one bone) and their weights (P, K) for P points of an FBX mesh, heaviest
+    first.
+
+    K is the greatest number of clusters at any point.
+    """
     points = np.concatenate([cluster.points for cluster in clusters])
     weights = np.concatenate([cluster.weights[: len(cluster.points)] for cluster in clusters])
     owners = np.repeat(np.arange(len(clusters)), [len(cluster.points) for cluster in clusters])
@@ -209,6 +213,6 @@ def _morphs(file: str, mesh: FbxMesh, points: IntArray) -> tuple[Morph, ...]:
 
 
 def _counted(counts: IntArray) -> IntArray:
-    """Return the numbers 0 to n - 1 for each count n, concatenated."""
+    """Return 0 to n - 1 for each n in ``counts``, concatenated."""
     result: IntArray = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
     return result

@@ -74,7 +74,7 @@ def gltf_figure(path: Path) -> Figure:
 
 
 def bind_pose(source: GltfSource) -> Mapping[int, FloatArray]:
-    """Return the transform (4, 4) of each joint in the world when its skin was bound, by node; empty if skins
+    """Return the world transform (4, 4) of each joint in the pose in which its skin was bound, by node; empty if skins
     contradict each other.
 
     A skin is bound in a space of its own, whose place in the world follows from the root joint of the skin, or from a
@@ -99,7 +99,7 @@ def bind_pose(source: GltfSource) -> Mapping[int, FloatArray]:
 
 
 def _depths(source: GltfSource) -> list[int]:
-    """Return the number of ancestors of each node."""
+    """Return the number of ancestors of each node of a glTF file."""
     depths = []
     for node in source.gltf.nodes:
         depth, above = 0, node.parent
@@ -147,7 +147,7 @@ def _parts(source: GltfSource) -> list[FigurePart]:
 
 
 def _lower_levels(source: GltfSource) -> frozenset[int]:
-    """Return the nodes that replace others at a distance (extension MSFT_lod)."""
+    """Return the nodes that are simplified versions of other nodes, for greater distances (extension MSFT_lod)."""
     levels = (entry.extensions.get("MSFT_lod") for entry in source.gltf.nodes)
     ids = (one.get("ids") for one in levels if isinstance(one, dict))
     return frozenset(id for some in ids if isinstance(some, list) for id in some if isinstance(id, int))
@@ -161,7 +161,9 @@ def morph_name(source: GltfSource, mesh: int, name: str) -> str:
 
 
 def _members(owner: object, name: str) -> list[dict[str, Any]]:
-    """Return the objects in a list of a JSON object of unknown content."""
+    """Return the list ``name`` of a JSON object, without entries that are no objects; empty if there is no
+    such list.
+    """
     values = owner.get(name) if isinstance(owner, dict) else None
     return [value for value in values if isinstance(value, dict)] if isinstance(values, list) else []
 
@@ -225,8 +227,10 @@ def _vrm0(vrm: dict[str, Any], source: GltfSource) -> tuple[dict[str, int], dict
 def _add(
     weights: dict[str, float], source: GltfSource, mesh: int | None, index: object, weight: object, unit: float
 ) -> None:
-    """Add a VRM expression's bind (morph ``index`` of a mesh with a weight) to ``weights`` by morph name; invalid binds
-    are ignored, as viewers do. ``unit`` is the weight that means full."""
+    """Add a bind of a VRM expression (morph ``index`` of a mesh, with a weight) to ``weights`` by morph name.
+
+    Invalid binds are ignored, as viewers do. ``unit`` converts the weight to 0..1.
+    """
     share = _number(weight)
     if mesh is None or share is None or not source.gltf.meshes[mesh].primitives:
         return

@@ -55,7 +55,7 @@ def figure_character(
     morphs : mapping of str to mapping of str to float
         Weights of the figure's morphs by ARKit shape.
     height_m : float
-        Of the character; 0: as tall as the figure is.
+        Height of the character; 0 for the figure's height.
 
     Raises
     ------
@@ -92,7 +92,9 @@ def figure_character(
 
 
 def _fitted(figure: Figure, rest: Rest, bones: Mapping[str, int]) -> Fit:
-    """Return the joints in the profile's order; missing ends of chains have no position yet (NaN)."""
+    """Return the joints of the character in the order of the skeleton profile, with their bones. Missing joints at the
+    ends of chains have no position yet (NaN).
+    """
     profile = [joint for joint in load_skeleton().joints if joint.name not in OPTIONAL or joint.name in bones]
     names = tuple(joint.name for joint in profile)
     index = {name: place for place, name in enumerate(names)}
@@ -120,7 +122,9 @@ def _fitted(figure: Figure, rest: Rest, bones: Mapping[str, int]) -> Fit:
 def _attributed(
     names: Sequence[str], parents: Sequence[int], bones: Mapping[str, int]
 ) -> tuple[list[int], dict[int, int]]:
-    """Return the bone of each joint, and the joint whose position each joint without a bone shares (see the module)."""
+    """Return the bone of each joint, and by each joint without a bone the joint whose position it shares (rules in the
+    module's docstring).
+    """
     own = [bones.get(name, -1) for name in names]
     index = {name: place for place, name in enumerate(names)}
     lies_on: dict[int, int] = {}
@@ -143,8 +147,11 @@ def _attributed(
 
 
 def _joints_of_bones(figure: Figure, rest: Rest, fit: Fit, beside: Mapping[int, int]) -> npt.NDArray[np.int32]:
-    """Return for each bone of the figure the joint of the character that moves its skin (bones,): its own, the nearest
-    ancestor's, the hips for bones above the hips, or the nearest in space."""
+    """Return for each bone of the figure (bones,) the joint of the character that moves its skin.
+
+    That is its own joint, else its nearest ancestor's; the hips for bones above the hips; else the nearest in space.
+    ``beside`` has the joint of additional bones.
+    """
     hips = fit.names.index("hips")
     joint_of = {bone: joint for joint, bone in enumerate(fit.bones) if bone >= 0} | dict(beside)
     carried = np.full(len(figure.parents), -1, dtype=np.int32)
@@ -199,7 +206,9 @@ def _mesh(mesh: Mesh, joint_of_bone: npt.NDArray[np.int32], morphs: Mapping[str,
 
 
 def _without_turned_balls(mesh: Mesh, eyes: Sequence[int]) -> Mesh:
-    """Return a mesh whose eyeLook morphs do not move vertices of the eye joints, which would rotate twice."""
+    """Return a mesh whose ``eyeLook`` morphs do not move vertices of the eye joints, since the joints rotate these
+    already.
+    """
     shares = np.where(np.isin(mesh.joints, eyes), mesh.weights, 0.0).sum(axis=1)
     if not shares.any():
         return mesh
@@ -212,8 +221,9 @@ def _without_turned_balls(mesh: Mesh, eyes: Sequence[int]) -> Mesh:
 
 
 def _merged(joints: npt.NDArray[np.int32], weights: FloatArray) -> tuple[npt.NDArray[np.int32], SingleArray]:
-    """Return joints (V, K) and weights (V, K) of vertices with each joint once per vertex, the heaviest first, as wide
-    as needed."""
+    """Return joints and weights (V, K) in which every joint occurs once per vertex, heaviest first, with K as small as
+    possible.
+    """
     joints, weights = joints.copy(), weights.copy()
     for column in range(1, joints.shape[1]):
         for before in range(column):
@@ -229,7 +239,7 @@ def _merged(joints: npt.NDArray[np.int32], weights: FloatArray) -> tuple[npt.NDA
 
 
 def _composed(own: Sequence[Morph], morphs: Mapping[str, Mapping[str, float]]) -> tuple[Morph, ...]:
-    """Return the named morphs, each a weighted sum of morphs of this mesh."""
+    """Return the morphs in ``morphs``, each computed as a weighted sum of the mesh's ``own`` morphs."""
     known = {morph.name: morph for morph in own}
     found = []
     for name, recipe in morphs.items():

@@ -85,7 +85,7 @@ class JointMapping:
 
 @dataclass(frozen=True)
 class _Found:
-    """Mapping of bones to joints that one method found: by names, by the file's statement or by shape."""
+    """Mapping of bones to joints that one method found: by names, by the file's own data or by shape."""
 
     profile: str
     bones: dict[str, int]
@@ -160,8 +160,9 @@ _kept: WeakKeyDictionary[Figure, tuple[Tree, _Found, set[str]]] = WeakKeyDiction
 
 
 def _without_help(figure: Figure) -> tuple[Tree, _Found, set[str]]:
-    """Return the mapping of bones without the user's corrections, cached for each figure, since it takes seconds with
-    thousands of bones."""
+    """Return the automatic mapping of bones to joints, without the user's corrections; cached for each figure, since it
+    takes seconds with thousands of bones.
+    """
     known = _kept.get(figure)
     if known is None:
         tree = _tree(figure)
@@ -170,8 +171,9 @@ def _without_help(figure: Figure) -> tuple[Tree, _Found, set[str]]:
 
 
 def _automatic(figure: Figure, tree: Tree) -> tuple[_Found, set[str]]:
-    """Return the best mapping of bones to joints found without the user, by names, by the file's own statement or by
-    shape, and the joints that were guessed."""
+    """Return the best mapping of bones to joints found without the user, by names, by the file's own data or by shape,
+    and the joints that were guessed.
+    """
     named = _by_names(figure, tree)
     if figure.humanoid:
         found = _as_the_file_says(figure, tree, named)
@@ -193,8 +195,8 @@ def _automatic(figure: Figure, tree: Tree) -> tuple[_Found, set[str]]:
 
 
 def _add_unnamed(tree: Tree, bones: dict[str, int]) -> None:
-    """Add fingers, toes, shoulders, neck and chest by shape if they are not found by names and the joints above
-    agree.
+    """Add fingers, toes, shoulders, neck and chest found by shape to ``bones``, if names did not give them and names
+    and shape agree on the joints above.
     """
     lacking = [part for part in OPTIONAL if not any(part.search(joint) for joint in bones)]
     if not lacking:
@@ -229,7 +231,7 @@ def _mirrored(tree: Tree, shape: Mapping[str, int], joint: str) -> bool:
 
 
 def _as_the_file_says(figure: Figure, tree: Tree, named: _Found) -> _Found:
-    """Return the joints that a VRM file contains, with ends of chains added by names."""
+    """Return the joints stored in a VRM file, with joints at the ends of chains (such as fingers) added by names."""
     bones = {joint: bone for joint, bone in figure.humanoid.items() if joint in _joints()}
     for joint, bone in named.bones.items():
         if joint not in bones and ENDS.search(joint) and bone not in bones.values():
@@ -240,11 +242,11 @@ def _as_the_file_says(figure: Figure, tree: Tree, named: _Found) -> _Found:
 
 
 def _completed(tree: Tree, found: _Found, fixed: Set[str]) -> dict[str, int]:
-    """Return the mapping with joints that names miss added by shape.
+    """Return the mapping with joints that were not found by names added by shape.
 
-    A part of the body in which names miss a required joint is mapped by shape entirely, if possible: names that skip a
-    joint usually mean other joints (a shoulder is an upper arm, a chest a spine). The trunk is determined by the limbs,
-    however these were found.
+    A part of the body in which a required joint has no name is mapped by shape entirely, if possible: names that skip a
+    joint usually stand for other joints (a shoulder is an upper arm, a chest a spine). The trunk is determined by the
+    limbs, however these were found.
 
     Parameters
     ----------
@@ -275,8 +277,8 @@ def _completed(tree: Tree, found: _Found, fixed: Set[str]) -> dict[str, int]:
 
 
 def _trunk_beside(tree: Tree, bones: Mapping[str, int]) -> dict[str, int]:
-    """Return the trunk determined by the limbs, if names give only its upper part or hips that do not carry the legs;
-    empty otherwise, or if bones have no hierarchy.
+    """Return the trunk determined by the limbs, if names give only its upper part, or hips from which the legs do not
+    descend; else empty, also if the bones have no hierarchy.
     """
     if _lacks(bones, LIMBS):
         return {}
@@ -296,7 +298,9 @@ def _lacks(bones: Mapping[str, int], part: re.Pattern[str]) -> bool:
 
 
 def _replace_part(bones: dict[str, int], shape: Mapping[str, int], part: re.Pattern[str], fixed: Set[str]) -> None:
-    """Replace a part's joints by those found by shape, if names miss a required one and shape does not."""
+    """Replace the joints of a part of the body, given by a pattern of their names, by those found by shape, if a
+    required one is missing in ``bones`` but not in ``shape``.
+    """
     if not _lacks(bones, part) or _lacks({**shape, **{joint: bones[joint] for joint in fixed if joint in bones}}, part):
         return
     for joint in [joint for joint in bones if part.search(joint) and joint not in fixed]:
@@ -314,7 +318,7 @@ def _joints() -> tuple[str, ...]:
 
 
 def _joint_above(joint: str, bones: Mapping[str, int]) -> str | None:
-    """Return the nearest ancestor of a joint that has a bone."""
+    """Return the nearest ancestor of a joint that has a bone; None if there is none."""
     profile = load_skeleton()
     parent = profile.joint(joint).parent
     while parent and parent not in bones:
@@ -329,7 +333,7 @@ def _tree(figure: Figure) -> Tree:
 
 
 def _by_names(figure: Figure, tree: Tree) -> _Found:
-    """Return the mapping by that table of bone names which suits the figure best."""
+    """Return the mapping by the table of bone names that fits the figure best."""
     spellings = [[bone_key(name) for name in figure.bone_names]]
     if sum(NUMBERED.search(name) is not None for name in figure.bone_names) >= MOST_NUMBERED * len(figure.bone_names):
         spellings.append([bone_key(NUMBERED.sub("", name)) for name in figure.bone_names])
@@ -354,7 +358,9 @@ def _by_names(figure: Figure, tree: Tree) -> _Found:
 
 
 def _affixes(keys: list[str], known: set[str]) -> list[tuple[str, str]]:
-    """Return pairs of prefix and suffix around known names in most of a figure's names; the empty pair comes first."""
+    """Return pairs of prefix and suffix that surround known names in most of a figure's names; the empty pair comes
+    first.
+    """
     votes: Counter[tuple[str, str]] = Counter()
     names = [name for name in known if len(name) >= SHORTEST_AFFIXED]
     # Most keys of a figure with thousands of bones hold no known name.
@@ -388,7 +394,7 @@ def _found(profile: str, tree: Tree, named: Mapping[str, int | None]) -> _Found:
 
 
 def _astray(tree: Tree, bones: Mapping[str, int]) -> frozenset[str]:
-    """Return the joints whose bone is not below that of the parent joint."""
+    """Return the joints whose bone is not a descendant of the bone of the joint above."""
     return frozenset(
         joint
         for joint, bone in bones.items()
@@ -397,7 +403,7 @@ def _astray(tree: Tree, bones: Mapping[str, int]) -> frozenset[str]:
 
 
 def _turn_sides(tree: Tree, bones: dict[str, int]) -> set[str]:
-    """Exchange sides if joints named left are at -X, and return the exchanged joints."""
+    """Exchange left and right in ``bones`` where joints named left are at -X, and return the exchanged joints."""
     turned: set[str] = set()
     for at, own in (
         ("UpperLeg", LEGS),

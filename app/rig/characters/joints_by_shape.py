@@ -60,12 +60,13 @@ class Tree:
     Attributes
     ----------
     parents : tuple of int
-        Parents, each before its children.
+        Parent of each bone; parents come before their children.
     above : tuple of frozenset of int
-        All bones above each.
+        All ancestors of each bone.
     below : tuple of int
         Number of descendants of each bone.
     positions_m : (B, 3) float64
+        World positions.
     skinned : frozenset of int
         Bones with skin; all bones if none has skin.
     """
@@ -78,7 +79,7 @@ class Tree:
     skinned: frozenset[int]
 
     def path(self, top: int, bone: int) -> list[int]:
-        """Bones from below ``top`` down to ``bone``."""
+        """Return the bones on the path from ``top`` (excluded) down to ``bone``."""
         found = [bone]
         while (parent := self.parents[found[-1]]) not in (top, -1):
             found.append(parent)
@@ -94,7 +95,9 @@ class Tree:
 
 
 def tree_of(parents: Sequence[int], positions_m: FloatArray, skinned: frozenset[int]) -> Tree:
-    """The tree of bones; ``skinned`` may be empty."""
+    """Return the tree for bones with the given parents and world positions; an empty ``skinned`` counts all bones as
+    skinned.
+    """
     children: list[list[int]] = [[] for _ in parents]
     above: list[frozenset[int]] = []
     for bone, parent in enumerate(parents):
@@ -116,7 +119,7 @@ def tree_of(parents: Sequence[int], positions_m: FloatArray, skinned: frozenset[
 
 
 class _Halves:
-    """Bones of the left, the right and the middle, and their mirror images."""
+    """Division of bones into left, right and middle, with the mirror image of each."""
 
     def __init__(self, tree: Tree) -> None:
         self.tree = tree
@@ -141,13 +144,13 @@ class _Halves:
                 self.partner[bone] = used[partner]
 
     def side(self, bone: int) -> int:
-        """1: left (+X), -1: right, 0: in the middle."""
+        """Return the side of a bone: 1 for left (+X), -1 for right, 0 for the middle."""
         off = (float(self.tree.positions_m[bone, 0]) - self.centre) / self.height
         in_middle = IN_MIDDLE if self.partner.get(bone, bone) != bone else OFF_CENTRE
         return 0 if abs(off) < in_middle else (1 if off > 0.0 else -1)
 
     def left_ends(self, below: int) -> list[int]:
-        """Return the last bones of the left side below a bone that have a partner."""
+        """Return the bones of the left side at the ends of chains below ``below`` that have a mirror image."""
         return [
             bone
             for bone in self.used
@@ -158,12 +161,14 @@ class _Halves:
         ]
 
     def meeting(self, bone: int) -> int | None:
-        """Return the deepest common ancestor of a bone and its partner."""
+        """Return the deepest common ancestor of a bone and its mirror image; None without one."""
         both = self.tree.above[bone] & self.tree.above[self.partner[bone]]
         return max(both, key=self.tree.depth) if both else None
 
     def way(self, end: int) -> list[int]:
-        """Return the bones from below the common ancestor of a chain and its mirror image to its end."""
+        """Return the bones from below the common ancestor of a chain and its mirror image down to the chain's last bone
+        ``end``.
+        """
         top = self.meeting(end)
         return self.tree.path(-1 if top is None else top, end)
 
@@ -226,7 +231,8 @@ def trunk_by_limbs(tree: Tree, limbs: Mapping[str, int]) -> dict[str, int]:
 
 
 def _hips(tree: Tree, limbs: Mapping[str, int], carrier: int, chain: list[int]) -> tuple[int, list[int]]:
-    """Return the hips, and the bones from there to the chest; legs may be attached beside them, to a root or control.
+    """Return the hips, and the bones from there to the chest. Legs may be attached to the hips, or to a root or control
+    bone.
 
     Parameters
     ----------
@@ -281,12 +287,14 @@ def _low(halves: _Halves, bone: int) -> bool:
 
 
 def _alike(halves: _Halves, one: int, other: int) -> bool:
-    """Return whether two bones are at the same place."""
+    """Return whether two bones have the same position, within a tolerance."""
     return halves.tree.distance(one, other) < MIRROR_TOLERANCE * halves.height
 
 
 def _loose_foot(halves: _Halves, way: list[int], loose: list[list[int]]) -> list[int]:
-    """Return the separate foot of a leg without one; empty if the leg has a foot."""
+    """Return the bones of a foot that is not attached to its leg, from the chains in ``loose``; empty if the leg
+    ``way`` has a foot of its own.
+    """
     if len(way) < 2 or (len(way) > 2 and way[-1] in halves.tree.skinned and _low(halves, way[-1])):
         return []
     if _low(halves, way[0]):
@@ -317,8 +325,8 @@ def _leg(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
 
 
 def _ankle(halves: _Halves, path: list[int]) -> int:
-    """Return the bone at which a chain turns forward near the floor; if the foot does not point forward, the bone at
-    the height of an ankle.
+    """Return the ankle of a leg: the bone at which the chain turns forward near the floor; if the foot does not point
+    forward, the bone at the height of an ankle.
     """
     places, floor = halves.tree.positions_m, halves.floor
     ankle = _points_ahead(halves, path)
@@ -328,7 +336,7 @@ def _ankle(halves: _Halves, path: list[int]) -> int:
 
 
 def _points_ahead(halves: _Halves, path: list[int]) -> int | None:
-    """Return the bone near the floor from which a chain leads forward."""
+    """Return the bone near the floor from which the next bone of a chain lies forward; None if there is none."""
     for bone, next_ in pairwise(path):
         ahead = halves.tree.positions_m[next_] - halves.tree.positions_m[bone]
         if _low(halves, bone) and ahead[2] > 0.5 * np.linalg.norm(ahead):
@@ -337,8 +345,8 @@ def _points_ahead(halves: _Halves, path: list[int]) -> int | None:
 
 
 def _arms(halves: _Halves, paths: Mapping[str, list[int]]) -> dict[str, int]:
-    """Return both arms, by the bones from below the chest to the tip of each side; arms of equally many bones begin and
-    bend at the same ones.
+    """Return the joints of both arms from the bones below the chest to the finger tip on each side. Arms with equally
+    many bones begin and bend at corresponding ones.
     """
     found = {side: _hand(halves, side, path) for side, path in paths.items()}
     limbs = {side: (upper, hand) for side, (upper, hand, _) in found.items() if len(upper) >= 2}
@@ -387,8 +395,8 @@ def _chains(tree: Tree, bone: int) -> list[int]:
 
 
 def hand_of_palms(tree: Tree, side: str, upper: int, forearm: int) -> dict[str, int]:
-    """Return the hand and fingers of a forearm with a bone for each finger attached at the wrist; empty if a single
-    bone is the hand.
+    """Return the hand and fingers of a forearm whose fingers are attached at the wrist, each by a bone of its own;
+    empty if a single bone is the hand.
 
     The bone of the middle finger is used as the hand.
     """
@@ -408,8 +416,8 @@ def hand_of_palms(tree: Tree, side: str, upper: int, forearm: int) -> dict[str, 
 
 
 def _two(tree: Tree, limbs: Sequence[tuple[list[int], int]], length_m: float) -> tuple[int, int]:
-    """Return the indices of the first bone and the middle joint of limbs with equally many bones before their ends, for
-    equal halves and a plausible length.
+    """Return the indices of the first and the middle bone of a limb, with the halves as equal and the length as near to
+    ``length_m`` as possible, summed over ``limbs`` with equally many bones.
     """
 
     def off_m(upper: list[int], end: int, pair: tuple[int, int]) -> float:
@@ -421,8 +429,10 @@ def _two(tree: Tree, limbs: Sequence[tuple[list[int], int]], length_m: float) ->
 
 
 def _off(tree: Tree, upper: list[int], end: int, length_m: float) -> float:
-    """Return the deviation, in ratios, of the best limb among bones from a usual one with equal halves; a toy child's
-    arms may be half as long.
+    """Return the deviation of the best choice of a limb's first and middle bone from equal halves and a length of
+    ``length_m`` (0 is perfect).
+
+    Ratios are compared, since the arms of a toy child may be half as long.
     """
     ratios = []
     for start, middle in combinations(upper, 2):
@@ -432,7 +442,7 @@ def _off(tree: Tree, upper: list[int], end: int, length_m: float) -> float:
 
 
 def fingers(tree: Tree, side: str, hand: int, palms: Sequence[int] = ()) -> dict[str, int]:
-    """Return the fingers of a hand: the chain farthest aside is the thumb, the others follow by their distance from it.
+    """Return the fingers of a hand: the chain farthest to the side is the thumb, the others follow by distance from it.
 
     Parameters
     ----------

@@ -82,7 +82,7 @@ def _rest_skin(skeleton: Skeleton, joint_from_mesh: FloatArray, mesh: Mesh) -> _
 
 
 def _own(skin: _Skin, joints: list[int], least: float) -> IndexArray:
-    """Return the vertices (K,) whose weights of the given joints add up to more than ``least``."""
+    """Return the indices (K,) of vertices for which the weights of the given joints add up to more than ``least``."""
     return np.flatnonzero(skin.weights[:, joints].sum(axis=1) > least)
 
 
@@ -160,8 +160,10 @@ def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
 
 
 def _of_phalanx(hand: _Skin, skins: list[_Skin], joint: int, least: float) -> tuple[_Skin, IndexArray]:
-    """Return the mesh and vertices of a phalanx: of the hand, or of another mesh with most of the phalanx (gloves,
-    sleeves). No vertices if nothing moves with the joint.
+    """Return the mesh that covers a finger bone, and the indices of its vertices that move with the joint.
+
+    That is the hand's mesh, or another one (a glove or sleeve) with most of these vertices. No vertices if nothing
+    moves with the joint.
     """
     for weight in (least, *LEAST_WEIGHTS):
         own = {id(skin): _own(skin, [joint], weight) for skin in skins}
@@ -244,8 +246,8 @@ def _eyes(skeleton: Skeleton, meshes: tuple[Mesh, ...]) -> tuple[FloatArray, Flo
 
 
 def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
-    """Return the landmarks of the lips by the jaw's morph: adjacent vertices at the midline that it moves and does not
-    move.
+    """Return the landmarks of the lips from the morph that opens the jaw: adjacent vertices near the midline of which
+    it moves one and not the other.
     """
     jaw = next((morph for name in JAW_MORPHS for morph in skin.mesh.morphs if morph.name == name), None)
     if jaw is None or not len(jaw.vertices):
@@ -310,7 +312,9 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
 
 
 def _covered(skin: _Skin, front: IndexArray, head: _Head) -> int:
-    """Return the number of height steps with vertices in front of the head's joint and below its eyes."""
+    """Return over how much height below the eyes vertices lie in front of the head's joint, in steps of the size of a
+    landmark.
+    """
     at = skin.positions[front]
     eyes_m = head.place[1] + 0.3 * HEAD_M * head.size if head.eyes_m is None else head.eyes_m
     before = (at[:, 2] > head.place[2]) & (at[:, 1] < eyes_m)

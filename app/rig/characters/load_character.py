@@ -23,12 +23,12 @@ from metadata.model import REQUIRED_JOINTS
 
 @dataclass(frozen=True, eq=False)
 class CharacterFigure:
-    """A figure with identified joints and face.
+    """A figure with its mapping of joints and of the face.
 
     Attributes
     ----------
     figure : Figure
-        Upright, facing +Z.
+        Figure, upright and facing +Z.
     """
 
     figure: Figure
@@ -55,7 +55,7 @@ def load_character(
     morphs : mapping of str to mapping of str to float
         Weights of the file's morphs for each corrected ARKit shape.
     height_m : float
-        Of the character; 0: as tall as in the file.
+        Height of the character; 0 for the height in the file.
     hidden : collection of str
         Meshes of the file to omit.
 

@@ -1,7 +1,7 @@
 """Detection of props in a figure's hands (swords, shields, cups), which are in the way of an instrument.
 
-A reported and hidden prop is a mesh that moves with a hand as a whole, while the hand has another mesh. It is attached
-to a bone that is not a joint, or is longer than any hand.
+A mesh counts as a prop if it moves with a hand as a whole, while the hand has another mesh. Moreover, it must be
+attached to a bone that is not a joint, or be longer than any hand.
 """
 
 from __future__ import annotations
@@ -68,6 +68,6 @@ def _below(figure: Figure, bone: int) -> BoolArray:
 
 
 def _held(mesh: Mesh, bones: BoolArray) -> np.ndarray:
-    """Return the weight (V,) with which the bones in a mask (B,) hold each of V vertices."""
+    """Return for each vertex (V,) of a mesh the sum of its weights on the bones in a mask (B,)."""
     weights: np.ndarray = np.where(bones[mesh.joints], mesh.weights, 0.0).sum(axis=1)
     return weights

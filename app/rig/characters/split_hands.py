@@ -1,4 +1,4 @@
-"""Hands that are several bones: one for each finger, all from the wrist on."""
+"""Hands that consist of several bones, one for each finger from the wrist on."""
 
 from __future__ import annotations
 
@@ -15,13 +15,15 @@ AT_ONE_PLACE: Final = 0.01
 
 
 def bones_beside_hands(figure: Figure, bones: Mapping[str, int]) -> dict[int, str]:
-    """Hand by bone, for further bones that begin where the hand's own does and hang from the same: a hand may have a
-    bone for each finger from the wrist on.
+    """Return the joint (left or right hand) of each additional bone that belongs to a hand, by bone.
+
+    Such a bone begins at the place of the hand's mapped bone and has the same parent, as in a hand with a bone for each
+    finger from the wrist on.
 
     Parameters
     ----------
     bones : mapping of str to int
-        By joint.
+        Bones by VRM 1.0 joint.
     """
     places, _ = world_placements(figure.parents, figure.translations_m, figure.rotations)
     mapped, found = set(bones.values()), dict[int, str]()

@@ -56,16 +56,16 @@ UP: Final = np.array([0.0, 1.0, 0.0])
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Joints of the character with their matching, J of them.
+    """The J joints of the character, with the bones that they correspond to.
 
     Attributes
     ----------
     bones : list of int
-        -1: supplied.
+        Bone of each joint; -1 for an added joint.
     turns : (J, 4) float64
         World rotation from the rest pose to the T-pose.
     rest_m, places_m : (J, 3) float64
-        In the rest pose and in the T-pose.
+        World positions in the rest pose and in the T-pose.
     """
 
     names: tuple[str, ...]
@@ -77,7 +77,7 @@ class Fit:
 
 
 def supplied_ends(fit: Fit, meshes: Sequence[Mesh]) -> Fit:
-    """Return the fit with missing joints at the ends of chains added."""
+    """Return the fit with positions for the missing joints at the ends of chains."""
     rest_m, places = fit.rest_m.copy(), fit.places_m.copy()
     index = {name: joint for joint, name in enumerate(fit.names)}
     for joint, name in enumerate(fit.names):
@@ -132,8 +132,8 @@ def _of_hand(name: str) -> bool:
 
 
 def _extent(fit: Fit, meshes: Sequence[Mesh], joints: Sequence[int], direction: FloatArray) -> float:
-    """Return the extent of joints' skin in a direction from the first of them, in the T-pose; an adult's value if there
-    is no skin.
+    """Return the extent in metres of the skin of some joints in a direction from the first of them, in the T-pose; the
+    value of bundled bodies, scaled to the figure, if there is no skin.
     """
     joint_from_mesh = inverse_binds(fit)
     found = 0.0
@@ -149,7 +149,7 @@ def _extent(fit: Fit, meshes: Sequence[Mesh], joints: Sequence[int], direction: 
 
 
 def _floor(fit: Fit, meshes: Sequence[Mesh]) -> float:
-    """Height of the soles in the T-pose."""
+    """Return the height of the soles in the T-pose in metres."""
     feet = [joint for joint, name in enumerate(fit.names) if name.endswith(("Foot", "Toes"))]
     joint_from_mesh = inverse_binds(fit)
     lowest = [
@@ -178,7 +178,7 @@ def on_the_floor(fit: Fit, meshes: Sequence[Mesh]) -> Fit:
 
 
 def inverse_binds(fit: Fit) -> FloatArray:
-    """Return the matrices (J, 4, 4) that take points of the mesh in its rest pose to the frame of each joint."""
+    """Return the inverse bind matrices (J, 4, 4), from the mesh in its rest pose to the frame of each joint."""
     result = np.tile(np.eye(4), (len(fit.names), 1, 1))
     result[:, :3, :3] = quaternion.to_matrix(fit.turns)
     result[:, :3, 3] = -np.einsum("jab,jb->ja", result[:, :3, :3], fit.rest_m)

@@ -49,8 +49,9 @@ class Rest:
     Attributes
     ----------
     positions_m : (B, 3) float64
+        World positions.
     rotations : (B, 4) float64
-        ``world_from_bone``.
+        World rotations, ``world_from_bone``.
     """
 
     positions_m: FloatArray
@@ -63,7 +64,7 @@ def rest_of(figure: Figure) -> Rest:
 
 
 def heaviest(figure: Figure) -> tuple[FloatArray, IntArray]:
-    """Return the V vertices (V, 3) of all meshes at rest, and the bone (V,) with the greatest weight for each."""
+    """Return the vertices (V, 3) of all meshes at rest, and for each the bone with the greatest weight (V,)."""
     points, holders = [np.zeros((0, 3))], [np.zeros(0, np.int64)]
     for mesh in figure.meshes:
         points.append(mesh.positions_m.astype(np.float64))
@@ -75,7 +76,7 @@ def heaviest(figure: Figure) -> tuple[FloatArray, IntArray]:
 def upright(figure: Figure, bones: Mapping[str, int]) -> Figure:
     """Return the figure rotated to stand upright and face +Z by its legs and head; unchanged if it does.
 
-    Wrongly named axes require right angles; only an oblique figure is rotated by other angles.
+    A figure with exchanged axes is rotated by right angles, only an oblique one by other angles.
     """
     places = rest_of(figure).positions_m
 
@@ -162,12 +163,13 @@ def turned_figure(figure: Figure, turn: FloatArray) -> Figure:
 
 
 def turns_to_t_pose(figure: Figure, rest: Rest, bones: Mapping[str, int]) -> dict[str, FloatArray]:
-    """Return world rotations (4,) of joints from the rest pose to the T-pose; omitted joints follow their parent.
+    """Return world rotations (4,) of joints from the rest pose to the T-pose; joints that are absent rotate with their
+    parent.
 
     Parameters
     ----------
     figure : Figure
-        Upright.
+        Figure that stands upright.
     bones : mapping of str to int
         Bones by VRM 1.0 joint, including all required ones.
     """
@@ -245,8 +247,9 @@ class _Pose:
         return quaternion.from_matrix(rest_frame.T)
 
     def _mitten(self, side: str) -> FloatArray | None:
-        """Return the middle (3,) of the skin of a hand without finger bones, not counting the thumb; None if it has no
-        skin."""
+        """Return the centre (3,) of the skin of a hand without finger bones, without the thumb; None if it
+        has no skin.
+        """
         own = {self._bones[side + "Hand"]}
         thumbs = {self._bones[side + name] for name in THUMB if side + name in self._bones}
         for bone, parent in enumerate(self._figure.parents):
@@ -331,7 +334,7 @@ class _Pose:
         return turns
 
     def _heading(self, side: str) -> FloatArray:
-        """Return the horizontal direction (3,) in which a foot points; forward if unknown."""
+        """Return the horizontal direction (3,) in which the foot of a side points; forward if unknown."""
         foot = self._at(side + "Foot")
         assert foot is not None
         ends = [self._at(side + "Toes")]
@@ -350,8 +353,9 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 
 def _swung(way: FloatArray, target: FloatArray, before: FloatArray) -> FloatArray:
-    """Return the rotation (4,) that swings a bone from its rest direction to a target by the shortest way, applied
-    after an existing rotation."""
+    """Return the rotation (4,) that takes a bone's rest direction ``way`` to ``target``: ``before``, then the shortest
+    rotation that remains.
+    """
     return quaternion.multiply(quaternion.between(quaternion.rotate(before, way), target), before)
 
 
@@ -362,8 +366,11 @@ def _hinged(
     bends: Sequence[tuple[FloatArray, FloatArray]],
     hinge: FloatArray,
 ) -> FloatArray:
-    """Return the rotation of `_swung`, followed by a rotation about the target that puts the bends at rest about the
-    intended hinge.
+    """Return the rotation of `_swung` followed by one about ``target`` that aligns the axis of bending at rest with
+    ``hinge``.
+
+    ``bends`` are pairs of directions of successive bones at rest, which show that axis; nearly straight ones are
+    ignored.
     """
     swung = _swung(way, target, before)
     axis = np.sum([np.cross(a, b) for a, b in bends], axis=0) if bends else np.zeros(3)

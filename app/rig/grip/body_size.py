@@ -78,7 +78,7 @@ def face_size(character: Character) -> float:
 
 
 def sized_body(body: Body, size: float) -> Body:
-    """Return the body's limits with sway, steps and bobbing scaled to a size."""
+    """Return the body's limits with the lengths of swaying, stepping and bobbing multiplied by ``size``."""
     return body if size == 1.0 else _sized(body, size)
 
 
@@ -96,7 +96,7 @@ def _sized(table: Any, size: float) -> Any:
 
 
 def sized_character(character: Character, size: float) -> Character:
-    """A character made larger or smaller as a whole."""
+    """Return a character scaled as a whole."""
     joint_from_mesh = character.joint_from_mesh.copy()
     joint_from_mesh[:, :3, 3] *= size
     skeleton = character.skeleton
@@ -109,7 +109,7 @@ def sized_character(character: Character, size: float) -> Character:
 
 
 def sized_model(model: InstrumentModel, size: float) -> InstrumentModel:
-    """A model made larger or smaller as a whole."""
+    """Return a model scaled as a whole."""
     if size == 1.0:
         return model
     meshes = tuple(scaled_mesh(mesh, size) for mesh in model.meshes)

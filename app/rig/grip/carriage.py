@@ -1,4 +1,4 @@
-"""Carriage of an instrument before any motion: the angles of the map's `Carriage` and the upright posture."""
+"""Carriage of an instrument at rest: from the angles in the map's `Carriage`, and the upright posture."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class Upright:
     Attributes
     ----------
     joints_m : (J, 3) float64
-        World positions of all joints, arms as in the T-pose.
+        World positions of all joints, with the arms in T-pose.
     instrument_m, instrument_rotation : (3,) and (4,) float64
-        ``world_from_instrument``.
+        Position and rotation of the instrument, ``world_from_instrument``.
     """
 
     joints_m: FloatArray
@@ -36,7 +36,7 @@ class Upright:
 
 
 def carriage_rotation(pitch_down_deg: float, yaw_left_deg: float, roll_left_deg: float) -> FloatArray:
-    """Rotation (4,) of an instrument in the player's frame for the angles of a `Carriage`."""
+    """Return the rotation (4,) of an instrument in the player's frame for the angles of a `Carriage`."""
     # Left is +X: the bell (+Z) goes left about +Y, down about +X, and up (+Y) leans left about -Z.
     yaw = quaternion.from_axis_angle([0.0, 1.0, 0.0], np.radians(yaw_left_deg))
     pitch = quaternion.from_axis_angle([1.0, 0.0, 0.0], np.radians(pitch_down_deg))
@@ -45,7 +45,7 @@ def carriage_rotation(pitch_down_deg: float, yaw_left_deg: float, roll_left_deg:
 
 
 def carrying(body: Body, posture: maps.Posture, carriage: Carriage) -> Posture:
-    """Return a body's posture with head and trunk turned towards the instrument by its carriage."""
+    """Return the posture of a body whose head and trunk turn towards the instrument as far as its carriage requires."""
     return body.turned_to(
         posture,
         pitch_down_deg=carriage.pitch_down_deg[1],
@@ -56,8 +56,7 @@ def carrying(body: Body, posture: maps.Posture, carriage: Carriage) -> Posture:
 
 
 def joint_rotations(skeleton: Skeleton, posture: Posture) -> FloatArray:
-    """Return the rotations ``parent_from_joint`` (1, J, 4) of J joints with spine and neck in a posture; arms as in the
-    T-pose."""
+    """Return the local rotations (1, J, 4) of J joints in a posture of spine and neck; the arms are in T-pose."""
     rotations = np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1))
     bent: dict[str, FloatArray] = {}
     angles = (posture.spine_deg, posture.spine_turn_deg, posture.spine_left_deg)
@@ -71,12 +70,12 @@ def joint_rotations(skeleton: Skeleton, posture: Posture) -> FloatArray:
 
 
 def carried_by(instrument_map: InstrumentMap, shares: tuple[float, float, float]) -> InstrumentMap:
-    """Return an instrument that is usually carried in another way within its range.
+    """Return the instrument's map with another usual carriage within its ranges.
 
     Parameters
     ----------
     shares : (float, float, float)
-        Of pitch, yaw and roll: how far, -1 to the lower end of the range, 1 to the upper one.
+        Pitch, yaw and roll: from -1 (lower end of the range) over 0 (as in the map) to 1 (upper end).
     """
 
     def moved(carriage: Carriage | None) -> Carriage | None:
@@ -102,7 +101,7 @@ def usual_posture(instrument_map: InstrumentMap) -> maps.Posture:
 
 
 def upright(character: Character, instrument_map: InstrumentMap, body: Body, lips: Lips) -> Upright:
-    """Return a character standing or sitting with its instrument, by posture and default carriage."""
+    """Return a character that stands or sits still with its instrument, in the usual posture and carriage."""
     usual = usual_posture(instrument_map)
     skeleton, carriage = character.skeleton, instrument_map.hold.carriage(usual)
     posed = forward(skeleton, joint_rotations(skeleton, carrying(body, usual, carriage)))

@@ -42,7 +42,7 @@ def finger_joints(skeleton: Skeleton, side: Side, finger: str) -> tuple[int, ...
 
 @lru_cache(maxsize=64)
 def shaped(skeleton: Skeleton, side: Side, shape: HandShape) -> dict[int, FloatArray]:
-    """Return the rotation (4,) of every finger joint, by joint index, for a shape of the empty hand."""
+    """Return the rotation (4,) of every finger joint, by joint index, in a shape of the empty hand."""
     along = np.array([1.0 if side == "left" else -1.0, 0.0, 0.0])
     rotations: dict[int, FloatArray] = {}
     for finger, angles_deg in zip(FINGERS, SHAPES_DEG[shape], strict=True):
@@ -59,7 +59,9 @@ def shaped(skeleton: Skeleton, side: Side, shape: HandShape) -> dict[int, FloatA
 
 @lru_cache(maxsize=64)
 def tip_m(skeleton: Skeleton, side: Side, shape: HandShape) -> FloatArray:
-    """Return the point (3,) of the index finger's pad in the wrist's frame; for a pinch, halfway to the thumb's pad."""
+    """Return the point (3,) of a shaped hand, in the wrist's frame, that touches things: the index finger's pad, or for
+    a pinch the middle between it and the thumb's pad.
+    """
     pads = [
         _pad_m(skeleton, side, finger, shape) for finger in (("Index", "Thumb") if shape == "pinch" else ("Index",))
     ]

@@ -1,4 +1,4 @@
-"""Inverse kinematics that returns fingers to their places in a few steps, for many fingers and frames at once.
+"""Inverse kinematics of fingers: a few steps bring each fingertip to its target, for many fingers and frames at once.
 
 Fingers are independent; they are solved together because one frame takes as long as a hundred.
 """
@@ -27,20 +27,20 @@ LEAST_COMPARED = 32
 
 @dataclass(frozen=True)
 class ReachTarget:
-    """Target of a fingertip in some frames: chain of joints and the point to reach.
+    """Target of a fingertip in K frames: the chain of its n joints, and the point to reach.
 
     Attributes
     ----------
     rotations : (K, n, 4) float64
-        Present rotations.
+        Rotations of the joints before solving.
     joint : int
         Joint within the finger that carries the point.
     tip_m : (3,) float64
-        Point in the frame of that joint.
+        Point of the finger in the frame of that joint.
     requested_m : (K, 3) float64
         Requested position of the point in the wrist's frame.
     stay_m : float
-        Weight of keeping each angle: 0 if the position matters, more if only the path does.
+        Weight that keeps the angles near their values before solving: 0 if the exact position matters.
     """
 
     chain: Chain
@@ -53,8 +53,9 @@ class ReachTarget:
 
 @dataclass(frozen=True)
 class _Rows:
-    """Chains of finger joints solved together, one for each of R rows (first axis of all arrays); angles that a finger
-    lacks are not ``used``."""
+    """Finger chains solved together, one for each of R rows (first axis of all arrays). ``used`` marks the angles that
+    a finger has.
+    """
 
     offsets_m: FloatArray
     axes: FloatArray
@@ -85,8 +86,9 @@ class _Rows:
 
 
 def fingers_at_targets(asked: Sequence[ReachTarget]) -> list[FloatArray]:
-    """Return for each request the rotations (K, n, 4) of n joints in K frames that put the finger's point at its
-    target, within the limits of the joints."""
+    """Return for each target the rotations (K, n, 4) of n joints in K frames that bring the finger's point to it,
+    within the limits of the joints.
+    """
     result: list[FloatArray] = [one.rotations for one in asked]
     lengths = [len(one.chain.offsets_m) for one in asked]
     for length in dict.fromkeys(lengths):
@@ -118,7 +120,7 @@ def distinct_rows(columns: Sequence[npt.NDArray[Any]]) -> tuple[IndexArray, Inde
     Parameters
     ----------
     columns : sequence of (R, ...)
-        Columns, of which each index is a row.
+        Arrays whose entries with the same first index form a row.
 
     Returns
     -------
@@ -142,7 +144,7 @@ def distinct_rows(columns: Sequence[npt.NDArray[Any]]) -> tuple[IndexArray, Inde
 
 @lru_cache(maxsize=16)
 def _factors(count: int) -> npt.NDArray[np.uint64]:
-    """Return ``count`` fixed odd factors, by which arrays are hashed with a wrapping sum."""
+    """Return ``count`` fixed odd numbers, by which values are multiplied and summed with wrap-around to hash them."""
     return np.random.default_rng(1).integers(0, 2**63, count, dtype=np.uint64) * np.uint64(2) + np.uint64(1)
 
 
@@ -154,8 +156,9 @@ def _brought(
     requested_m: FloatArray,
     stay_m: FloatArray,
 ) -> FloatArray:
-    """Return finger angles after a few damped Gauss-Newton steps (Wampler 1986) that bring ``tip_m`` of each joint to
-    ``requested_m``, while the angles stay near ``stay_m``."""
+    """Return rotations of the joints after a few damped Gauss-Newton steps (Wampler 1986) that bring the point
+    ``tip_m`` of ``joint`` to ``requested_m``; ``stay_m`` is the weight of keeping the angles.
+    """
     rows = np.arange(len(rotations))
     each, joints, kinds = rows[:, None], chains.joints, chains.kinds
     moves = (chains.used & (joints <= joint[:, None]))[..., None]
@@ -210,7 +213,10 @@ def _axes(chains: _Rows, angles: FloatArray) -> FloatArray:
 
 
 def _step(slopes: FloatArray, off_m: FloatArray, stiff: FloatArray) -> FloatArray:
-    """Return the D angles (R, D) of R rows that move a point by ``off_m`` (R, 3), by damped least squares."""
+    """Return the changes (R, D) of D angles in R rows that move a point by ``off_m`` (R, 3), by damped least squares.
+
+    ``slopes`` is the movement of the point per radian, ``stiff`` the damping.
+    """
     normal = np.einsum("kdi,kdj->kij", slopes, slopes) + stiff
     step: FloatArray = np.einsum("kdi,ki->kd", slopes, np.linalg.solve(normal, off_m[..., None])[..., 0])
     return step

@@ -1,4 +1,6 @@
-"""Fingers of a grip at every frame: from tables over the controls, with corrections for an offset wrist."""
+"""Poses of a grip's fingers at every frame, interpolated in tables over the controls, with corrections if the wrist is
+offset.
+"""
 
 from __future__ import annotations
 
@@ -61,7 +63,7 @@ def finger_rotations(
     controls : dict of str to (F,)
         Values 0..1 by control; missing controls are at 0.
     frames : int
-        F.
+        Number of frames F.
     placed : mapping of str to StationBlend, optional
         Positions of fingers that are not at their home station.
     raised : (F,) float64 or float
@@ -93,7 +95,9 @@ def finger_rotations(
 
 
 def _heights(hand: HandHold, controls: Controls, raised: FloatArray) -> dict[str, FloatArray]:
-    """Return the height (F,) of each waiting finger: lower beside a pressing finger that shares muscles and tendons."""
+    """Return the height share (F,) of each waiting finger: ``raised``, lower while a neighbour that shares muscles and
+    tendons presses.
+    """
     heights = {table.finger: raised for table in hand.fingers}
     if not any(station.hovers for table in hand.fingers for station in table.stations):
         return heights
@@ -112,8 +116,11 @@ def _heights(hand: HandHold, controls: Controls, raised: FloatArray) -> dict[str
 
 @dataclass(frozen=True)
 class _Way:
-    """The frames in which a finger moves from station ``first`` to ``second`` (or stays), with its joints; ``given`` is
-    True if the wrist is offset or another finger waits for that."""
+    """Frames in which a finger moves from station ``first`` to ``second``, or stays if these are equal.
+
+    ``share`` is how far it has moved, ``joints`` the slice of its joints; ``given`` is True if the wrist is offset or
+    the finger waits for that.
+    """
 
     table: FingerTable
     first: int
@@ -125,7 +132,7 @@ class _Way:
 
 
 def _moved(hand: HandHold, frames: int, placed: Mapping[str, StationBlend] | None) -> BoolArray:
-    """Return in which frames (F,) a hand's wrist is offset, or a finger waits for that."""
+    """Return in a mask (F,) the frames in which a hand's wrist is offset, or a finger waits for such an offset."""
     moved = np.zeros(frames, dtype=np.bool_)
     for offset in hand.leans:
         for share in (given_way(offset, placed), come_to(offset, placed)):
@@ -135,8 +142,9 @@ def _moved(hand: HandHold, frames: int, placed: Mapping[str, StationBlend] | Non
 
 
 def _ways(table: FingerTable, where: StationBlend | None, frames: IndexArray, joints: slice, given: bool) -> list[_Way]:
-    """Return the frames in which a finger moves between two stations, grouped by the pair of stations; ``where`` is
-    None if the finger has one station only."""
+    """Split ``frames`` by the pair of stations between which a finger moves; ``where`` is None if it has one station
+    only.
+    """
     if not len(frames):
         return []
     if where is None:
@@ -156,9 +164,9 @@ def _posed(
     controls: Controls,
     raised: Mapping[str, FloatArray],
 ) -> list[FloatArray]:
-    """Return rotations (K, n, 4) of a hand's fingers on their ways, with everything solved together.
+    """Return the rotations (K, n, 4) of a hand's fingers for each item of ``ways``, with all targets solved together.
 
-    Fingers are first put at their places for the actual wrist; poses between two places are lifted over obstacles.
+    Fingers are first placed for the actual wrist; poses between two stations are lifted over obstacles.
     """
     given = [(offset, weight) for offset in hand.leans for weight in [given_way(offset, placed)] if weight is not None]
     wrist = wrist_given(hand, given)
@@ -188,22 +196,26 @@ def _posed(
 
 
 def _solved(asked: Sequence[FloatArray | ReachTarget]) -> list[FloatArray]:
-    """Return the poses of fingers, where each request to reach a target is replaced by the pose that does; equal
-    requests are solved once."""
+    """Return finger poses, in which each `ReachTarget` is replaced by the pose that reaches it; equal targets are
+    solved once.
+    """
     requested = {id(one): one for one in asked if isinstance(one, ReachTarget)}
     found = dict(zip(requested, fingers_at_targets(list(requested.values())), strict=True))
     return [found[id(one)] if isinstance(one, ReachTarget) else one for one in asked]
 
 
 def solved_pose(asked: FloatArray | ReachTarget) -> FloatArray:
-    """Return a finger's pose: the one that reaches a target, or the given pose unchanged."""
+    """Return a finger's rotations: those that reach a target, or given ones unchanged."""
     return _solved([asked])[0]
 
 
 def _at_station(
     station: StationTable, controls: Controls, raised: FloatArray, pressed: FloatArray | float = 1.0
 ) -> FloatArray:
-    """Return rotations (F, n, 4) at one station; ``pressed`` lifts a moving finger off its control."""
+    """Return the rotations (F, n, 4) of a finger's n joints at one station for values of its controls.
+
+    ``raised`` is the height share of a waiting finger; ``pressed`` below 1 lifts a finger that moves off its control.
+    """
     known = [np.asarray(controls[name], dtype=np.float64) for name in station.controls if name in controls]
     if not known or len(station.values) == 1:
         return np.broadcast_to(station.rotations[0], (len(raised), *station.rotations.shape[1:]))
@@ -216,9 +228,9 @@ def _at_station(
 def _both(
     table: FingerTable, first: int, second: int, share: FloatArray, controls: Controls, raised: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return rotations (F, n, 4) at both stations that a finger moves between.
+    """Return the rotations (F, n, 4) of a finger at the first and at the second of the stations between which it moves.
 
-    The finger is lifted on its way except from a control that it works at both stations.
+    On the way it is lifted off its control, unless it works the same control at both stations.
     """
     near, far = table.stations[first], table.stations[second]
     if first == second:
@@ -232,7 +244,10 @@ def _both(
 def _on_way(
     table: FingerTable, first: int, second: int, near: FloatArray, far: FloatArray, share: FloatArray
 ) -> FloatArray | ReachTarget:
-    """Return rotations (K, n, 4) between two stations, lifted over obstacles."""
+    """Return the rotations (K, n, 4) of a finger between two stations, lifted over obstacles.
+
+    ``near`` and ``far`` are its rotations at the stations, ``share`` is how far it has moved.
+    """
     pose = mixed(near, far, share[:, None, None])
     away = max((table.stations[first].away_m, table.stations[second].away_m), key=lambda one: float(one @ one))
     return raised_way(table, first, second, pose, share, away) if np.any(away) else pose
@@ -241,8 +256,9 @@ def _on_way(
 def raised_way(
     table: FingerTable, first: int, second: int, rotations: FloatArray, share: FloatArray, away_m: FloatArray
 ) -> FloatArray | ReachTarget:
-    """Return the rotations (K, n, 4) of a finger's n joints in K frames, lifted between two stations, most at half
-    way."""
+    """Return the rotations (K, n, 4) of a finger between two stations, lifted by ``away_m`` at half way and less before
+    and after.
+    """
     near, far = table.stations[first], table.stations[second]
     if table.chain is None or min(near.tip_joint, far.tip_joint) < 0 or not np.any(away_m):
         return rotations
@@ -260,8 +276,9 @@ def _sampled(table: FingerTable, controls: Controls, here: IndexArray) -> Contro
 
 @dataclass(frozen=True)
 class _Given:
-    """Offset of a hand in some frames: the amount (F,) of each of its offsets in all frames, and its wrist in these
-    frames, (K, 3) and (K, 4), or in one frame for all.
+    """Wrist offsets of a hand: ``leans`` are the offsets, each with its share (F,) in all frames.
+
+    ``wrist`` is the resulting position (K, 3) and rotation (K, 4) in the K ``frames``, or in one row for all.
     """
 
     leans: Sequence[tuple[WristOffset, FloatArray]]
@@ -269,7 +286,7 @@ class _Given:
     wrist: tuple[FloatArray, FloatArray]
 
     def waits(self, offset: WristOffset) -> FloatArray:
-        """Return the share (K,), 0..1, of a wrist offset that is not applied yet in each of K frames."""
+        """Return the share (K,) of a wrist offset that is still missing in each frame, 0..1."""
         weight = next((weight[self.frames] for one, weight in self.leans if one is offset), np.zeros(len(self.frames)))
         return 1.0 - weight
 
@@ -277,8 +294,7 @@ class _Given:
 def _at_place(
     hand: HandHold, table: FingerTable, index: int, rotations: FloatArray, given: _Given
 ) -> FloatArray | ReachTarget:
-    """Return the rotations (K, n, 4) of a finger's n joints in K frames at a station, for another wrist than that of
-    the solution."""
+    """Return the rotations (K, n, 4) of a finger that keep its fingertip at a station although the wrist is offset."""
     station = table.stations[index]
     if station.tip_joint < 0:
         return rotations
@@ -298,10 +314,11 @@ def with_wrist(
     wrist: tuple[FloatArray, FloatArray],
     lifted_m: FloatArray | float = 0.0,
 ) -> ReachTarget:
-    """Return rotations (K, n, 4) that keep the touching point of a station in place, for another wrist than their
-    ``own``.
+    """Return the target that keeps the touching point of a station in place if the wrist is not the one of the
+    solution.
 
-    Wrists are positions (K, 3) and rotations (K, 4) in one frame; ``lifted_m`` (K, 3) is added in the wrist's frame.
+    ``own`` is the wrist for which ``rotations`` were solved, ``wrist`` the actual one: positions (K, 3) and rotations
+    (K, 4) in one frame. ``lifted_m`` (K, 3) is added in the wrist's frame.
     """
     assert table.chain is not None
     tips = np.broadcast_to(station.tip_m, (len(rotations), 3))
@@ -318,7 +335,7 @@ def tip_m(table: FingerTable, station: StationTable, rotations: FloatArray) -> F
 
 
 def _tip(table: FingerTable, rotations: FloatArray, tip_m: FloatArray, joint: int) -> FloatArray:
-    """Place (K, 3) of a joint's point in the wrist's frame, in K poses."""
+    """Return the position (K, 3) in the wrist's frame of a point of one of the finger's joints, in K poses."""
     assert table.chain is not None
     point = tip_m
     for index in range(joint, -1, -1):

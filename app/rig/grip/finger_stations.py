@@ -1,8 +1,8 @@
-"""Stations of fingers: the places of a finger for every set of controls it works, from the contacts of a map.
+"""Stations of fingers: the places at which a finger works its controls, from the contacts of an instrument's map.
 
 A finger with several keys moves from one *station* to the next; the first in the map is its home. A contact without a
-control is kept at every station, unless the same part of the finger works controls at other places: then it is a
-station of its own at which the finger rests.
+control is kept at every station, unless the same part of the finger works controls at other places. Then it is a
+separate station at which the finger rests.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Station:
     Attributes
     ----------
     finger : str
-        ``"right.little"``.
+        Side and finger, such as ``"right.little"``.
     controls : tuple of str
         Names of the controls, sorted; empty if the finger only rests.
     contacts : tuple of int
@@ -74,7 +74,9 @@ def _stations(contacts: tuple[Contact, ...], controls: tuple[Control, ...]) -> M
 
 
 def worked_by(contact: Contact, instrument: InstrumentMap) -> tuple[str, ...]:
-    """Return the controls that a finger works by this contact, sorted; none if a whole hand works them."""
+    """Return the names of the controls that a finger works by this contact, sorted; empty if the whole hand
+    works them.
+    """
     return _worked(contact, frozenset(one.name for one in instrument.controls if one.finger.endswith(".hand")))
 
 
@@ -100,8 +102,8 @@ def station_for(places: Sequence[Station], worked: frozenset[str]) -> int:
 def fingers_at_work(
     instrument: InstrumentMap, controls: Mapping[str, float], fingers: Mapping[str, str]
 ) -> dict[str, frozenset[str]]:
-    """Return the controls that each finger works if ``controls`` are away from rest and ``fingers`` replace the usual
-    ones.
+    """Return the controls that each finger works at given control values; ``fingers`` names the finger of controls that
+    are not worked by the usual one.
     """
     found: dict[str, set[str]] = {}
     for control in instrument.controls:
@@ -118,7 +120,7 @@ def stations_of_notes(
     Parameters
     ----------
     notes : iterable of (controls, fingers)
-        Controls and replaced fingers of each note, as in `fingers_at_work`.
+        Control values and exceptional fingers of each note, as in `fingers_at_work`.
     """
     kinds, at_work = kinds_of_notes(instrument, notes)
     return {
@@ -132,8 +134,8 @@ def stations_of_notes(
 def kinds_of_notes(
     instrument: InstrumentMap, notes: Iterable[tuple[Mapping[str, float], Mapping[str, str]]]
 ) -> tuple[IndexArray, list[dict[str, frozenset[str]]]]:
-    """Return the kind (N,) of each note by its fingering, and the fingers at work in each kind; a line has only a few
-    kinds.
+    """Return for each note (N,) the index of its fingering among the distinct ones, and for each distinct one the
+    controls that each finger works.
     """
     known: dict[tuple[int, int], int] = {}
     at_work: list[dict[str, frozenset[str]]] = []
@@ -149,8 +151,9 @@ def kinds_of_notes(
 
 
 def asked_together(instrument: InstrumentMap) -> tuple[tuple[tuple[str, int], tuple[str, int]], ...]:
-    """Return the pairs of (finger, station), both away from home, that fingers of one hand need at the same time in any
-    fingering; sorted."""
+    """Return all pairs of (finger, station) of one hand that some fingering requires at the same time; both stations
+    are not the home station. Sorted.
+    """
     working = stations_of_notes(instrument, ((one.controls, one.fingers) for one in instrument.fingerings))
     away = [
         (finger, number) for finger, numbers in working.items() for number in range(1, int(numbers.max(initial=0)) + 1)
@@ -164,10 +167,10 @@ def asked_together(instrument: InstrumentMap) -> tuple[tuple[tuple[str, int], tu
 
 
 def only_at(instrument: InstrumentMap) -> tuple[tuple[str, int] | None, ...]:
-    """Return the finger and the only station for each contact; None for a contact that is always kept.
+    """Return for each contact the only (finger, station) at which it is touched; None for a contact that is always
+    touched.
 
-    A finger touches the contacts of one of several stations, or of a station at which it hovers, only while it works
-    them.
+    A contact is touched only while its station is in use if the finger has several stations or hovers above this one.
     """
     return _only_at(instrument.contacts, instrument.controls)
 
@@ -192,7 +195,9 @@ def hover_m(station: Station, instrument: InstrumentMap) -> float:
 
 
 def height_share(control: Control, values: npt.ArrayLike) -> FloatArray:
-    """Return the share (F,) of a waiting finger's height that remains at given values of its control."""
+    """Return the remaining share (F,) of the height of a waiting finger for values (F,) of its control: 1 at rest, 0 if
+    worked.
+    """
     full = 1.0 if control.half_value is None else control.half_value
     left: FloatArray = np.maximum(1.0 - np.asarray(values, dtype=np.float64) / full, 0.0) ** HOVER_POWER
     return left

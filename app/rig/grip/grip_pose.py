@@ -32,7 +32,7 @@ class NodeMotion:
     """Motion of a node of the instrument with one control, in the instrument's frame.
 
     The node's transform is a translation by ``value * travel_m`` or a rotation by ``value * angle_rad`` about the axis
-    ``axis`` through ``pivot_m``; the other value is zero.
+    ``axis`` through ``pivot_m``; the value that does not apply is zero.
     """
 
     control: str
@@ -51,11 +51,11 @@ class Chain:
     offsets_m : (joints, 3) float64
         Offset of each joint from the one above, the first from the wrist.
     axes : (joints, 3, 3) float64
-        Flexion, sideways and twist axis of each (rows).
+        Flexion, sideways and twist axis of each joint (rows).
     dofs : (D, 2) float64
-        Movable angles: joint, and index of its axis.
+        Movable angles: index of the joint, and index of the axis.
     low, high : (D,) float64
-        Their ranges, radians.
+        Least and greatest value of each movable angle, radians.
     """
 
     offsets_m: FloatArray
@@ -76,7 +76,7 @@ class StationTable:
     hovers : bool
         Whether the finger waits above its controls: the first row is then at the greatest height.
     values : (S,) float64
-        Ascending, from 0 to 1.
+        Values of the controls, ascending from 0 to 1.
     rotations : (S, joints, 4) float64
         ``parent_from_joint``, xyzw, each sample in the hemisphere of the previous one.
     tip_joint : int
@@ -106,13 +106,13 @@ class FingerTable:
     Attributes
     ----------
     finger : str
-        E.g. ``"right.index"``.
+        Side and finger, such as ``"right.index"``.
     joints : tuple of int
         Joints of the skeleton, from the palm outwards.
     stations : tuple of StationTable
         Home first; in the order of `app.rig.grip.finger_stations.stations`.
     chain : Chain or None
-        Joints, for a hand that is offset for its fingers.
+        Joints for inverse kinematics; only for a hand with wrist offsets.
     """
 
     finger: str
@@ -154,18 +154,18 @@ class ContactFit:
 
 @dataclass(frozen=True)
 class WristOffset:
-    """Offset of a hand with which a finger can reach one of its stations.
+    """Offset of a wrist by which a finger can reach one of its stations.
 
     Attributes
     ----------
     station : int
-        Index in ``FingerTable.stations``; that table is for the offset wrist.
+        Index in ``FingerTable.stations``; the poses there are for the offset wrist.
     moved_m, turned : (3,) float64
         Translation of the wrist in the instrument's frame, and rotation vector about it. The other fingers stay in
         place (`app.rig.grip.finger_poses`).
     beside : tuple of (str, int)
-        Stations of other fingers for which the offset is needed too; it is added to those of the single fingers, whose
-        sum may not suit both.
+        Further (finger, station) for an offset that applies only when both fingers are there; it is added to their
+        single offsets.
     """
 
     finger: str
@@ -176,7 +176,7 @@ class WristOffset:
 
     @property
     def places(self) -> tuple[tuple[str, int], ...]:
-        """Pairs of finger and station for which the offset of the wrist is made."""
+        """Pairs of finger and station that need this offset of the wrist."""
         return (self.finger, self.station), *self.beside
 
 
@@ -229,11 +229,11 @@ class Lips:
         Displacement by each morph at weight 1; morphs without influence are omitted. The carrier supports the
         mouthpiece while the mouth is open for a breath: the upper lip, or the lower lip under which a lip plate lies.
     usual_m : (3,) float64
-        Approximate position of the mouthpiece during playing, independent of the face's weights.
+        Approximate position of the mouthpiece during playing, independent of the morph weights.
     apart_m : float
-        Height in metres of the mouthpiece between the lips.
+        Height in metres of the part of the mouthpiece that is between the lips.
     opening_m : float
-        Height in metres of the opening between playing lips beside it.
+        Height in metres of the opening between the lips next to the mouthpiece during playing.
     gap_rest_m : float
         Distance from the edge of the lower lip to that of the upper lip in the middle of the mouth, along the
         mouthpiece's up axis.
@@ -254,11 +254,12 @@ class Lips:
     jaw: str = ""
 
     def contact_m(self, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-        """Return the mouthpiece's position (F, 3) in the head's frame for weight curves (F,) by morph name."""
+        """Return the mouthpiece's position (F, 3) in the head's frame for morph weights (F,) by name."""
         return _weighted(self.contact_rest_m, self.contact_deltas_m, morphs, frames)
 
     def carried_m(self, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-        """Return the position (F, 3) if carried by one lip alone, used while the mouth opens.
+        """Return the mouthpiece's position (F, 3) in the head's frame if only one lip carries it, used while the mouth
+        opens.
 
         Equal to `contact_m` if no morph moves the lips.
         """
@@ -267,7 +268,9 @@ class Lips:
         return carried
 
     def gap_m(self, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-        """Return the distance (F,) in metres of the lips in the middle of the mouth; negative if pressed."""
+        """Return the distance (F,) in metres between the lips in the middle of the mouth; negative if they press
+        together.
+        """
         gap = np.full(frames, self.gap_rest_m)
         for name, delta in self.gap_deltas_m.items():
             if name in morphs:
@@ -275,7 +278,9 @@ class Lips:
         return gap
 
     def jaw_for(self, gap_m: FloatArray, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-        """Return the weight (F,) of `jaw` that brings the lips to a distance, given all other weights."""
+        """Return the weight (F,) of the morph `jaw` at which the lips are ``gap_m`` apart, with all other weights
+        given.
+        """
         others = {name: values for name, values in morphs.items() if name != self.jaw}
         needed: FloatArray = (gap_m - self.gap_m(others, frames)) / self.gap_deltas_m[self.jaw]
         return np.clip(needed, 0.0, 1.0)
@@ -283,7 +288,7 @@ class Lips:
 
 @dataclass(frozen=True)
 class GripPose:
-    """A character's hold of an instrument: hands, lips and how well the contacts fit."""
+    """A character's grip on an instrument: both hands, the lips, and the accuracy of the contacts."""
 
     character_id: str
     instrument_id: str
@@ -308,6 +313,7 @@ def hand_targets(
     Parameters
     ----------
     world_from_instrument_m, world_from_instrument_rotation : (F, 3) and (F, 4) float64
+        Position and rotation of the instrument in the world.
     controls : dict of str to (F,)
         Values 0..1 by control; missing controls are at 0.
     placed : mapping of str to StationBlend, optional
@@ -316,7 +322,7 @@ def hand_targets(
     Returns
     -------
     positions_m, rotations : (F, 3) and (F, 4) float64
-        ``world_from_hand``.
+        Position and rotation of the wrist in the world.
     """
     places, turns = np.atleast_2d(hand.instrument_from_hand_m), np.atleast_2d(hand.instrument_from_hand_rotation)
     local, turn = places[0], turns[0]
@@ -340,21 +346,26 @@ def hand_targets(
 
 
 def giving_for(finger: str) -> str:
-    """Return the name of the `StationBlend` for the hand's offset for a finger; without it, the hand moves with the
-    finger.
+    """Return the name under which ``placed`` has the motion of a hand's offset for a finger; without it, the hand moves
+    with the finger.
     """
     return f"{finger}.hand"
 
 
 def given_way(offset: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
-    """Return the share (F,), 0..1 per frame, of a wrist offset that is applied for its fingers as they come to its
-    stations; None if it is never applied. ``placed`` is the position between stations, by finger."""
+    """Return the applied share (F,), 0..1, of a wrist offset; None if it is never applied.
+
+    ``placed`` has the position between stations by finger, and that of the hand by the names of `giving_for`.
+    """
     return _all_at(offset, placed, [giving_for(finger) for finger, _ in offset.places])
 
 
 def come_to(offset: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
-    """Return the share (F,), 0..1 per frame, by which the fingers of a wrist offset have reached its stations; None if
-    they never do. ``placed`` is the position between stations, by finger."""
+    """Return the share (F,), 0..1, by which all fingers of a wrist offset have reached its stations; None if they never
+    do.
+
+    ``placed`` is the position between stations by finger.
+    """
     return _all_at(offset, placed, [finger for finger, _ in offset.places])
 
 
@@ -376,8 +387,8 @@ def _share_at(where: StationBlend, station: int) -> FloatArray | None:
 
 
 def wrist_given(hand: HandHold, given: Sequence[tuple[WristOffset, FloatArray]]) -> tuple[FloatArray, FloatArray]:
-    """Return the wrist (F, 3) and (F, 4) of a hand on the root in the instrument's frame with offsets applied by shares
-    (F,).
+    """Return position (F, 3) and rotation (F, 4) of a wrist in the instrument's frame, with offsets applied by their
+    shares (F,).
     """
     place, turn = np.atleast_2d(hand.instrument_from_hand_m), np.atleast_2d(hand.instrument_from_hand_rotation)
     if not given:

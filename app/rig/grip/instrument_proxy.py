@@ -29,17 +29,17 @@ class Bodies:
     Attributes
     ----------
     tapers : (T, 8) float64
-        a, b, radius at a and at b of cones and cylinders.
+        Cones and cylinders: end points a and b, radius at a, radius at b.
     capsules : (C, 7) float64
-        a, b, radius.
+        Capsules: end points a and b, radius.
     rings : (R, 8) float64
-        Centre, axis, radius, tube radius.
+        Rings: centre, axis, radius, radius of the tube.
     boxes : (B, 15) float64
-        Centre, half sizes, x, y and z axes.
+        Boxes: centre, half sizes, x, y and z axes.
     nodes : (T + C + R + B,) int
         Node of each body, in the order of the arrays above.
     hulls : (T + C + R + B, 7) float64
-        A capsule around each: a, b, radius.
+        A capsule that encloses each body: end points a and b, radius.
     """
 
     tapers: FloatArray
@@ -67,7 +67,7 @@ class Bodies:
 
 
 def bodies(proxy: Sequence[Proxy], node_names: Sequence[str]) -> Bodies:
-    """Return the simple bodies that stand for an instrument as arrays by kind."""
+    """Return the bodies of an instrument's proxy as arrays by kind."""
     groups: tuple[list[list[float]], ...] = ([], [], [], [])
     hulls: tuple[list[list[float]], ...] = ([], [], [], [])
     nodes: tuple[list[int], ...] = ([], [], [], [])
@@ -158,8 +158,9 @@ def distance(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray) -> Floa
 
 
 def gradient(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, body: IndexArray) -> FloatArray:
-    """Return the gradient (P, 3) of the distance of each of P points (P, 3) to its body (P,), in the instrument's
-    frame."""
+    """Return the gradient (P, 3) of the distance of P points (P, 3), each to the body with the index in ``body`` (P,),
+    in the instrument's frame.
+    """
     local = _local(some, nodes, points_m, body)
     steps = _STEP_M * np.concatenate([np.eye(3), -np.eye(3)])
     found = distances(some, (local + steps[:, None]).reshape(-1, 3), np.tile(body, 6)).reshape(6, -1)
@@ -178,12 +179,12 @@ def signed_distance(shape: Proxy, points_m: AnyFloatArray) -> AnyFloatArray:
 
 @lru_cache(maxsize=1024)
 def _alone(shape: Proxy) -> tuple[FloatArray, _Measure]:
-    """Return the row of a single body of an instrument, and the function that measures distances to such rows."""
+    """Return the array row of a single body, and the function that measures distances to such rows."""
     return next((rows[0], measure) for rows, measure in _kinds(bodies((shape,), (shape.node,))) if len(rows))
 
 
 def _local(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, body: IndexArray) -> FloatArray:
-    """Return K points (K, 3) in the frame of the node of the body (K,) of each."""
+    """Return K points (K, 3) in the frames of the nodes of the bodies with the indices ``body`` (K,)."""
     node = some.nodes[body]
     off = points_m - nodes.place_m[node]
     local: FloatArray = (off[:, None, :] @ nodes.basis[node])[:, 0]
@@ -193,8 +194,10 @@ def _local(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, body: Ind
 def _candidates(
     some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, radius_m: FloatArray
 ) -> tuple[IndexArray, IndexArray]:
-    """Return the indices of ball and body (K,) of each pair whose hulls meet: first the bodies near all balls, then
-    those near each ball. A ball is a point with a radius."""
+    """Return the indices of ball (K,) and body (K,) for each pair that may overlap by the bodies' hulls.
+
+    Bodies far from all balls are excluded first. A ball is a point with a radius.
+    """
     basis, place_m = nodes.basis[some.nodes], nodes.place_m[some.nodes]
     a = (basis @ some.hulls[:, :3, None])[:, :, 0] + place_m
     span = (basis @ (some.hulls[:, 3:6] - some.hulls[:, :3])[:, :, None])[:, :, 0]
@@ -228,8 +231,9 @@ def _candidates(
 
 
 def distances(some: Bodies, local_m: npt.NDArray[Any], body: IndexArray) -> npt.NDArray[Any]:
-    """Return the signed distance (K,) of K points (K, 3), each to a body (K,) in the frame of its node, in the points'
-    precision."""
+    """Return the signed distance (K,) of K points (K, 3), each to the body with the index in ``body`` (K,), in the
+    frame of its node, in the points' precision.
+    """
     result = np.empty(len(body), dtype=local_m.dtype)
     start = 0
     for rows, measure in _kinds(some):
@@ -253,7 +257,7 @@ def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def _taper(row: FloatArray, point: FloatArray) -> FloatArray:
-    """Return the distance from points to a flat-ended cone or cylinder; a row is both end points and both radii."""
+    """Return the distance from points to a flat-ended cone or cylinder; a row has both end points and both radii."""
     a, span = row[..., :3], row[..., 3:6] - row[..., :3]
     wide, narrow = row[..., 6], row[..., 7]
     length2 = _dot(span, span)

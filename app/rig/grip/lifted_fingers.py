@@ -1,9 +1,9 @@
 """Lifted fingers that stay curved: a finger rises from its key at the knuckle, as bent as when pressing.
 
-A grip is solved for the positions of the pads (`app.rig.grip.fitting.solved_fingers`), and may raise a finger by
-stretching its middle joint. People keep it bent and lift all of it. This module changes the waiting poses: equally high
-above the key along the same way, with the two outer joints bent as in a relaxed hand. Pressed poses, and with them all
-contacts, are unchanged.
+A grip is solved for the positions of the pads (`app.rig.grip.fitting.solved_fingers`), which may raise a finger by
+stretching its middle joint. People keep it bent and lift the whole finger. This module changes the poses of waiting
+fingers: the height above the key stays, and the two outer joints are bent as in a relaxed hand. Pressed poses, and with
+them all contacts, are unchanged.
 """
 
 from __future__ import annotations
@@ -38,7 +38,9 @@ EXACT_M, ASIDE_M = 0.0003, 0.012
 
 @dataclass(frozen=True)
 class _Finger:
-    """Geometry of a finger's three joints: offsets (3, 3), flexion and twist axes (3, 3), touching point (3,)."""
+    """Geometry of a finger's three joints: offsets (3, 3), flexion and twist axes (3, 3), and the touching point (3,)
+    in the frame of the last joint.
+    """
 
     offsets_m: FloatArray
     flexion: FloatArray
@@ -50,7 +52,7 @@ class _Finger:
         return self.carried_m(rotations, 0, self.beyond_m(rotations))
 
     def beyond_m(self, rotations: FloatArray) -> FloatArray:
-        """Return the points (S, 3) of the finger's end in the frame of its first joint in S samples."""
+        """Return the touching point (S, 3) in the frame of the finger's first joint in S samples."""
         point = np.broadcast_to(self.tip_m, (len(rotations), 3))
         return self.carried_m(rotations, 1, self.carried_m(rotations, 2, point))
 
@@ -112,8 +114,9 @@ def _curved(table: FingerTable, skeleton: Skeleton, profile: SkeletonProfile) ->
 
 
 def _eased_beyond(station: StationTable, finger: _Finger) -> FloatArray:
-    """Return the rotations (S, 3, 4) of three joints in S samples with the joints beyond the touching one bent at least
-    as in a relaxed hand."""
+    """Return the rotations (S, 3, 4) of a station with the joints beyond the touching one bent at least as in a relaxed
+    hand.
+    """
     rotations = station.rotations
     for joint in range(station.tip_joint + 1, 3):
         bent_rad = np.array([finger.bent_rad(one[joint], joint) for one in rotations])
@@ -122,7 +125,9 @@ def _eased_beyond(station: StationTable, finger: _Finger) -> FloatArray:
 
 
 def _lifted(station: StationTable, finger: _Finger) -> StationTable:
-    """Return a station with its finger lifted from the knuckle: fully curved if possible, else half, else unchanged."""
+    """Return a station whose waiting finger is lifted from the knuckle: as curved as intended if possible, else half as
+    much, else unchanged.
+    """
     for amount in AMOUNTS:
         rotations = _from_knuckle(station, finger, amount)
         if rotations is not None:
@@ -131,8 +136,11 @@ def _lifted(station: StationTable, finger: _Finger) -> StationTable:
 
 
 def _from_knuckle(station: StationTable, finger: _Finger, amount: float) -> FloatArray | None:
-    """Return the rotations (S, 3, 4) of three joints in S samples that reach the same heights from the knuckle; None if
-    impossible."""
+    """Return the rotations (S, 3, 4) with which the finger keeps its heights by rotating at the knuckle; None if
+    impossible.
+
+    ``amount`` 0..1 is how far the outer joints are bent towards a relaxed hand.
+    """
     tips_m, pressed, waiting = finger.tips_m(station.rotations), station.rotations[-1], station.rotations[0]
     way_m = tips_m[0] - tips_m[-1]
     way = way_m / max(float(np.linalg.norm(way_m)), 1e-9)

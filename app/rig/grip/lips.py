@@ -1,8 +1,8 @@
 """Finding of a character's lips and of an instrument's place on them, by the kind of embouchure.
 
 A cup lies on both lips where they meet, a plate under the lower lip. Other mouthpieces are in the middle of the mouth's
-opening, whose edges are found among the vertices around the mouth, in the shape of the face's weights and with the jaw
-open as far as necessary.
+opening, whose edges are found among the vertices around the mouth, with the morphs of the embouchure applied and with
+the jaw open as far as necessary.
 """
 
 from __future__ import annotations
@@ -46,14 +46,14 @@ ROUNDS = 3
 
 @dataclass(frozen=True, eq=False)
 class LipPlaces:
-    """Place of an instrument on a character's lips, as vertices.
+    """Places on a character's lips that an instrument touches, as groups of vertices.
 
     Attributes
     ----------
     contact : Landmark
         Place of the map's ``mouthpiece.position_m`` during playing.
     carrier : Landmark
-        Place that supports it while the mouth is open for a breath.
+        Place that supports the instrument while the mouth is open for a breath.
     upper, lower : Landmark
         The edges of the opening between the lips.
     """
@@ -150,7 +150,9 @@ def _with_lips(character: Character, mesh: str, contact: tuple[int, ...], carrie
 
 
 def _in_head(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, FloatArray]]:
-    """Return a place (3,) in the head's frame at rest, and its displacement by each morph at weight 1."""
+    """Return the position (3,) of a landmark in the head's frame at rest, and its displacement by each morph at weight
+    1.
+    """
     return _of_head(character, place.mesh, tuple(place.vertices.tolist()))
 
 
@@ -164,8 +166,9 @@ def _of_head(character: Character, mesh: str, vertices: tuple[int, ...]) -> tupl
 
 
 def _skin(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, FloatArray]]:
-    """Return the V vertices (V, 3) of a landmark's patch in the head's frame at rest, and their displacements by the
-    morphs."""
+    """Return the positions (V, 3) of a landmark's V vertices in the head's frame at rest, and their displacements by
+    morph.
+    """
     part = patch(character, mesh_named(character, place.mesh), place.vertices)
     skeleton = character.skeleton
     rest = forward(skeleton, np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1)))
@@ -176,8 +179,9 @@ def _skin(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, 
 
 
 def _mouthpiece_axes(character: Character, instrument_map: InstrumentMap, body: Body) -> tuple[FloatArray, FloatArray]:
-    """Return the directions (3,) up and along the air of the mouthpiece in the head's frame, as the instrument is
-    usually carried."""
+    """Return the mouthpiece's up direction (3,) and the direction of the air (3,) in the head's frame in the usual
+    carriage.
+    """
     usual = usual_posture(instrument_map)
     carriage = instrument_map.hold.carriage(usual)
     posed = forward(character.skeleton, joint_rotations(character.skeleton, carrying(body, usual, carriage)))
@@ -198,8 +202,11 @@ class _Mouth:
     Attributes
     ----------
     vertices : (V,) int32
+        Indices in the face's mesh.
     positions_m : (V, 3) float64
+        Positions at rest.
     deltas_m : dict of str to (V, 3) float64
+        Displacements by each morph at weight 1.
     seam_m : (3,) float64
         Meeting point of the lips.
     jaw : str
@@ -207,7 +214,7 @@ class _Mouth:
     upper, lower : (V,) bool
         Whether each vertex belongs to the upper or lower lip.
     size : float
-        Of the face.
+        Size of the face relative to an adult's.
     """
 
     mesh: str
@@ -223,8 +230,9 @@ class _Mouth:
     def edges(
         self, weights: Mapping[str, float], opening_m: float, up: FloatArray, ahead: FloatArray
     ) -> tuple[IndexArray, IndexArray]:
-        """Return the vertex indices of upper and lower lip that touch the mouthpiece, with the jaw opened as far as
-        ``opening_m``; ``up`` and ``ahead`` are directions in the head's frame."""
+        """Return the vertex indices of upper and lower lip that touch the mouthpiece, with the lips opened to the
+        height ``opening_m``; ``up`` and ``ahead`` are directions in the head's frame.
+        """
         shape: FloatArray = self.positions_m + sum(
             weight * self.deltas_m[name] for name, weight in weights.items() if name in self.deltas_m
         )
@@ -244,8 +252,9 @@ class _Mouth:
         return upper, lower
 
     def _edge(self, height: FloatArray, depth: FloatArray, own: BoolArray) -> IndexArray:
-        """Return the indices of the lowest vertex in the left and the right half of a lip; their mean lies in the
-        middle."""
+        """Return the indices of the lowest vertex in the left half and in the right half of a lip, whose mean is in the
+        middle.
+        """
         front = float(np.percentile(depth[own], 90.0))
         outside = own & (depth > front - DEPTH_M * self.size)
         off_m = self.positions_m[:, 0] - self.seam_m[0]

@@ -1,1 +1,1 @@
-"""People made from a finished body: phenotypes, shapes, what is worn, and characters of them."""
+"""People made from a bundled body: phenotypes, body shapes, clothes and hair, and the resulting characters."""

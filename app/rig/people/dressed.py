@@ -1,4 +1,4 @@
-"""People in outfits: the garments of a file carried onto a body, in place of what it wears itself."""
+"""People in outfits: garments from a file are fitted to a body and replace its own clothes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from app.rig.people.wardrobe import OutfitChoice, OutfitFacts, linear_colour, wa
 
 
 def dressed_id(id: str, person: Person, choice: OutfitChoice) -> str:
-    """Return an id of a character in its clothes: its own without an outfit."""
+    """Return the id of a character in its clothes; without an outfit, its own id."""
     outfit = wardrobe().get(choice.id)
     if outfit is None or person.original not in outfit.files:
         return id
@@ -31,14 +31,14 @@ def dressed_id(id: str, person: Person, choice: OutfitChoice) -> str:
 
 
 def dressed(character: Character, person: Person, choice: OutfitChoice) -> Character:
-    """Dress a person; body, face and hair are shared with the one in the clothes of their own.
+    """Return a person in an outfit; body, face and hair are shared with the person in its own clothes.
 
     Parameters
     ----------
     character : Character
-        Made from ``person``.
+        Character made from ``person``.
     choice : OutfitChoice
-        One that there is not leaves the person as they are.
+        Outfit and colours; with an unknown outfit the person is returned unchanged.
     """
     outfit = wardrobe().get(choice.id)
     if outfit is None or person.original not in outfit.files:
@@ -59,7 +59,9 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
 
 
 def _on(garments: Sequence[Mesh], character: Character, mark: Landmark) -> Landmark:
-    """A landmark of what is left out, as of the sole of a shoe: where garments are nearest to it."""
+    """Return a landmark of a removed mesh, such as the sole of a shoe, placed on the nearest vertices of the
+    garments.
+    """
     before = next(mesh for mesh in character.meshes if mesh.name == mark.mesh)
     place_m = before.positions_m[mark.vertices].mean(axis=0)
     far_m = [np.linalg.norm(mesh.positions_m - place_m, axis=1) for mesh in garments]
@@ -70,12 +72,14 @@ def _on(garments: Sequence[Mesh], character: Character, mark: Landmark) -> Landm
 
 @lru_cache(maxsize=48)
 def _garments(path: Path, body: str) -> Original:
-    """The garments of a file on the finished body that they are fitted to."""
+    """Return the garments of a file, prepared on the bundled body that they were fitted to."""
     return original_of(load_character(path), body_shapes(), originals()[body])
 
 
 def _uncovered(mesh: Mesh, facts: OutfitFacts, finished: Character) -> Mesh:
-    """A mesh of a person's own without the skin that clothes cover; its vertices stay, which landmarks count."""
+    """Return a mesh of a person without the skin that clothes cover. Vertices stay, so that landmarks keep their
+    indices.
+    """
     if mesh.name != SKIN or not facts.hides_skin:
         return mesh
     seen = _seen_triangles(finished, tuple(facts.hides_skin))
@@ -84,7 +88,9 @@ def _uncovered(mesh: Mesh, facts: OutfitFacts, finished: Character) -> Mesh:
 
 @lru_cache(maxsize=32)
 def _seen_triangles(finished: Character, hidden: tuple[int, ...]) -> BoolArray:
-    """For each triangle (T,) of a finished body's skin whether clothes leave it visible."""
+    """Return for each triangle (T,) of a bundled body's skin whether it stays visible; ``hidden`` are vertices of the
+    base mesh under clothes.
+    """
     made, shapes = finished_body(finished, finished.id), body_shapes()
     covered = np.isin(shapes.vertices[made.bindings[SKIN].corners[:, 0]], hidden)
     skin = next(mesh for mesh in finished.meshes if mesh.name == SKIN)
@@ -92,7 +98,7 @@ def _seen_triangles(finished: Character, hidden: tuple[int, ...]) -> BoolArray:
 
 
 def _coloured(mesh: Mesh, facts: OutfitFacts, choice: OutfitChoice, skin: Mesh) -> Mesh:
-    """A mesh in the colours of a choice; skin that a garment shows is the person's."""
+    """Return a mesh in the chosen colours; where a garment shows skin, it gets the person's."""
     materials = _materials(mesh.materials, facts, choice, skin)
     return mesh if materials == mesh.materials else replace(mesh, materials=materials)
 

@@ -1,7 +1,7 @@
-"""Characters of people: a finished body whose meshes, joints and shapes go where a phenotype takes its base mesh.
+"""Characters of people: the meshes, joints and morphs of a bundled body, moved as its base mesh changes by a phenotype.
 
-The finished body itself is left as it is. Hands are moved and turned as a whole with their wrists, so that whatever was
-fitted to the finished body's hands holds for every person made from it.
+The bundled body itself is unchanged. Hands are moved rigidly with their wrists, so that a grip fitted to the bundled
+body's hands is valid for every person made from it.
 """
 
 from __future__ import annotations
@@ -37,20 +37,23 @@ NEUTRAL_MEANS: Final[Mapping[str, float]] = {"skin": 0.70, "hair": 0.32, "brows"
 
 @dataclass(frozen=True, eq=False)
 class Original:
-    """A finished body that people are made from.
+    """A bundled body, prepared for making people from it.
 
     Attributes
     ----------
+    character : Character
+        The body.
     base_m : (V + J, 3)
-        The base mesh and joints of its phenotype.
+        Base mesh and joints of its phenotype.
     bindings : dict of str to Binding
-        Of its meshes, by name.
+        Bindings of its meshes to the base mesh, by name of the mesh.
     hands : dict of str to (N, 2)
-        By mesh: how far its vertices go with the left and the right hand, 0 to 1.
+        By mesh: share 0..1 by which each vertex moves with the left and with the right hand.
     arms : dict of str to (N, 4)
-        By mesh: how far its vertices go with left elbow and wrist and with right ones, where an arm is lengthened.
+        By mesh: share by which each vertex moves with left elbow, left wrist, right elbow and right wrist if an arm is
+        lengthened.
     places : dict of str to (N,)
-        By mesh: numbers of places (`places_of`).
+        By mesh: number of each vertex's position (`places_of`).
     """
 
     character: Character
@@ -62,7 +65,7 @@ class Original:
 
 
 def original_of(character: Character, shapes: BodyShapes, phenotype: Phenotype) -> Original:
-    """Prepare a finished body for making people from it; takes a part of a second."""
+    """Prepare a bundled body with a phenotype for making people from it; takes a fraction of a second."""
     base_m = body_m(shapes, phenotype)
     skin_m = base_m[: len(shapes.vertices)]
     return Original(
@@ -84,14 +87,16 @@ def _hand_shares(character: Character, mesh: Mesh) -> FloatArray:
 
 
 def _weight_below(character: Character, mesh: Mesh, name: str) -> FloatArray:
-    """Sum of each vertex's weights (N,) on a joint and all joints below it."""
+    """Return for each vertex (N,) the sum of its weights on a joint and all joints below it."""
     top = character.skeleton.index(name)
     joints = [joint for joint in range(len(character.skeleton.names)) if top in ancestors(character.skeleton, joint)]
     return np.asarray((mesh.weights * np.isin(mesh.joints, joints)).sum(axis=1), dtype=np.float64)
 
 
 def _arm_shares(character: Character, mesh: Mesh) -> FloatArray:
-    """Shares (N, 4) of the way of elbows and wrists that vertices go: along the arm, all of it beyond the wrist."""
+    """Return the shares (N, 4) of the displacements of left elbow, left wrist, right elbow and right wrist that
+    vertices follow: increasing along the arm, all of it beyond the wrist.
+    """
     skeleton, columns = character.skeleton, []
     at = np.linalg.inv(character.joint_from_mesh)[:, :3, 3]
     for side, _ in SIDES:
@@ -117,20 +122,20 @@ def person_character(
     hands: float = 1.0,
     hip_joints_m: float = 0.0,
 ) -> Character:
-    """Make a person.
+    """Make the character of a person from a bundled body and a phenotype.
 
     Parameters
     ----------
     colors : mapping of str to (float, float, float), optional
-        By material: linear base colour.
+        Linear base colour by material.
     worn : mapping of str to Original, optional
-        By mesh: the finished body that it is taken from, with joints of the same names.
+        Bundled body from which a mesh (such as the hair) is taken, by mesh; its joints have the same names.
     skin_colors : Texture, optional
-        Picture of the skin, instead of the finished body's.
+        Texture of the skin, instead of the bundled body's.
     hands : float
-        Size of the hands, the finished body's being 1; of another size they hold nothing as the finished body does.
+        Size of the hands relative to the bundled body's; if it is not 1, the bundled body's grips are not valid.
     hip_joints_m : float
-        Distance between the hip joints; 0: as the phenotype moves them.
+        Distance between the hip joints; 0 for the distance by the phenotype.
     """
     body = body_m(shapes, phenotype)
     if hip_joints_m:
@@ -148,14 +153,14 @@ def person_character(
 
 
 def carried(original: Original, shapes: BodyShapes, phenotype: Phenotype, hands: float = 1.0) -> tuple[Mesh, ...]:
-    """Carry the meshes of a file, garments without a face, onto the body of a phenotype with hands of a size."""
+    """Return the meshes of garments (without a face), fitted to the body of a phenotype with hands of a size."""
     body = body_m(shapes, phenotype)
     joints = _joints(original, shapes, body, hands)
     return tuple(_changed(original, mesh, body, joints, NO_CHANGE) for mesh in original.character.meshes)
 
 
 def _chosen(original: Original, worn: Mapping[str, Original]) -> list[tuple[Mesh, Original]]:
-    """The meshes of a person, each with the bundled person from whom it is taken."""
+    """Return the meshes of a person, each with the bundled body from which it is taken."""
     found = []
     for mesh in original.character.meshes:
         owner = worn.get(mesh.name, original)
@@ -165,8 +170,9 @@ def _chosen(original: Original, worn: Mapping[str, Original]) -> list[tuple[Mesh
 
 
 def _with_hip_joints(original: Original, shapes: BodyShapes, body: FloatArray, apart_m: float) -> FloatArray:
-    """Return a body whose hip joints lie ``apart_m`` from each other, symmetrically; the other points of ``body``
-    stay."""
+    """Return ``body`` with its hip joints moved symmetrically until they are ``apart_m`` apart; all other points are
+    unchanged.
+    """
     moved, before = body.copy(), original.character
     for side, sign in SIDES:
         joint = before.skeleton.index(f"{side}UpperLeg")
@@ -177,14 +183,14 @@ def _with_hip_joints(original: Original, shapes: BodyShapes, body: FloatArray, a
 
 
 def _joints(original: Original, shapes: BodyShapes, body: FloatArray, hands: float) -> MovedJoints:
-    """Move the joints of a finished body as its base mesh becomes another one."""
+    """Return the joints of a bundled body, moved as its base mesh becomes ``body``."""
     count = len(shapes.vertices)
     steps = body[count:] - original.base_m[count:]
     return moved_joints(original.character, dict(zip(shapes.joints, steps, strict=True)), hands)
 
 
 def _moved(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoints) -> FloatArray:
-    """Return the vertices (N, 3) of a mesh, moved with the ``body`` and its lengthened limbs."""
+    """Return the vertices (N, 3) of a mesh, moved as its base mesh becomes ``body``, including lengthened limbs."""
     binding, points = original.bindings[mesh.name], mesh.positions_m.astype(np.float64)
     moved = points + binding.carried(body - original.base_m) + original.arms[mesh.name] @ joints.lengthened
     skeleton = original.character.skeleton
@@ -200,7 +206,7 @@ def _moved(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoints
 
 
 def _changed(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoints, face: FaceChange) -> Mesh:
-    """A mesh of a finished body on another body."""
+    """Return a mesh of a bundled body, fitted to another body: vertices, normals and morphs."""
     points, moved = mesh.positions_m.astype(np.float64), _moved(original, mesh, body, joints)
     moved = _off_the_eyes(original, points, moved, joints)
     places = original.places[mesh.name]
@@ -215,8 +221,9 @@ def _changed(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoin
 def _shape(
     original: Original, morph: Morph, points: FloatArray, moved: FloatArray, joints: MovedJoints, turns: FloatArray
 ) -> Morph:
-    """Return a morph of the face as it is on another person's face: turned and stretched with the skin, lids still on
-    the eyeballs."""
+    """Return a morph of the face for another person's face: displacements are turned and stretched with the skin, and
+    lids stay on the eyeballs.
+    """
     rows = morph.vertices
     before = points[rows] + morph.deltas_m
     after = moved[rows] + np.einsum("nij,nj->ni", turns[rows], morph.deltas_m)
@@ -225,8 +232,9 @@ def _shape(
 
 
 def _off_the_eyes(original: Original, before: FloatArray, after: FloatArray, joints: MovedJoints) -> FloatArray:
-    """Return the points ``after`` (N, 3) with those near an eyeball put as far from its middle as in ``before``, so
-    that lids still fit."""
+    """Return the points ``after`` (N, 3), in which those near an eyeball keep the distance from its centre that they
+    have in ``before``, so that lids still fit.
+    """
     for side, _ in SIDES:
         eye = original.character.skeleton.index(f"{side}Eye")
         radius_m = _ball_m(original.character, eye)
@@ -245,7 +253,7 @@ def _off_the_eyes(original: Original, before: FloatArray, after: FloatArray, joi
 
 @lru_cache(maxsize=16)
 def _ball_m(character: Character, eye: int) -> float:
-    """Radius of an eyeball; 0 where there is none."""
+    """Return the radius of an eyeball in metres; 0 if there is none."""
     centre = np.linalg.inv(character.joint_from_mesh[eye])[:3, 3]
     radii = [0.0]
     for mesh in character.meshes:
@@ -270,7 +278,7 @@ def _recolored(mesh: Mesh, colors: Mapping[str, Color], skin: Texture | None) ->
 
 
 def _standing(character: Character, joints: MovedJoints) -> Character:
-    """A person with its joints where they are in the T-pose, soles on the floor."""
+    """Return a person whose skeleton in the T-pose follows from its moved joints, with the soles on the floor."""
     skeleton = character.skeleton
     joint_from_mesh = np.linalg.inv(joints.after).astype(np.float64)
     places = t_positions(skeleton, joints.after)
@@ -286,7 +294,7 @@ def _standing(character: Character, joints: MovedJoints) -> Character:
 
 
 def _lowest_m(character: Character, joint_from_mesh: FloatArray, places: FloatArray) -> float:
-    """Height of the lowest vertex of the feet in the T-pose."""
+    """Return the height in metres of the lowest vertex of the feet in the T-pose."""
     feet = [character.skeleton.index(f"{side}{part}") for side, _ in SIDES for part in ("Foot", "Toes")]
     lowest_m = np.inf
     world = joint_from_mesh[:, 1, :].copy()

@@ -1,4 +1,6 @@
-"""Joints of a finished body moved to those of another one: places in the rest pose, and frames that turn along."""
+"""Joints of a bundled body, moved to those of another body: positions in the rest pose, and rotations of
+their frames.
+"""
 
 from __future__ import annotations
 
@@ -16,16 +18,17 @@ SIDES = (("left", 1.0), ("right", -1.0))
 
 @dataclass(frozen=True, eq=False)
 class MovedJoints:
-    """The J joints of a body in its rest pose, before and after.
+    """The J joints of a body in the rest pose, before and after they are moved.
 
     Attributes
     ----------
     before, after : (J, 4, 4) float64
         ``mesh_from_joint``.
     lengthened : (4, 3) float64
-        How far left elbow and wrist, then right ones, went beyond what was asked: no arm becomes shorter.
+        Additional displacement of left elbow, left wrist, right elbow and right wrist, which keeps arms from becoming
+        shorter.
     hands : float
-        Size of the hands, those before being 1.
+        Size of the hands relative to those before.
     """
 
     before: FloatArray
@@ -34,12 +37,12 @@ class MovedJoints:
     hands: float = 1.0
 
     def turn(self, joint: int) -> FloatArray:
-        """The rotation (3, 3) of a joint from before to after."""
+        """Return the rotation (3, 3) of a joint's frame from before to after."""
         turned: FloatArray = self.after[joint, :3, :3] @ self.before[joint, :3, :3].T
         return turned
 
     def rigidly(self, joint: int, points: FloatArray, size: float = 1.0) -> FloatArray:
-        """Points (N, 3) moved and turned with a joint, at another size about it."""
+        """Return points (N, 3) moved and rotated with a joint, and scaled about it by ``size``."""
         moved: FloatArray = size * (points - self.before[joint, :3, 3]) @ self.turn(joint).T + self.after[joint, :3, 3]
         return moved
 
@@ -50,9 +53,10 @@ def moved_joints(original: Character, moved_m: Mapping[str, FloatArray], hands: 
     Parameters
     ----------
     moved_m : mapping of str to (3,)
-        By joint outside the hands: how far it goes. Hands go with their wrists, whatever else is not named stays.
+        Displacement of each joint outside the hands. Hands move with their wrists; other joints that are not named
+        stay.
     hands : float
-        Size of the hands, those of the body being 1. Where they stay as large as they are, arms become no shorter.
+        Size of the hands relative to the body's. If it is 1, arms do not become shorter.
     """
     skeleton = original.skeleton
     before = np.linalg.inv(original.joint_from_mesh).astype(np.float64)
@@ -77,7 +81,9 @@ def moved_joints(original: Character, moved_m: Mapping[str, FloatArray], hands: 
 
 
 def _lengthen(skeleton: Skeleton, before: FloatArray, after: FloatArray, side: str) -> FloatArray:
-    """Move elbow and wrist out along an arm that became shorter, in place, and return how far (2, 3)."""
+    """Move elbow and wrist outwards along an arm that became shorter, in ``after``; return their
+    displacements (2, 3).
+    """
     rows = [skeleton.index(f"{side}{part}") for part in ("UpperArm", "LowerArm", "Hand")]
     lengths = np.linalg.norm(np.diff(before[rows, :3, 3], axis=0), axis=1)
     bones = np.diff(after[rows, :3, 3], axis=0)
@@ -88,7 +94,7 @@ def _lengthen(skeleton: Skeleton, before: FloatArray, after: FloatArray, side: s
 
 
 def arm_after_m(original: Character, moved_m: Mapping[str, FloatArray]) -> float:
-    """Return the length of the right arm, upper and lower, once its joints are moved (see `moved_joints`)."""
+    """Return the length in metres of the right upper and lower arm after its joints are moved (see `moved_joints`)."""
     skeleton = original.skeleton
     names = [f"right{part}" for part in ("UpperArm", "LowerArm", "Hand")]
     at = np.linalg.inv(original.joint_from_mesh[[skeleton.index(name) for name in names]])[:, :3, 3]
@@ -111,7 +117,9 @@ def t_positions(skeleton: Skeleton, joints: FloatArray) -> FloatArray:
 def _limb_frames(
     skeleton: Skeleton, before: FloatArray, after: FloatArray, side: str, sign: float
 ) -> dict[int, tuple[FloatArray, FloatArray]]:
-    """Frames (4, 4) along the bones of an arm and a leg in two poses, by joint index: before, after."""
+    """Return frames (3, 3) along the bones of an arm and a leg, by joint index: before and after the joints
+    are moved.
+    """
     found: dict[int, tuple[FloatArray, FloatArray]] = {}
     names = [f"{side}{part}" for part in ("UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toes")]
     rows = [skeleton.index(name) for name in names]
@@ -137,7 +145,9 @@ def _frames(places: FloatArray, sign: float) -> dict[int, FloatArray]:
 
 
 def _frame(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Axes in columns: along the first, and as near the second as may be."""
+    """Return orthogonal axes as columns (3, 3): along ``first``, as near as possible to ``second``, and at right angles
+    to both.
+    """
     one = first / np.linalg.norm(first)
     two = second - one * (second @ one)
     two /= np.linalg.norm(two)

@@ -1,4 +1,4 @@
-"""A person as a file says: the finished body it is made from, its phenotype, colours, and whose clothes and hair."""
+"""A person as described in a file: its bundled body, phenotype and colours, and the origin of clothes and hair."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ Color = tuple[float, float, float]
 
 
 class PersonName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Names of a person in both languages."""
+    """Names of a person in English and Japanese."""
 
     en: str
     ja: str
 
 
 class OriginalBody(Phenotype, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """A finished body as a table says: its phenotype, and whoever can be made from it.
+    """A bundled body as described in a table: its phenotype, and the people that can be made from it.
 
     Attributes
     ----------
     name : PersonName
-        Empty of one that is there only to be made people from.
+        Empty for a body that exists only to make people from it.
     made_from : str
-        Id of another finished body that it is made from itself; empty: it is a file.
+        Id of another bundled body that it is made from; empty if it has a file.
     hands : float
-        Size of its hands, those of the body that it is made from being 1.
+        Size of its hands relative to the body that it is made from.
     hip_joints_m : float
-        Distance between its hip joints; 0: as its phenotype moves them.
+        Distance between its hip joints; 0 for the distance by the phenotype.
     heights_m, years : (float, float)
         Ranges of height and age of people made from it, whose hands are as large as its own.
     """
@@ -55,22 +55,22 @@ class Person(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defau
     Attributes
     ----------
     original : str
-        Id of the finished body: its hands stay as they are, everything else goes with the phenotype.
+        Id of the bundled body, whose hands are kept; everything else changes with the phenotype.
     name : PersonName
-        Empty of the user's own people, who have a title.
+        Names; empty for people of the user, which have a title instead.
     colors : dict of str to (float, float, float)
-        By material: linear base colour.
+        Linear base colour by material.
     worn : dict of str to str
-        By mesh (``hair``, ``shirt`` ...) the finished body that it is taken from.
+        Bundled body from which each mesh (such as ``hair`` or ``shirt``) is taken.
     hair : str
-        Style of hair by itself, a file of ``resources/characters/hair``; empty: the finished body's.
+        Hairstyle, a file of ``resources/characters/hair``; empty for the bundled body's hair.
     skin : str
-        Picture of the skin in ``resources/characters/skin``; empty: the finished body's.
+        Texture of the skin in ``resources/characters/skin``; empty for the bundled body's.
     not_cast_for : list of str
-        Ids of instruments that the body plays only beyond the bounds: it is too small for them.
+        Ids of instruments for which the body is too small.
     carriages : dict of str to (float, float, float)
-        By instrument that the body carries in another way than is usual, so that its wrists stay straight: how far, in
-        shares of the ranges of pitch, yaw and roll.
+        Carriage, by instrument that the body carries differently to keep its wrists straight: deviations of pitch, yaw
+        and roll from the usual, -1 to 1, as shares of their ranges.
     """
 
     original: str
@@ -90,7 +90,7 @@ def read_person(path: Path) -> Person:
 
 
 def checked(person: Person, file: str) -> Person:
-    """Return a person whose numbers are within their bounds. Raises MapError ``table.invalid``."""
+    """Return the person unchanged if all its numbers are within their bounds. Raises MapError otherwise."""
     for name in (person.original, *person.worn.values()):
         if name not in originals():
             raise MapError("table.invalid", file=file, place="original", detail="the id of a finished body")
@@ -106,13 +106,15 @@ def checked(person: Person, file: str) -> Person:
 
 @cache
 def hair_styles() -> Mapping[str, Path]:
-    """Return the styles of hair by themselves: id and file; its folder has the finished body's name."""
+    """Return the files of the separate hairstyles by id; a file's folder is named after the bundled body that
+    it fits.
+    """
     return MappingProxyType({path.stem: path for path in sorted((_folder() / "hair").glob("*/*.glb"))})
 
 
 @cache
 def skins() -> Mapping[str, Path]:
-    """Return the pictures of skin by themselves: id and file."""
+    """Return the files of the separate skin textures by id."""
     return MappingProxyType({path.stem: path for path in sorted((_folder() / "skin").glob("*.jpg"))})
 
 
@@ -122,20 +124,20 @@ def _folder() -> Path:
 
 @cache
 def originals() -> Mapping[str, OriginalBody]:
-    """Return the finished bodies, by id."""
+    """Return the descriptions of the bundled bodies by id."""
     path = _folder() / "originals.toml"
     return MappingProxyType(shaped(read_toml(path), dict[str, OriginalBody], str(path)))
 
 
 def ranges(ids: Collection[str]) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return between which heights in metres, and which years of age, people of some of the finished bodies are."""
+    """Return the ranges of height in metres and of age in years of people made from any of the given bundled bodies."""
     lows, highs = zip(*((one.heights_m, one.years) for one in map(originals().__getitem__, ids)), strict=True)
     (least_m, most_m), (youngest, oldest) = (zip(*both, strict=True) for both in (lows, highs))
     return (min(least_m), max(most_m)), (min(youngest), max(oldest))
 
 
 def _bounded(person: Person) -> list[tuple[str, float, float, float]]:
-    """Return place, least allowed value, value and greatest allowed value of each number of a person."""
+    """Return name, least allowed value, value and greatest allowed value of each number of a person."""
     phenotype, original = person.phenotype, originals()[person.original]
     (least_m, most_m), (youngest, oldest) = original.heights_m, map(age_of, original.years)
     found = [("phenotype.height_m", least_m, phenotype.height_m, most_m)]

@@ -1,7 +1,7 @@
-"""The wardrobe: outfits that come with the program, and what their files say of themselves.
+"""The wardrobe: bundled outfits, and the facts stored in their files.
 
-A file has the garments alone, skinned to the joints of a finished body that they are fitted to. It is made for everyone
-(``<outfit>.glb``), or for the people of one finished body (``<outfit>_man.glb``, ``<outfit>_woman.glb``).
+A file has only garments, skinned to the joints of the bundled body that they are fitted to. It is for everyone
+(``<outfit>.glb``), or for people of one bundled body (``<outfit>_man.glb``, ``<outfit>_woman.glb``).
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ _HEADER: Final = 20
 
 
 class OutfitChoice(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """Clothes that someone was given.
+    """Clothes chosen for a character.
 
     Attributes
     ----------
     id : str
-        Of the outfit; empty: the person's own clothes.
+        Id of the outfit; empty for the person's own clothes.
     main, second, accent : str
-        ``#rrggbb``; empty: as the outfit has it.
+        Colours as ``#rrggbb``; empty for those of the outfit.
     """
 
     id: str = OWN_CLOTHES
@@ -47,7 +47,7 @@ class OutfitChoice(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit
     accent: str = ""
 
     def colour(self, tint: Tint) -> str:
-        """The colour chosen for a part of the outfit; empty where none was."""
+        """Return the chosen colour of a part of the outfit as ``#rrggbb``; empty if none was chosen."""
         chosen: str = getattr(self, tint)
         return chosen
 
@@ -56,22 +56,22 @@ NO_CHOICE: Final = OutfitChoice()
 
 
 class OutfitFacts(msgspec.Struct, frozen=True):
-    """Facts of a file of garments, under ``suisou.outfit`` in the extras of its scene.
+    """Facts stored in a file of garments, under ``suisou.outfit`` in the extras of its scene.
 
     Attributes
     ----------
     body : str
-        Finished body that they are fitted to; empty: by the file's name.
+        Bundled body that the garments are fitted to; empty if the file's name has it.
     parts : dict of str to str
-        By mesh: the place where it is worn.
+        Place on the body where each mesh is worn, by mesh.
     hides : list of str
-        Meshes of the person that are left out.
+        Meshes of the person that are removed.
     hides_skin : list of int
-        Vertices of the base mesh; faces of the skin between them are left out.
+        Vertices of the base mesh; faces of the skin between them are removed.
     tints : dict of str to str
-        By material, of the file or of the person's own clothes: the colour of the choice that it takes.
+        Chosen colour (main, second or accent) of each material of the file or of the person's own clothes.
     means : dict of str to float
-        By material: the mean of its neutral texture, by which a colour is divided; 1 without a texture.
+        Mean of the neutral texture of each material, by which a colour is divided; 1 without a texture.
     """
 
     id: str
@@ -91,9 +91,9 @@ class Outfit:
     Attributes
     ----------
     files : mapping of str to (Path, OutfitFacts)
-        By the finished body whose people wear them.
+        File and facts for people of each bundled body.
     colours : dict of str to str
-        By colour that can be chosen, in their order: the outfit's own, ``#rrggbb``.
+        The outfit's own colours as ``#rrggbb``, by part whose colour can be chosen, in their order.
     """
 
     id: str
@@ -103,7 +103,7 @@ class Outfit:
 
     @property
     def tints(self) -> tuple[Tint, ...]:
-        """Parts of an outfit whose colour can be chosen."""
+        """Parts of the outfit whose colour can be chosen."""
         return tuple(self.colours)
 
 
@@ -142,7 +142,9 @@ def _outfit(id: str, made: Mapping[str, tuple[Path, OutfitFacts]], colours: Mapp
 
 
 def _facts(path: Path) -> tuple[OutfitFacts, dict[str, list[float]]]:
-    """Facts of a file, and the colours of its materials. Raises FileError."""
+    """Return the facts of a file of garments, and the linear base colours of its materials by name. Raises
+    FileError.
+    """
     document = _document(path)
     scenes: list[Any] = field(document, "scenes") or [None]
     told = field(field(field(scenes[0], "extras"), "suisou"), "outfit")
@@ -153,7 +155,7 @@ def _facts(path: Path) -> tuple[OutfitFacts, dict[str, list[float]]]:
 
 
 def _document(path: Path) -> dict[str, Any]:
-    """The document of a glTF binary of ours; the rest of the file is not read. Raises FileError."""
+    """Read the JSON document of a bundled glTF binary, without the rest of the file. Raises FileError."""
     with open_file(path) as stream:
         head = stream.read(_HEADER)
         document, _ = split(head + stream.read(int.from_bytes(head[12:16], "little")), str(path))
@@ -161,7 +163,7 @@ def _document(path: Path) -> dict[str, Any]:
 
 
 def _factors(document: dict[str, Any]) -> dict[str, list[float]]:
-    """Linear base colours of materials, by name."""
+    """Return the linear base colours of the materials of a glTF document by name."""
     return {
         field(one, "name"): (field(field(one, "pbrMetallicRoughness"), "baseColorFactor") or [1.0, 1.0, 1.0])[:3]
         for one in field(document, "materials") or []

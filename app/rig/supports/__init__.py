@@ -1,1 +1,1 @@
-"""Straps that instruments hang on, and the chair of who sits: shapes, how they follow, how they are fitted."""
+"""Straps that carry instruments, and the chair of a seated player: their shapes, their motion, and their fitting."""

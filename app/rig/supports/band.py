@@ -18,17 +18,18 @@ Shares: TypeAlias = Sequence[tuple[int, float]]
 
 @dataclass(frozen=True, eq=False)
 class SurfaceStrip:
-    """A grid of points as a surface of one material.
+    """A surface of one material, given as a grid of R rings of C points.
 
     Attributes
     ----------
     points_m : (R, C, 3) float64
-        Rings of C points each; seen from outside the columns go to the left as the rings go up.
+        Points; seen from outside, columns advance to the left if rings advance upwards.
     weights : sequence of shares
-        Of each ring.
+        Bones and their weights for each ring.
     closed : bool
-        Whether the last point of a ring is followed by the first.
+        Whether the last point of a ring is connected to the first.
     material : int
+        Index of the material.
     """
 
     points_m: FloatArray
@@ -38,7 +39,7 @@ class SurfaceStrip:
 
 
 def mesh_of(name: str, strips: Sequence[SurfaceStrip], materials: tuple[Material, ...]) -> Mesh:
-    """Join strips to a mesh. The u of a texture goes around a ring, v along the rings."""
+    """Join strips to a mesh. The texture coordinate u goes around a ring, v from ring to ring."""
     columns = 4
     positions, normals, uvs, triangles, looks = [], [], [], [], []
     joints, weights = list[IntArray](), list[FloatArray]()
@@ -75,7 +76,9 @@ def mesh_of(name: str, strips: Sequence[SurfaceStrip], materials: tuple[Material
 
 
 def _padded(weights: Sequence[Shares], columns: int) -> tuple[IntArray, FloatArray]:
-    """Return the K strongest bones (R, K) of each of R rings of a band, and their shares, which add up to 1."""
+    """Return the ``columns`` strongest bones of each of R rings, and their weights, which add up to 1; both (R,
+    columns).
+    """
     bones, shares = np.zeros((len(weights), columns), np.int64), np.zeros((len(weights), columns))
     for row, own in enumerate(weights):
         strongest = sorted(own, key=lambda one: -one[1])[:columns]
@@ -85,8 +88,9 @@ def _padded(weights: Sequence[Shares], columns: int) -> tuple[IntArray, FloatArr
 
 
 def _normals(points: FloatArray, closed: bool) -> FloatArray:
-    """Return the normals (R, C, 3) of a grid of R rings with C corners; a ring of no width has those of its
-    neighbour."""
+    """Return the normals (R, C, 3) of a grid of R rings with C corners; a ring whose points coincide gets the normals
+    of its neighbour.
+    """
     along = np.gradient(points, axis=0)
     if closed:
         wrapped = np.concatenate([points[:, -2:-1], points, points[:, 1:2]], axis=1)

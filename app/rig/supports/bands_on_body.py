@@ -1,4 +1,6 @@
-"""Legs of a strap: a band over the body as far as it touches, then straight to where the legs meet."""
+"""Legs of a strap, that is, its bands: each lies on the body as far as it touches, then goes straight to where the legs
+meet.
+"""
 
 from __future__ import annotations
 
@@ -32,18 +34,20 @@ _MOST_ON_BODY = 0.52
 
 @dataclass(frozen=True, eq=False)
 class BandRoute:
-    """The way of a leg over a body, in the player's frame.
+    """Course of one leg (band) of a strap over a body, in the player's frame.
 
     Attributes
     ----------
     start_m, via_m : (3,) float64
-        As of `taut_string`.
+        Beginning and side of the course, as in `taut_string`.
     inner_start, inner_via : (3,) float64
-        From there the ways to the band's edge that is nearer to the head.
+        Directions from these two points to the edge of the band that is nearer to the head.
     half_m : callable
-        Half the width at shares 0..1 of the way on the body, and on from 1 to 2 on the free part.
+        Half the width at shares of the course: 0..1 on the body, 1..2 on the free part.
     thick_m : float
+        Thickness.
     material : int
+        Index of the material.
     """
 
     start_m: FloatArray
@@ -57,18 +61,20 @@ class BandRoute:
 
 @dataclass(frozen=True, eq=False)
 class LegShape:
-    """A leg with the rings of its band.
+    """One leg (band) of a strap with the R cross-sections of its band.
 
     Attributes
     ----------
     leg : StrapLeg
+        Its free part.
     centre_m, outwards : (R, 3) float64
+        Middle of each cross-section, and unit vector away from the body.
     edges_m : (2, R, 3) float64
-        Inner and outer.
+        Inner and outer edge of each cross-section.
     on_body : int
-        How many rings lie on the body; the others are free.
+        Number of cross-sections that lie on the body; the others are free.
     weights : (on_body, J) float64
-        Of the former on the character's joints.
+        Weights of the character's J joints at the cross-sections on the body.
     """
 
     route: BandRoute
@@ -80,14 +86,14 @@ class LegShape:
     weights: FloatArray
 
     def strips(self, bones: Mapping[int, int], top: int) -> list[SurfaceStrip]:
-        """The band's surface.
+        """Return the surface of the band.
 
         Parameters
         ----------
         bones : mapping of int to int
-            The bone of each joint that carries it.
+            Bone that follows each joint of the character.
         top : int
-            The first of the leg's three bones.
+            Index of the first of the leg's three bones.
         """
         shares: list[Shares] = [
             [(bones[int(joint)], float(row[joint])) for joint in np.flatnonzero(row)] for row in self.weights
@@ -109,12 +115,12 @@ class LegShape:
 
 
 def leg_of(trunk: PosedTrunk, route: BandRoute, meet_m: FloatArray, low_m: FloatArray) -> LegShape | None:
-    """Lay a leg over a body; None where there is none in its way.
+    """Lay a leg of a strap over a body; None if the body does not lie in its plane.
 
     Parameters
     ----------
     meet_m, low_m : (3,) float64
-        Where the legs meet, with the instrument played and lowered.
+        Point where the legs meet, with the instrument played and with it lowered.
     """
     widest = float(route.half_m(np.linspace(0.0, 1.0, 9)).max())
     aim_m = _aim(route, meet_m)
@@ -156,7 +162,9 @@ def leg_of(trunk: PosedTrunk, route: BandRoute, meet_m: FloatArray, low_m: Float
 def _low_bow(
     trunk: PosedTrunk, route: BandRoute, top_m: FloatArray, out: FloatArray, free: FloatArray, low_m: FloatArray
 ) -> float:
-    """Way out of a leg's control point that lets the leg lie on the body with the instrument lowered."""
+    """Return the distance in metres by which the control point of a leg's free part moves outwards so that it lies on
+    the body when the instrument is lowered.
+    """
     string = taut_string(trunk, route.start_m, route.via_m, low_m)
     if string is None:
         return 0.0
@@ -173,8 +181,9 @@ def _low_bow(
 
 
 def _aim(route: BandRoute, meet_m: FloatArray) -> FloatArray:
-    """Point (3,) to which a band is laid on the body: ``meet_m``, lowered if it lies ahead, because the band crosses
-    the collar bone there instead of going around the shoulders."""
+    """Return the point (3,) towards which a band is laid over the body: ``meet_m``, or below it if it lies far ahead,
+    so that the band crosses the collar bone instead of going around the shoulders.
+    """
     ahead = float(np.linalg.norm((meet_m - route.via_m)[[0, 2]]))
     least = _LEAST_DROP * ahead
     if route.via_m[1] - meet_m[1] >= least:
@@ -183,7 +192,9 @@ def _aim(route: BandRoute, meet_m: FloatArray) -> FloatArray:
 
 
 def _leaving(string: TautString, meet_m: FloatArray) -> float:
-    """Share of a string's way at which it may go straight to an end without going through the body."""
+    """Return the share of a string's length from which it can go straight to ``meet_m`` without passing through the
+    body.
+    """
     at = _lengths(string.points_m)
     out = ((meet_m - string.points_m) * string.outwards).sum(axis=1)
     beyond = np.flatnonzero((out >= -1e-4) & (at > 0.2))
@@ -193,8 +204,9 @@ def _leaving(string: TautString, meet_m: FloatArray) -> float:
 def _free_part(
     strings: Sequence[TautString], share: float, edges_m: FloatArray, route: BandRoute, meet_m: FloatArray | None
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Middle (F, 3), edges (2, F, 3) and ways outwards (F, 3) of a band beyond a share of its strings: on along these,
-    or straight to an end."""
+    """Return middle (F, 3), edges (2, F, 3) and outward directions (F, 3) of the free part of a band, beyond ``share``
+    of its strings: along these, or straight to ``meet_m`` if given.
+    """
     t = np.linspace(0.0, 1.0, _FREE + 1)[1:, None]
     beyond = [_resampled(string, share, 1.0, _FREE + 1) for string in strings]
     first, outwards = beyond[0][0][0], beyond[0][1][1:]
@@ -215,7 +227,7 @@ def _free_part(
 
 
 def joined_behind(one: LegShape, other: LegShape) -> list[LegShape]:
-    """Two legs whose bands meet where they begin: both get a ring in the middle."""
+    """Return two legs whose bands begin next to each other, joined by a common first cross-section in the middle."""
     centre = 0.5 * (one.centre_m[0] + other.centre_m[0])
     outwards = _unit(one.outwards[0] + other.outwards[0])
     edges = 0.5 * (one.edges_m[:, 0] + other.edges_m[:, 0])
@@ -239,7 +251,7 @@ def _unit(ways: FloatArray) -> FloatArray:
 
 
 def _lengths(points: FloatArray) -> FloatArray:
-    """Share 0..1 (N,) of the whole length at each point of a line (N, 3)."""
+    """Return at each point of a line (N, 3) the share (N,), 0..1, of the length up to it."""
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     way = np.concatenate([[0.0], np.cumsum(steps)])
     found: FloatArray = way / max(float(way[-1]), 1e-9)
@@ -247,7 +259,7 @@ def _lengths(points: FloatArray) -> FloatArray:
 
 
 def _evened(points: FloatArray, window: int, degree: int) -> FloatArray:
-    """Rows (R, 3) smoothed by polynomials over windows of rows (Savitzky-Golay)."""
+    """Return points (R, 3) smoothed by polynomials of a degree over windows of points (Savitzky-Golay)."""
     from scipy.signal import savgol_filter  # heavy: few pieces have straps
 
     return np.asarray(savgol_filter(points, window, degree, axis=0))
@@ -265,14 +277,16 @@ def _resampled(string: TautString, first: float, last: float, count: int) -> tup
 
 
 def _smoothed(rows: FloatArray) -> FloatArray:
-    """Moving average along the points (N, 3) of a line; both ends stay."""
+    """Return a line (N, 3) smoothed by a moving average; both ends stay."""
     padded = np.concatenate([np.repeat(rows[:1], _SMOOTHED, 0), rows, np.repeat(rows[-1:], _SMOOTHED, 0)])
     found: FloatArray = np.mean([padded[k : k + len(rows)] for k in range(2 * _SMOOTHED + 1)], axis=0)
     return found
 
 
 def tapering(widths_m: Sequence[tuple[float, float]]) -> Callable[[FloatArray], FloatArray]:
-    """Half widths that go smoothly from one to the next, by share of the way."""
+    """Return a function of the share of a band's length that gives half its width in metres, going smoothly through
+    pairs of (share, half width).
+    """
     at, half = np.array(widths_m).T
 
     def half_m(shares: FloatArray) -> FloatArray:

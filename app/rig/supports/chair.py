@@ -1,4 +1,4 @@
-"""A chair for an orchestra: a padded seat and back on a frame of steel tube, as high as its sitter's legs need it."""
+"""An orchestra chair: padded seat and back on a frame of steel tubes, adapted to the leg length of the sitter."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ class ChairFit:
     Attributes
     ----------
     top_m : float
-        Height of the seat.
+        Height of the top of the seat.
     rear_m : float
-        The z of the sitter's back, which the chair's back stays behind.
+        z coordinate of the sitter's back; the chair's back is behind it.
     size : float
-        Over a grown-up's chair.
+        Scale relative to an adult's chair.
     """
 
     top_m: float
@@ -49,7 +49,7 @@ class ChairFit:
 
     @property
     def half_width_m(self) -> float:
-        """Half the width of the seat."""
+        """Half the width of the seat in metres."""
         return self.size * _HALF_WIDTH_M
 
     @property
@@ -59,7 +59,7 @@ class ChairFit:
 
 
 def chair(fit: ChairFit, bone: int) -> Mesh:
-    """Make a chair on one bone, facing +Z, its feet on the floor."""
+    """Return the mesh of a chair, skinned to one bone, facing +Z, with its feet on the floor."""
     only: Shares = [(bone, 1.0)]
     size, half = fit.size, fit.half_width_m
     middle, deep = fit.middle_m, 0.5 * fit.size * _DEPTH_M
@@ -86,7 +86,9 @@ def chair(fit: ChairFit, bone: int) -> Mesh:
 
 
 def _cushion(middle: FloatArray, half: float, deep: float, thick: float, only: Shares) -> SurfaceStrip:
-    """A seat with rounded edges and a flat top; ``half`` width, depth and thickness in metres around its ``middle``."""
+    """Return the surface of a seat with rounded edges and a flat top: ``half`` the width, half the depth ``deep`` and
+    thickness ``thick`` in metres, with the ``middle`` (3,) of its top.
+    """
     rounding = 0.42 * thick
     edge = [(1.5 * rounding, 0.0), (rounding, 0.0), (0.3 * rounding, 0.25 * rounding), (0.0, rounding)]
     profile = [(0.4, -thick), *((inset, height - thick) for inset, height in edge)]
@@ -97,7 +99,9 @@ def _cushion(middle: FloatArray, half: float, deep: float, thick: float, only: S
 def _back(
     half: float, size: float, top: float, z: float, edges_m: tuple[float, float], only: Shares
 ) -> list[SurfaceStrip]:
-    """A padded back of a chair that leans, between the heights ``edges_m``."""
+    """Return the surfaces of the padded, inclined back of a chair between two heights ``edges_m``; ``half`` is half its
+    width.
+    """
     low, high = edges_m
     tall, thick = 0.5 * (high - low), 0.028 * size
     middle = np.array([0.0, low + tall, z - _LEAN * (low + tall - top)])
@@ -120,8 +124,11 @@ def _slab(
     turn: FloatArray,
     only: Shares,
 ) -> SurfaceStrip:
-    """Return the surface of a rounded rectangle with a profile of (inset, height), from below to above; an inset of 0.4
-    or more is the middle."""
+    """Return the surface of a rounded rectangular body.
+
+    ``profile`` has (inset, height) of its outlines, from below to above; an inset of 0.4 m or more stands for the
+    middle. ``half`` and ``deep`` are half its width and half its depth.
+    """
     rings = []
     for inset, height in profile:
         if inset >= 0.4:
@@ -134,8 +141,9 @@ def _slab(
 
 
 def _rounded(half: float, deep: float, corner: float) -> FloatArray:
-    """Outline (N, 2) of a rectangle with round corners; seen from +Y, the first axis to the right and the second down,
-    to the left around."""
+    """Return the outline (N, 2) of a rectangle with rounded corners; seen from +Y, the first coordinate points to the
+    right, the second down, and the outline runs anticlockwise.
+    """
     corner = min(corner, half, deep)
     points = []
     for quarter, (x, z) in enumerate(((1, 1), (1, -1), (-1, -1), (-1, 1))):
@@ -161,7 +169,7 @@ def _foot(x_m: float, z_m: float, only: Shares) -> SurfaceStrip:
 
 
 def _bent(corners: Sequence[tuple[float, float, float]]) -> FloatArray:
-    """Return a line (N, 3) through the given corners, which are rounded."""
+    """Return points (N, 3) of a line along the given corners, with each corner rounded."""
     points = np.array(corners)
     line = [points[0]]
     for before, corner, after in zip(points[:-2], points[1:-1], points[2:], strict=True):

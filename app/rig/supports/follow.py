@@ -1,4 +1,4 @@
-"""Places of the bones of straps and chair, for the joints and instruments of some frames."""
+"""Transforms of the bones of straps and chair in each frame, from the body's joints and the instruments."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ _MOST_SLACK = 0.35
 
 
 def support_matrices(supports: Supports, joints: FloatArray, instruments: Sequence[FloatArray]) -> FloatArray:
-    """``world_from_rest`` of all bones, (F, B, 3, 4): from the pose that straps and chair were made in.
+    """Return the transforms ``world_from_rest`` (F, B, 3, 4) of all B bones of straps and chair; rest is the pose in
+    which they were made.
 
     Parameters
     ----------
@@ -39,7 +40,7 @@ def support_matrices(supports: Supports, joints: FloatArray, instruments: Sequen
 
 
 def hooked_m(supports: Supports, strap: Strap, joints: FloatArray, instruments: Sequence[FloatArray]) -> FloatArray:
-    """Lower end (F, 3) of a strap: at the nearest hook, or hanging where that is far."""
+    """Return the lower end (F, 3) of a strap: at the nearest of its hooks, or hanging down if that is too far away."""
     ends = np.stack(
         [
             instruments[hook.instrument][..., :3] @ hook.at_m + instruments[hook.instrument][..., 3]
@@ -60,7 +61,9 @@ def hooked_m(supports: Supports, strap: Strap, joints: FloatArray, instruments: 
 
 
 def _carried(supports: Supports, strap: Strap, joints: FloatArray) -> FloatArray:
-    """Transform (F, 3, 4) of what a strap hangs on: the chest, or a seat, which stays."""
+    """Return the transform (F, 3, 4), from the pose in which a strap was made, of what carries it: the chest, or the
+    seat, which does not move.
+    """
     if strap.turning >= 0:
         return _from_rest(supports, joints, strap.turning)
     return np.tile(np.eye(3, 4), (len(joints), 1, 1))
@@ -83,7 +86,7 @@ def _put(target: FloatArray, turn: FloatArray, place_m: FloatArray, rest_m: Floa
 def _posed(
     supports: Supports, strap: Strap, joints: FloatArray, instruments: Sequence[FloatArray]
 ) -> tuple[_Turns, _Places]:
-    """Turns (F, 3, 3) and places (F, 3) of a strap's bones."""
+    """Return the rotations (F, 3, 3) and the positions (F, 3) of a strap's bones, each by role and leg."""
     body = _carried(supports, strap, joints)[..., :3]
     tops = _tops(supports, strap, joints)
     middle = tops.mean(axis=1)
@@ -102,7 +105,11 @@ def _posed(
 
 
 def _lowered(strap: Strap, carried: FloatArray, end: FloatArray) -> FloatArray:
-    """Share (F, 1), 0..1, of the way that a strap's lower end has gone to its place with a lowered instrument."""
+    """Return the share (F, 1), 0..1, of the way from the played to the lowered instrument that a strap's lower end has
+    covered.
+
+    ``carried`` is the transform of what carries the strap, ``end`` its lower end.
+    """
     way = strap.low_m - strap.hook_m
     usual = carried[..., :3] @ strap.hook_m + carried[..., 3]
     gone = ((end - usual) * (carried[..., :3] @ way)).sum(axis=-1) / max(float(way @ way), 1e-9)
@@ -113,8 +120,9 @@ def _lowered(strap: Strap, carried: FloatArray, end: FloatArray) -> FloatArray:
 
 
 def _bow(strap: Strap, leg: StrapLeg, chord: FloatArray, body: FloatArray, lowered: FloatArray) -> FloatArray:
-    """Return the displacement (F, 3) of the control point in the middle of a strap's leg: outwards where the leg is
-    longer than its way, and where the body is in the way."""
+    """Return the displacement (F, 3) of the control point in the middle of a leg: outwards if the leg is longer than
+    the distance of its ends, or if the body is in between.
+    """
     length = float(np.linalg.norm(leg.top_m - strap.meet_m))
     way = np.maximum(np.linalg.norm(chord, axis=-1, keepdims=True), 1e-6)
     out = body @ leg.out
@@ -127,7 +135,9 @@ def _bow(strap: Strap, leg: StrapLeg, chord: FloatArray, body: FloatArray, lower
 
 
 def _turned(body: FloatArray, before: FloatArray, after: FloatArray) -> FloatArray:
-    """Turns (F, 3, 3) that take one way (3,) to others (F, 3), and else go with the body."""
+    """Return rotations (F, 3, 3) that take the direction ``before`` (3,) to ``after`` (F, 3) and otherwise rotate with
+    the body.
+    """
     carried = body @ before
     return quaternion.to_matrix(quaternion.between(_unit(carried), _unit(after))) @ body
 
@@ -150,7 +160,7 @@ def _tops(supports: Supports, strap: Strap, joints: FloatArray) -> FloatArray:
 
 
 def _from_rest(supports: Supports, joints: FloatArray, joint: int) -> FloatArray:
-    """Transform (F, 3, 4) of what a joint carries, from the pose the straps were made in."""
+    """Return the transform (F, 3, 4) of a joint from the pose in which the straps were made to each frame."""
     rest = supports.joints[joint]
     turn = joints[:, joint, :, :3] @ rest[:, :3].T
     return np.concatenate([turn, (joints[:, joint, :, 3] - turn @ rest[:, 3])[..., None]], axis=-1)

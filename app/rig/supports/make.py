@@ -1,4 +1,4 @@
-"""Straps and chair of a musician put together: one set of bones, one mesh of each kind."""
+"""Straps and chair of a musician combined: one set of bones, and one mesh for each kind of strap or chair."""
 
 from __future__ import annotations
 
@@ -21,15 +21,16 @@ _FULL_OF_AIR = dict.fromkeys(BREATH_MORPHS, 1.0)
 
 @dataclass(frozen=True, eq=False)
 class Asked:
-    """A strap that is wanted.
+    """Request for a strap.
 
     Attributes
     ----------
     kind : SupportKind
+        Kind of strap.
     hooks : tuple of Hook
-        Of the musician's instruments that are played with it.
+        Places on the musician's instruments where it is hooked in.
     hook_m, low_m : (3,) float64
-        Where the first of them is, in the player's frame: played, and lowered.
+        Position of the first of them in the player's frame, with the instrument played and with it lowered.
     """
 
     kind: SupportKind
@@ -48,13 +49,14 @@ def made_supports(
     joints : (J, 3, 4) float64
         ``world_from_joint`` in the player's frame.
     asked : sequence of Asked
+        Requested straps.
     fit : ChairFit or None
-        None: standing.
+        Chair; None if the player stands.
 
     Returns
     -------
     Supports or None
-        None: there is nothing.
+        None if there are neither straps nor a chair.
     """
     sitter = None if fit is None else Sitter(fit.middle_m, fit.half_width_m)
     made = list[MadeStrap]()

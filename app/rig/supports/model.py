@@ -1,4 +1,4 @@
-"""Straps and chairs as values: meshes on bones of their own, and what each of these bones follows."""
+"""Straps and chairs as values: meshes with bones of their own, and the joint, strap or seat that each bone follows."""
 
 from __future__ import annotations
 
@@ -15,16 +15,20 @@ the cord between its legs and the instrument."""
 
 @dataclass(frozen=True, eq=False)
 class SupportBone:
-    """A bone of straps and chair; unturned in the pose they were made in.
+    """A bone of straps and chair; its rotation is the identity in the pose in which they were made.
 
     Attributes
     ----------
+    name : str
+        Name in exported files.
+    role : str
+        Thing that it follows: a joint, nothing, or a part of a strap.
     place_m : (3,) float64
-        In that pose.
+        Position in that pose.
     joint : int
-        Of the character, of role ``joint``.
+        Joint of the character, for the role ``joint``.
     strap, leg : int
-        Of the strap's own bones: which strap, and which of its legs.
+        For a strap's own bones: index of the strap, and of its leg.
     """
 
     name: str
@@ -37,18 +41,19 @@ class SupportBone:
 
 @dataclass(frozen=True, eq=False)
 class StrapLeg:
-    """The free part of a band, from where it leaves the body to where the legs meet.
+    """The free part of one leg (band) of a strap, from where it leaves the body to where the legs meet.
 
     Attributes
     ----------
-    joints : (K,) int and (K,) float64
-        Joints that carry its upper end, and their shares; none: it is tied to the seat.
+    joints, shares : (K,) int and (K,) float64
+        Joints that carry its upper end, and their weights; empty if it is tied to the seat.
     top_m : (3,) float64
-        Its upper end in the pose the strap was made in.
+        Its upper end in the pose in which the strap was made.
     out : (3,) float64
-        The way that it bows, in that pose: away from the body.
+        Direction in which it bows in that pose: away from the body.
     low_bow_m : float
-        How far the control point in its middle goes out where the instrument is lowered, so that it lies on the body.
+        Distance by which the control point in its middle moves out when the instrument is lowered, so that the band
+        lies on the body.
     """
 
     joints: tuple[int, ...]
@@ -60,14 +65,14 @@ class StrapLeg:
 
 @dataclass(frozen=True, eq=False)
 class Hook:
-    """A place of one of the musician's instruments where a strap is hooked in.
+    """A place on one of the musician's instruments to which a strap is hooked.
 
     Attributes
     ----------
     instrument : int
-        Which of the musician's instruments.
+        Index among the musician's instruments.
     at_m : (3,) float64
-        In the instrument's frame.
+        Position in the instrument's frame.
     """
 
     instrument: int
@@ -76,24 +81,24 @@ class Hook:
 
 @dataclass(frozen=True, eq=False)
 class Strap:
-    """A strap: legs that meet, and a cord from there to the hook.
+    """A strap: legs (bands) that meet, and a cord from there to the hook.
 
     Attributes
     ----------
     kind : str
-        `instrument_maps.hold.SupportKind`.
+        Kind, as in `instrument_maps.hold.SupportKind`.
     hooks : tuple of Hook
-        Of the instruments that are played with it; it hangs on the nearest.
+        Hooks of the instruments that are played with it; it hangs on the nearest.
     cord_m : float
-        Length of the cord; 0: the leg itself ends at the hook.
+        Length of the cord; 0 if a leg itself ends at the hook.
     root_m, meet_m, hook_m : (3,) float64
-        What it hangs from, where the legs meet, and its lower end, in the pose it was made in.
+        Point from which it hangs, point where the legs meet, and its lower end, in the pose in which it was made.
     turning : int
-        The joint that turns it; -1: it is tied to the seat.
+        Joint with which it rotates; -1 if it is tied to the seat.
     low_m : (3,) float64
-        Its lower end with the instrument lowered, as the body is in that pose.
+        Its lower end with the instrument lowered and the body in that pose.
     hanging_m : (3,) float64
-        Its lower end where it is not hooked in, in that pose.
+        Its lower end when it is not hooked in, in that pose.
     """
 
     kind: str
@@ -110,16 +115,18 @@ class Strap:
 
 @dataclass(frozen=True, eq=False)
 class Supports:
-    """Straps and chair of a musician, in the pose they were made in, in the player's frame.
+    """Straps and chair of a musician, in the pose in which they were made, in the player's frame.
 
     Attributes
     ----------
     kinds : tuple of str
-        What there is: kinds of straps, and ``chair``.
+        Kinds of straps, and ``chair`` if there is one.
     meshes : tuple of Mesh
-        One of each kind; `Mesh.joints` are numbers of bones.
+        One mesh for each kind; `Mesh.joints` are indices of ``bones``.
     bones : tuple of SupportBone
+        All bones.
     straps : tuple of Strap
+        All straps.
     joints : (J, 3, 4) float64
         ``world_from_joint`` of all joints in that pose.
     """

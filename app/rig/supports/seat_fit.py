@@ -1,4 +1,4 @@
-"""A chair's size from the skin that sits on it."""
+"""Size of a chair, from the skin of the player who sits on it."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _SEAT_SHARE = 0.75
 
 
 def chair_fit(character: Character, joints: FloatArray) -> ChairFit:
-    """Fit a chair to who sits.
+    """Return the chair that fits a seated player.
 
     Parameters
     ----------
     joints : (J, 3, 4) float64
-        ``world_from_joint``, seated.
+        ``world_from_joint`` of the seated character.
     """
     sitting, leaning = _skin(character, joints, _SITTING), _skin(character, joints, _LEANING)
     size = float(np.clip(leg_size(character.skeleton), *_SIZES))

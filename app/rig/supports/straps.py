@@ -1,4 +1,4 @@
-"""Straps made for a body and its instruments: around the neck, over both shoulders, or across the seat."""
+"""Straps for a body and its instruments: around the neck, over both shoulders, or across the seat."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _SEAT_HALF_M = 0.019
 
 @dataclass(frozen=True, eq=False)
 class Sitter:
-    """Seat of who sits: the middle of its top (3,) and half its width, metres; in the player's frame."""
+    """Seat of a seated player, in the player's frame: the middle (3,) of its top and half its width, in metres."""
 
     middle_m: FloatArray
     half_width_m: float
@@ -42,7 +42,9 @@ class Sitter:
 
 @dataclass(frozen=True, eq=False)
 class MadeStrap:
-    """A strap or band with its mesh, whose bones are numbered within the strap, behind the joints it is tied to."""
+    """A strap with its mesh and bones. The mesh's joints are numbered within the strap: first the joints that it is
+    tied to, then its own bones.
+    """
 
     strap: Strap
     mesh: Mesh
@@ -51,16 +53,18 @@ class MadeStrap:
 
 @dataclass(frozen=True, eq=False)
 class Wearer:
-    """A body in the pose that straps are made in.
+    """A body in the pose in which straps are made.
 
     Attributes
     ----------
     skeleton : Skeleton
+        Skeleton of the character.
     joints : (J, 3, 4) float64
         ``world_from_joint`` in the player's frame.
     trunk : PosedTrunk
+        Skin and clothes of the trunk in that pose.
     sitter : Sitter or None
-        None: standing.
+        Seat; None if the player stands.
     """
 
     skeleton: Skeleton
@@ -76,8 +80,9 @@ class Wearer:
 
     @property
     def neck_m(self) -> FloatArray:
-        """Position (3,) of the root of the neck in metres; estimated from shoulders and head where the skeleton has no
-        neck."""
+        """Position (3,) of the base of the neck in metres; estimated from shoulders and head if the skeleton has no
+        neck.
+        """
         if "neck" in self.skeleton.names:
             return self.at("neck")
         shoulders = 0.5 * (self.at("leftUpperArm") + self.at("rightUpperArm"))
@@ -85,12 +90,12 @@ class Wearer:
 
     @property
     def half_shoulders_m(self) -> float:
-        """Half the distance between the shoulder joints."""
+        """Half the distance between the shoulder joints in metres."""
         return 0.5 * float(np.linalg.norm(self.at("leftUpperArm") - self.at("rightUpperArm")))
 
     @property
     def chest(self) -> int:
-        """The joint that a strap turns with."""
+        """Index of the joint of the chest, with which a strap rotates."""
         name = next(one for one in ("upperChest", "chest", "spine") if one in self.skeleton.names)
         return self.skeleton.index(name)
 
@@ -107,15 +112,16 @@ def made_strap(
     Parameters
     ----------
     hooks : sequence of Hook
+        Places on the instruments where it is hooked in.
     ends_m : two of (3,) float64
-        Where it is hooked in, in the player's frame: played, and lowered.
+        Its lower end in the player's frame, with the instrument played and with it lowered.
     number : int
-        Which of the musician's straps it is.
+        Index among the musician's straps.
 
     Returns
     -------
     MadeStrap or None
-        None: this body cannot wear it.
+        None if this body cannot wear it.
     """
     hook_m, low_m = ends_m
     if kind == "seat_strap":
@@ -176,7 +182,7 @@ def leg_bones(strap: Strap, leg: StrapLeg, number: int, index: int) -> list[Supp
 
 
 def _neck_routes(wearer: Wearer, size: float) -> list[BandRoute]:
-    """Both sides of a band around the neck: a pad behind, webbing before."""
+    """Return the courses of both legs of a neck strap: a pad behind the neck, webbing in front."""
     neck = wearer.neck_m
     half = tapering([(0.0, size * 0.016), (0.45, size * 0.016), (0.8, size * 0.010), (1.0, size * 0.009), (2.0, 0.005)])
     up, behind = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.052, -0.08])
@@ -193,7 +199,9 @@ def _neck_routes(wearer: Wearer, size: float) -> list[BandRoute]:
 
 
 def _harness_routes(wearer: Wearer, size: float) -> list[BandRoute]:
-    """Four bands from between the shoulder blades: two over the shoulders, two around the ribs."""
+    """Return the courses of the four bands of a harness from between the shoulder blades: two over the shoulders, two
+    around the ribs.
+    """
     neck, hips = wearer.neck_m, wearer.at("hips")
     back = neck + 0.34 * (hips - neck) + size * np.array([0.0, 0.0, -0.09])
     over = tapering([(0.0, size * 0.017), (0.6, size * 0.020), (1.0, size * 0.014), (2.0, 0.007)])
@@ -211,7 +219,7 @@ def _harness_routes(wearer: Wearer, size: float) -> list[BandRoute]:
 
 
 def _hanging(wearer: Wearer, tops: FloatArray, reach_m: float) -> FloatArray:
-    """Lower end (3,) of a strap that hangs before the body."""
+    """Return the lower end (3,) of a strap of length ``reach_m`` that hangs from ``tops`` in front of the body."""
     low = tops - np.array([0.0, reach_m, 0.0])
     points = wearer.trunk.vertices_m
     near = (np.abs(points[:, 0] - low[0]) < 0.08) & (points[:, 1] > low[1] - 0.03) & (points[:, 1] < tops[1])
@@ -221,7 +229,7 @@ def _hanging(wearer: Wearer, tops: FloatArray, reach_m: float) -> FloatArray:
 
 
 def _cord(strap: Strap, bone: int) -> list[SurfaceStrip]:
-    """Slider, cord and snap hook, in the pose the strap was made in."""
+    """Return the surfaces of slider, cord and snap hook in the pose in which the strap was made."""
     only: Shares = [(bone, 1.0)]
     way = strap.meet_m - strap.hook_m
     length = float(np.linalg.norm(way))
@@ -244,7 +252,7 @@ def _cord(strap: Strap, bone: int) -> list[SurfaceStrip]:
 
 
 def _loop(hook_m: FloatArray, up: FloatArray, only: Shares) -> SurfaceStrip:
-    """The hook itself: a loop of wire, whose lowest place is where it is hooked in."""
+    """Return the surface of the hook, a loop of wire whose lowest point is at ``hook_m``."""
     side = np.cross(up, np.array([0.0, 0.0, 1.0]))
     side /= max(float(np.linalg.norm(side)), 1e-9)
     high, wide = 0.5 * (_HOOK_M - 0.010), 0.0062
@@ -254,7 +262,7 @@ def _loop(hook_m: FloatArray, up: FloatArray, only: Shares) -> SurfaceStrip:
 
 
 def _seat_strap(sitter: Sitter, hooks: Sequence[Hook], hook_m: FloatArray, number: int) -> MadeStrap:
-    """A band across the seat, under the thighs, and down from its edge to the hook."""
+    """Return a strap for the seat: a band across it, under the thighs, and from its edge down to the hook."""
     side = 1.0 if hook_m[0] >= sitter.middle_m[0] else -1.0
     ahead = np.clip(hook_m[2] - sitter.middle_m[2], -0.02, 0.12)
     over = sitter.middle_m + np.array([0.0, 0.0, ahead])

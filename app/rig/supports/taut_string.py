@@ -1,4 +1,6 @@
-"""Strings laid taut over a body: its cut through a plane, and what of the convex hull a string would touch."""
+"""Taut strings over a body: the section of the body in a plane, and the part of its convex hull that a string would
+touch.
+"""
 
 from __future__ import annotations
 
@@ -25,15 +27,16 @@ _BEFORE = 0.4
 
 @dataclass(frozen=True, eq=False)
 class PosedTrunk:
-    """Skin and clothes of a trunk in a pose.
+    """Skin and clothes of a trunk in a pose, in the player's frame.
 
     Attributes
     ----------
     corners_m : (T, 3, 3) float64
-        Of its triangles.
+        Corners of its T triangles.
     vertices_m : (V, 3) float64
+        Its vertices.
     weights : (V, J) float64
-        Of the same vertices on all joints.
+        Weights of the vertices on all J joints.
     """
 
     corners_m: FloatArray
@@ -41,7 +44,7 @@ class PosedTrunk:
     weights: FloatArray
 
     def weights_at(self, points_m: FloatArray) -> FloatArray:
-        """Weights (N, J) of what lies at places (N, 3): those of the nearest vertices, evenly."""
+        """Return the joint weights (N, J) for points (N, 3) on the body: the mean of the nearest vertices."""
         from scipy.spatial import cKDTree  # heavy: few pieces have straps
 
         _, near = cKDTree(self.vertices_m).query(points_m, k=min(_NEAR, len(self.vertices_m)))
@@ -57,7 +60,7 @@ def posed_trunk(character: Character, joints: FloatArray, morphs: dict[str, floa
     joints : (J, 3, 4) float64
         ``world_from_joint``.
     morphs : dict of str to float
-        Weights of morphs: straps lie on a chest full of air.
+        Weights of morphs, since straps are made for a chest full of air.
     """
     skeleton = character.skeleton
     trunk = np.isin(skeleton.names, _TRUNK)
@@ -90,14 +93,14 @@ def posed_trunk(character: Character, joints: FloatArray, morphs: dict[str, floa
 
 @dataclass(frozen=True, eq=False)
 class TautString:
-    """A string over a body, then straight to its end.
+    """A taut string over a body, then straight to its free end.
 
     Attributes
     ----------
     points_m : (N, 3) float64
-        From its beginning on the body on.
+        Points from its beginning on the body to its free end.
     leaves : int
-        The number of the point at which it leaves the body; the last point is its free end.
+        Index of the point at which it leaves the body.
     outwards : (N, 3) float64
         Unit vectors away from the body, at right angles to the string.
     """
@@ -108,20 +111,21 @@ class TautString:
 
 
 def taut_string(trunk: PosedTrunk, start_m: FloatArray, via_m: FloatArray, end_m: FloatArray) -> TautString | None:
-    """Lay a string over the body from behind it to a free end before it, in the plane of three points.
+    """Lay a string over the body from behind to a free end in front, in the plane of the three points.
 
     Parameters
     ----------
     start_m : (3,) float64
-        Where it begins; the skin nearest to it in the plane counts.
+        Beginning; the nearest skin in the plane is used.
     via_m : (3,) float64
-        The side on which it passes: on the left of the body where its x is positive.
+        Point on the side on which it passes: the left of the body if its x is positive.
     end_m : (3,) float64
+        Free end.
 
     Returns
     -------
     TautString or None
-        None: there is no body in that plane.
+        None if the plane does not cut the body.
     """
     along = (end_m - start_m) / np.linalg.norm(end_m - start_m)
     up = via_m - start_m
@@ -148,7 +152,7 @@ def taut_string(trunk: PosedTrunk, start_m: FloatArray, via_m: FloatArray, end_m
 
 
 def _cut(corners: FloatArray, origin: FloatArray, normal: FloatArray) -> FloatArray:
-    """Points (N, 3) in which edges of triangles (T, 3, 3) go through a plane."""
+    """Return the points (N, 3) in which the edges of T triangles (T, 3, 3) cut the plane through ``origin``."""
     height = (corners - origin) @ normal
     found = list[FloatArray]()
     for one, other in ((0, 1), (1, 2), (2, 0)):
@@ -160,7 +164,9 @@ def _cut(corners: FloatArray, origin: FloatArray, normal: FloatArray) -> FloatAr
 
 
 def _outer_path(points: FloatArray) -> FloatArray | None:
-    """The hull's boundary from the first point over the top to the second (N, 2)."""
+    """Return the boundary (N, 2) of the convex hull of points, from the first point over the top to the second; None if
+    the second lies inside.
+    """
     from scipy.spatial import ConvexHull, QhullError
 
     try:

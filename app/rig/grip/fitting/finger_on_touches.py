@@ -1,4 +1,4 @@
-"""Least-squares solution of one finger's touches with the wrist and the other fingers fixed."""
+"""Least-squares fit of one finger to its contacts, with the wrist and the other fingers fixed."""
 
 from __future__ import annotations
 
@@ -36,7 +36,9 @@ LEAST_OPEN_M = 0.0032
 
 
 class FingerOnTouches:
-    """One finger on its touches at some values of the controls, with the rest of the hand fixed."""
+    """Least-squares problem of one finger at a station, for S values of its controls, with the rest of the
+    hand fixed.
+    """
 
     def __init__(
         self,
@@ -71,13 +73,13 @@ class FingerOnTouches:
         return angles[..., self.joints, self.kinds]
 
     def opening(self) -> FingerOnTouches:
-        """The finger with more weight on leaving holes open."""
+        """Return the same problem with more weight on leaving holes open."""
         result = copy(self)
         result.open_m, result.open_spread_m = OPEN_M[1], OPEN_SPREAD_M[1]
         return result
 
     def shuts(self, x: FloatArray) -> bool:
-        """Return whether a finger with n angles in S samples (S, n) closes or nearly closes a hole to be left open."""
+        """Return whether a finger with angles ``x`` (S, n) closes or nearly closes a hole that must stay open."""
         pose = self.pose.copy()
         pose[:, self.joints, self.kinds] = x
         matrices = wrist_from_mesh(
@@ -92,10 +94,10 @@ class FingerOnTouches:
     def solve(
         self, start: FloatArray, usual: FloatArray, usual_rad: float, which: IndexArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Solve some samples starting near usual angles (S, n), and return the angles and the cost (S,) of each.
+        """Solve the samples with the indices ``which``, and return the angles (S, n) and the cost (S,) of each.
 
-        Damped Gauss-Newton (Levenberg-Marquardt, clipped to the limits) for all samples at once, since they are
-        independent.
+        Angles begin at ``start`` and are kept near ``usual`` (S, n) with a tolerance of ``usual_rad``. Damped
+        Gauss-Newton (Levenberg-Marquardt, clipped to the limits) for all samples at once, since they are independent.
         """
         x = np.clip(start, self.low, self.high)
         damping = np.full(len(which), 1e-3)
@@ -146,8 +148,10 @@ class FingerOnTouches:
         depth: FloatArray,
         slope: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:
-        """Return Jacobian (S, m, n) and residuals (S, m) of the finger angles ``x`` by finite differences, the skin's
-        part from its ``depth`` and ``slope``."""
+        """Return the Jacobian (S, m, n) and the m residuals (S, m) at the angles ``x``, by finite differences.
+
+        The residuals of skin inside the instrument come from its ``depth`` and ``slope``.
+        """
         count = x.shape[1]
         tried = np.repeat(x[None], count + 1, axis=0)
         step = np.where(x + STEP < self.high, STEP, -STEP).T
@@ -162,7 +166,9 @@ class FingerOnTouches:
     def _residuals(
         self, x: FloatArray, usual: FloatArray, usual_rad: float, which: IndexArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Residuals (B, S, m) without the proxy's, and skin (B, S, V, 3), for angles (B, S, n)."""
+        """Return the residuals (B, S, m) without those of skin inside the instrument, and the skin (B, S, V, 3), for B
+        sets of angles (B, S, n).
+        """
         hand = self.problem.hand
         pose = np.repeat(self.pose[None, which], len(x), axis=0)
         pose[:, :, self.joints, self.kinds] = x
@@ -189,8 +195,9 @@ class FingerOnTouches:
 
 
 def _kept_open(problem: HandProblem, scene: GripScene, number: int, station: Station) -> list[tuple[str, FloatArray]]:
-    """Return the holes that a finger must leave open at station ``number`` because it closes them elsewhere: name of
-    the finger's part and position of the hole (3,)."""
+    """Return the holes that a finger must leave open at a station because it closes them at another one: name of the
+    part of the finger, and position (3,) of the hole.
+    """
     instrument, found = scene.instrument_map, []
     for place in problem.stations[number]:
         for contact in (instrument.contacts[index] for index in place.contacts):
@@ -202,7 +209,7 @@ def _kept_open(problem: HandProblem, scene: GripScene, number: int, station: Sta
 
 
 def touches_at(scene: GripScene, station: Station, values: FloatArray) -> list[TouchTarget]:
-    """Return the touches of a finger at a station for values of its controls."""
+    """Return the contacts that a finger must touch at a station, for values of its controls."""
     instrument, moved = scene.instrument_map, frozenset(station.controls)
     return [
         touch_at(scene.model, instrument, instrument.contacts[index], moved, scene.carrier, values)

@@ -85,14 +85,16 @@ def fit_hold(
 
 
 def _part(progress: Progress, first: float, last: float) -> Progress:
-    """Reports progress of a part of the work as a share of the whole."""
+    """Return a function that reports the progress of a part of the work as a share of the whole, from ``first`` to
+    ``last``.
+    """
     return lambda share: progress(first + (last - first) * share)
 
 
 def _fit_hand(
     problem: HandProblem, scene: GripScene, seed: HandSeed, stand: Upright, size: float, progress: Progress
 ) -> HandHold:
-    """Fit one hand, whose wrist in the scene has not been solved yet.
+    """Fit one hand, including its wrist.
 
     If the best start does not give a good result, the next ones are tried; the best result is used.
     """
@@ -120,7 +122,9 @@ def _fit_hand(
 
 
 def _missed(hold: HandHold, size: float) -> float:
-    """Worst error of a grip, as a multiple of the bounds for touches and for skin inside the instrument."""
+    """Return the worst error of a hand's grip as a multiple of the tolerances for contacts and for skin inside the
+    instrument.
+    """
     touches = [one for one in hold.contacts if one.firm]
     off = [one.distance_m / (GRIP_M if one.control is None else TOUCH_M) for one in touches]
     return size * max(*off, hold.penetration_m / INSIDE_M, 0.0)
@@ -135,9 +139,9 @@ def _held(
     stand: Upright,
     progress: Progress,
 ) -> HandHold:
-    """Return a solved hand: fingers at all stations, wrist offsets for them, and accuracy of all contacts.
+    """Return the grip of a solved hand: fingers at all stations, wrist offsets for them, and accuracy of all contacts.
 
-    ``best`` (n,) are the parameters found, ``path`` (S, n) those along the control that moves the hand.
+    ``best`` (n,) are the solved parameters, ``path`` (S, n) those at S values of the control that moves the hand.
     """
     hand, carrier = problem.hand, scene.carrier
     values = MOVED_VALUES if carrier is not None or problem.worked else STILL_VALUES
@@ -178,8 +182,7 @@ def _held(
 def _leant_tables(
     problem: HandProblem, leant: Sequence[Leaning]
 ) -> dict[tuple[int, int], tuple[GripScene, dict[int, StationTable]]]:
-    """Return for each hand that leans towards a station, by (finger, station), its wrist and the other fingers'
-    poses."""
+    """Return the solved wrist and the tables of all fingers for each wrist offset, by (finger, station)."""
     result = {}
     for one in leant:
         tables = {

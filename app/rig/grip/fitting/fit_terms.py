@@ -37,8 +37,9 @@ def require_landmarks(character: Character, instrument_map: InstrumentMap) -> No
 
 @dataclass(frozen=True, eq=False)
 class GripScene:
-    """A hand whose wrist is solved on its instrument: the position and basis of the wrist for samples of the control
-    that carries it."""
+    """A hand whose wrist is solved: its position and basis in the instrument's frame for S values of the control that
+    moves the hand (one if none does).
+    """
 
     model: InstrumentModel
     instrument_map: InstrumentMap
@@ -47,8 +48,7 @@ class GripScene:
     basis: FloatArray
 
     def placed(self, points: FloatArray) -> FloatArray:
-        """Convert points (..., S, V, 3) of V vertices in S samples from the wrist's frame to the instrument's, sample
-        by sample."""
+        """Convert points (..., S, V, 3) from the wrist's frame to the instrument's, each sample with its own wrist."""
         return points @ self.basis.transpose(0, 2, 1) + self.position_m[:, None]
 
     def turned(self, vectors: FloatArray) -> FloatArray:
@@ -60,7 +60,7 @@ class GripScene:
         return replace(self, position_m=self.position_m[which], basis=self.basis[which])
 
     def over(self, values: FloatArray) -> GripScene:
-        """Return the scene at some values of a finger's controls; a wrist that no control moves is equal at all of
-        them.
+        """Return the scene with one wrist for each of ``values`` of a finger's controls; a wrist that no control moves
+        is repeated.
         """
         return self if len(self.position_m) == len(values) else self.only(np.zeros(len(values), dtype=np.intp))

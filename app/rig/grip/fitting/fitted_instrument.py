@@ -1,4 +1,4 @@
-"""The instrument for one body: its size for the hands and arms, and its contacts for the body's parts."""
+"""Adaptation of an instrument to one body: its size for hands and arms, and the contacts that the body can make."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ BENDS = 0.5
 
 
 class FittedInstrument(NamedTuple):
-    """An instrument fitted to a body, and the notes about it."""
+    """An instrument's map adapted to a body, and notes for the user about that."""
 
     instrument: InstrumentMap
     reported: tuple[Message, ...]
@@ -113,14 +113,13 @@ def _stiff(side: Hand, stiff: frozenset[str]) -> Message:
 
 
 def _of(contact: Contact, side: str) -> str:
-    """Return the finger of a hand that a contact uses; empty if none."""
+    """Return the name of the finger of a hand that a contact uses; empty if none."""
     hand, _, rest = contact.part.partition(".")
     return rest.partition(".")[0] if hand == side else ""
 
 
 def _guided(contacts: tuple[Contact, ...], side: Hand, stiff: frozenset[str]) -> tuple[Contact, ...]:
-    """Return the contacts without all but the first one of each finger part in ``stiff``, since those fingers only
-    position the hand."""
+    """Return the contacts with only one for each part of a finger in ``stiff``, which then merely guides the hand."""
     result: list[Contact] = []
     placed: set[str] = set()
     for contact in contacts:
@@ -154,8 +153,8 @@ def mouth_opens(character: Character) -> bool:
 def _carried(
     character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]
 ) -> InstrumentMap:
-    """Return the instrument scaled as near to 1 as hands and arms allow, with a lower carriage if that permits a larger
-    size; if the arms never reach, as near as possible.
+    """Return the instrument's map with its size as near to 1 as hands and arms allow, with a lower carriage if that
+    permits a larger size; if the arms do not reach at any size, with the best one.
     """
     low, high = instrument.hold.size_range
     hands = _hands(character)
@@ -178,7 +177,7 @@ def _carried(
 
 
 def _hands(character: Character) -> float:
-    """Return the size of the hands relative to an adult's; if they were added and are not visible, the length of the
+    """Return the size of the hands relative to an adult's. For hands that were added and are invisible, the size of the
     arms.
     """
     skeleton, own = character.skeleton, character.own
@@ -190,7 +189,7 @@ def _hands(character: Character) -> float:
 
 
 def _lowered(instrument: InstrumentMap, share: float) -> InstrumentMap:
-    """Return the instrument with its default carriage lowered by a share (bell down)."""
+    """Return the instrument's map with its default carriage lowered (bell down) by a share of its range."""
 
     def lower(carriage: Carriage | None) -> Carriage | None:
         if carriage is None:
@@ -213,10 +212,10 @@ def _asked(
     stand: Upright,
     sizes: FloatArray,
 ) -> FloatArray:
-    """Return the required reach of an arm for each size (S,) relative to its possible reach; beyond 1 the instrument
-    cannot be reached.
+    """Return for S sizes of the instrument (S,) the distance that an arm must reach relative to its length; beyond 1 it
+    cannot.
 
-    The palm is placed as in a known grip of an adult, else at the seed.
+    The palm is placed as in a bundled grip of an adult, else as the map suggests (``seed``).
     """
     skeleton, side = character.skeleton, seed.hand
     rim_m = np.asarray(instrument.mouthpiece.position_m)

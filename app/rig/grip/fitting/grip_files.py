@@ -1,7 +1,7 @@
 """Cache files of grips, since fitting takes seconds and inputs seldom change.
 
-A grip is found by the digest of all inputs, first among bundled ones, then in the user's cache. A missing, damaged or
-outdated file is ignored, and the grip is fitted anew.
+A grip is identified by a digest of all inputs and searched first among bundled ones, then in the user's cache. A
+missing, damaged or outdated file is ignored, and the grip is fitted again.
 """
 
 from __future__ import annotations
@@ -89,8 +89,8 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
 
 
 def _of_body(character: Character, instrument: InstrumentMap) -> tuple[list[str], list[npt.NDArray[Any]]]:
-    """Return all of a body that a fit of hands depends on, as texts and arrays to be hashed: joints of the hands and
-    the head, and skin of hands and lips.
+    """Return the properties of a body on which a fit of hands depends, as texts and arrays to be hashed: joints of the
+    hands and the head, and skin of hands and lips.
 
     Hair, eyes, clothes and face shapes are not included.
     """
@@ -143,14 +143,14 @@ def _untimed(control: Control) -> Control:
 
 
 def bundled_path(character_id: str, instrument_id: str) -> Path:
-    """Return the path of the grip of a bundled pair."""
+    """Return the path of the bundled grip of a bundled character on an instrument."""
     return Path(str(files("resources"))) / "holds" / f"{character_id}.{instrument_id}.json"
 
 
 @lru_cache(maxsize=128)
 def usual_wrists(instrument_id: str) -> Mapping[str, tuple[FloatArray, FloatArray]]:
-    """Return wrist positions (3,) and rotations (4,) of a bundled body in an instrument's frame by side; empty for an
-    instrument without a grip.
+    """Return the wrists of a bundled adult in an instrument's frame by side: position (3,) and rotation (4,); empty for
+    an instrument without a bundled grip.
     """
     for path in sorted(bundled_path("*", instrument_id).parent.glob(f"*.{instrument_id}.json")):
         with contextlib.suppress(FileError):
@@ -166,14 +166,14 @@ def usual_wrists(instrument_id: str) -> Mapping[str, tuple[FloatArray, FloatArra
 
 
 def write_hold(path: Path, digest: str, grip: GripPose) -> None:
-    """Write a hold; the file appears whole or not at all. Raises FileError."""
+    """Write a grip to a file, which is replaced only once it is complete. Raises FileError."""
     with atomic_write(path) as file:
         stored = _StoredHold(digest, grip.character_id, grip.instrument_id, grip.hands)
         file.write(msgspec.json.encode(stored, enc_hook=_plain))
 
 
 def stored(grip: GripPose) -> GripPose:
-    """Return the grip as read from a file, with rounded numbers."""
+    """Return a grip with the rounding that it has after being written to a file and read."""
     kept = _StoredHold("", grip.character_id, grip.instrument_id, grip.hands)
     back = msgspec.json.decode(msgspec.json.encode(kept, enc_hook=_plain), type=_StoredHold, dec_hook=_array)
     return replace(grip, hands=back.hands)
@@ -191,8 +191,9 @@ def read_hold(path: Path, digest: str, lips: Lips) -> GripPose | None:
 
 
 def own_hold(character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body) -> GripPose | None:
-    """Return the hold that comes with the program for a person with the hands of another body; None: there is none,
-    since it holds the instrument well enough as that body does."""
+    """Return the bundled grip of a person whose hands are those of another body; None if there is none, since the other
+    body's grip is good enough for the person.
+    """
     path = bundled_path(character.id, instrument.id)
     if not is_file(path):
         return None

@@ -32,10 +32,12 @@ def judge(
     values: FloatArray,
     leant: Mapping[tuple[int, int], tuple[GripScene, Mapping[int, StationTable]]],
 ) -> tuple[tuple[ContactFit, ...], float]:
-    """Measure the grip at all its samples and halfway between them on all skin of the hand: all fingers at home
-    together, then every finger at its other stations alone.
+    """Return the errors of all contacts, and the greatest depth of skin inside the instrument in metres.
 
-    ``leant`` contains wrist and other fingers for stations with a wrist offset, by finger and station.
+    Measured on all skin of the hand, at the solved values of the controls and halfway between them: first with all
+    fingers at home, then with each finger at each of its other stations.
+
+    ``leant`` has wrist and fingers for stations with a wrist offset, by (finger, station).
     """
     instrument = scene.instrument_map
     fine = np.linspace(0.0, 1.0, 2 * len(values) - 1) if len(values) > 1 else values
@@ -71,8 +73,9 @@ def _finer(scene: GripScene, values: FloatArray, fine: FloatArray) -> GripScene:
 
 
 def _posed(tables: Mapping[int, StationTable], values: Mapping[int, FloatArray], count: int) -> FloatArray:
-    """Return the rotations (S, 16, 4) of a hand's 16 joints in S samples: fingers in ``values`` at these values of
-    their controls, others at rest."""
+    """Return the rotations (S, 16, 4) of a hand's 16 joints in S samples: fingers in ``values`` with their controls at
+    these values, the others at rest.
+    """
     rotations = np.tile(quaternion.IDENTITY, (count, 16, 1))
     for number, table in tables.items():
         at = values.get(number, np.zeros(count))
@@ -88,8 +91,9 @@ def _judged(
     own: Sequence[int],
     values: FloatArray,
 ) -> tuple[list[ContactFit], float]:
-    """Return the distances and angles of the contacts with the indices ``own``, and the greatest depth of the hand's
-    skin in the instrument, while the ``moved`` controls go through ``values``."""
+    """Return the accuracy of the contacts with the indices ``own``, and the greatest depth in metres of the hand's skin
+    in the instrument, while the ``moved`` controls take all ``values``.
+    """
     hand, instrument = problem.hand, scene.instrument_map
     transforms = wrist_from_joint(hand, rotations)
     matrices = wrist_from_mesh(hand, transforms)

@@ -46,10 +46,11 @@ class HandModel:
     Attributes
     ----------
     side : str
+        ``left`` or ``right``.
     joints : tuple of int
         In the character's skeleton: the wrist, then thumb to little finger, three joints each (16).
     offsets_m : (16, 3) float64
-        From each joint's parent; zero for the wrist.
+        Position of each joint in its parent's frame; zero for the wrist.
     axes : (16, 3, 3) float64
         Flexion, sideways and twist axis of each joint (rows).
     limits : (16, 3, 2) float64
@@ -61,19 +62,21 @@ class HandModel:
     landmarks : dict of str to (17, 4) float64
         Weighted homogeneous point per joint (see `LandmarkSet`).
     landmark_normals : dict of str to (17, 3) float64
+        Weighted outward normal per joint of each landmark.
     skin_points : (17, 4, V) float64
-        Thinned skin, likewise.
+        Some of the skin's vertices, as weighted points like the landmarks.
     all_points : (17, 4, W) float64
-        The whole skin of the hand.
+        All vertices of the hand's skin, likewise.
     balls : (B, 4) float64
         Balls that fill fingers and palm: centre in the frame of the joint that moves it, radius.
     ball_joints : (B,) int
+        Joint 0..15 that moves each ball.
     ball_finger : (B,) int
         Finger 0..4, -1 for the palm.
     forearm_balls : (C, 2) float64
         Balls of the forearm: distance from the wrist, radius.
     ball_pairs : (N, 2) int
-        Balls of different fingers.
+        Pairs of balls of different fingers that must not overlap.
     ball_gaps_m : (N,) float64
         Least distance required between the centres of a pair.
     """
@@ -124,7 +127,7 @@ def wrist_from_joint(hand: HandModel, rotations: FloatArray) -> FloatArray:
 
 
 def wrist_from_mesh(hand: HandModel, transforms: FloatArray) -> FloatArray:
-    """Skinning matrices (B, 17, 3, 4) of `wrist_from_joint`."""
+    """Return the skinning matrices (B, 17, 3, 4) for transforms of `wrist_from_joint`."""
     result: FloatArray = transforms[..., :3] @ hand.joint_from_mesh
     result[..., 3] += transforms[..., 3]
     return result
@@ -149,14 +152,16 @@ def turned(matrices: FloatArray, normals: FloatArray) -> FloatArray:
 
 
 def rest_landmark(hand: HandModel, name: str) -> FloatArray:
-    """Place (3,) of a landmark with the fingers at rest."""
+    """Return the position (3,) of a landmark in the wrist's frame with the fingers at rest."""
     still = wrist_from_joint(hand, np.tile(quaternion.IDENTITY, (1, 16, 1)))
     place: FloatArray = skinned(wrist_from_mesh(hand, still), hand.landmarks[name][:, :, None])[0, 0]
     return place
 
 
 def flesh_radius(hand: HandModel) -> FloatArray:
-    """Return the radii (balls,) of the balls that must stay outside the instrument, the forearm's last, metres."""
+    """Return the radii in metres (balls,) of the balls that must stay outside the instrument; those of the forearm come
+    last.
+    """
     firm = np.where(hand.ball_finger >= 0, _FINGER_FLESH, _PALM_FLESH) * hand.balls[:, 3]
     return np.concatenate([firm, _PALM_FLESH * hand.forearm_balls[:, 1]])
 
@@ -174,10 +179,11 @@ def hand_model(character: Character, side: Side, body: Body, profile: SkeletonPr
     Parameters
     ----------
     side : str
+        ``left`` or ``right``.
     body : Body
-        Body with the limits.
+        Limits of the joints.
     profile : SkeletonProfile
-        Profile with the axes.
+        Axes of the joints.
     """
     skeleton = character.skeleton
     names = [f"{side}Hand", *(name for finger in FINGERS for name in profile.fingers[side][finger].joints)]  # type: ignore[index]
@@ -230,8 +236,9 @@ def hand_model(character: Character, side: Side, body: Body, profile: SkeletonPr
 
 
 def _carrier_table(character: Character, joints: Sequence[int], elbow: int) -> IndexArray:
-    """Return for each joint of the skeleton (J,) the index of the frame of the hand model, 0..16, that carries it: the
-    nearest ancestor's, else the forearm's (16)."""
+    """Return for each joint of the skeleton (J,) the index (0..16) of the hand model's frame that moves it: that of the
+    nearest ancestor in the hand, else the forearm's (16).
+    """
     place = {joint: index for index, joint in enumerate(joints)}
     table = np.full(len(character.skeleton.names), 16, dtype=np.intp)
     for joint in range(len(table)):
@@ -254,7 +261,7 @@ def _moments(
 
 
 def _with_skin(hand: HandModel) -> HandModel:
-    """Thin the skin and fill the hand with balls."""
+    """Return the hand model with a reduced set of skin vertices, and with balls that fill the hand."""
     rest = wrist_from_joint(hand, np.tile(quaternion.IDENTITY, (1, 16, 1)))
     skin = skinned(wrist_from_mesh(hand, rest), hand.all_points)[0]
     weights = hand.all_points[:, 3]
@@ -290,7 +297,7 @@ def _with_skin(hand: HandModel) -> HandModel:
 def _finger_balls(
     hand: HandModel, rest: FloatArray, skin: FloatArray, owner: IndexArray, weights: FloatArray
 ) -> list[tuple[int, list[float]]]:
-    """Return balls that stand for the flesh of fingers and thumb, along their bones: joint; centre and radius."""
+    """Return balls that stand for the flesh of fingers and thumb along their bones, as (joint, [x, y, z, radius])."""
     found = []
     for joint in range(1, 16):
         own = skin[(owner == joint) & (weights[joint] > 0.6)] - rest[0, joint, :, 3]
@@ -313,8 +320,9 @@ def _finger_balls(
 
 
 def _palm_balls(hand: HandModel, skin: FloatArray, owner: IndexArray) -> list[tuple[int, list[float]]]:
-    """Return balls that stand for the flesh of the palm, from the wrist to each knuckle, half as thick as the palm
-    there: index of the frame; middle and radius."""
+    """Return balls that stand for the flesh of the palm from the wrist to each knuckle, half as thick as the palm
+    there, as (frame, [x, y, z, radius]).
+    """
     found = []
     flesh = skin[(owner == 0) | (owner == 16) | (owner == 1) | ((owner - 1) % 3 == 0)]
     for knuckle in (4, 7, 10, 13):

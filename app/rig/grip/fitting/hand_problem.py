@@ -1,8 +1,8 @@
 """The least-squares problem of one hand on one instrument: constants, and meaning of the parameters.
 
-Parameters of a hand (a row ``x``): the wrist's position (3, in units of 0.1 m from the seed), its rotation (3, rotation
-vector from the seed), the elbow's swivel, the finger angles with every control at rest, those of working fingers again
-with the controls of their home stations fully worked, and those of every finger at each of its other stations.
+The parameters of a hand form a row ``x``: the wrist's position (3, in units of 0.1 m from the seed), its rotation (3,
+rotation vector from the seed), the elbow's swivel, the finger angles with every control at rest, those of working
+fingers with the controls of their home stations fully worked, and those of every finger at each of its other stations.
 ``configs`` is 2 if any finger works a control at home.
 """
 
@@ -64,7 +64,8 @@ class Dof:
 class Elsewhere:
     """A finger at a station other than home, with its control fully worked.
 
-    ``points`` and ``normals`` are the touching landmarks, ``angles`` the indices of its angles among the parameters.
+    ``points`` and ``normals`` are those of the landmarks that touch, ``angles`` the slice of the finger's angles in the
+    parameters.
     """
 
     number: int
@@ -77,7 +78,7 @@ class Elsewhere:
 
 @dataclass(frozen=True, eq=False)
 class HandProblem:
-    """Everything constant in the problem of solving a hand's grip on its instrument."""
+    """Constants of the least-squares problem of one hand on its instrument."""
 
     hand: HandModel
     seed_m: FloatArray
@@ -172,8 +173,9 @@ def grip_problem(
 
 
 def _swivels(seed: HandSeed, posture: Posture) -> tuple[float, tuple[float, float]]:
-    """Return the usual swivel of the elbow away from the ribs about the line from shoulder to wrist, and its range, in
-    radians."""
+    """Return the usual swivel of the elbow about the line from shoulder to wrist, away from the ribs, and its range
+    (least, greatest), in radians.
+    """
     if seed.elbow_off_ribs_deg is None:
         return float(np.radians(posture.elbow_off_ribs_deg)), SWIVEL_RANGE_RAD
     usual = float(np.radians(seed.elbow_off_ribs_deg))
@@ -183,7 +185,9 @@ def _swivels(seed: HandSeed, posture: Posture) -> tuple[float, tuple[float, floa
 def _contacts_at_home(
     instrument_map: InstrumentMap, side: Side, stations: tuple[tuple[Station, ...], ...]
 ) -> Iterator[tuple[Contact, int]]:
-    """Yield each contact of a hand whose fingers are at home, with the finger's number, or -1 for the palm."""
+    """Yield each contact that a hand has with its fingers at their home stations, with the finger's index, or -1 for
+    the palm.
+    """
     for index, contact in enumerate(instrument_map.contacts):
         if contact.part.startswith(f"{side}."):
             finger = contact.part.split(".")[1]
@@ -193,7 +197,7 @@ def _contacts_at_home(
 
 
 def _shoulders(character: Character, side: Side, stand: Upright) -> tuple[FloatArray, FloatArray]:
-    """Return the shoulder joint in the instrument's frame (3,), by itself and with the trunk's help."""
+    """Return the shoulder joint in the instrument's frame (3,), first without and then with help by the trunk."""
     skeleton, back = character.skeleton, quaternion.conjugate(stand.instrument_rotation)
     joint_m = stand.joints_m[skeleton.index(f"{side}UpperArm")]
     chest = stand.joints_m[skeleton.parents[skeleton.index(f"{side}Shoulder")]]
@@ -204,7 +208,7 @@ def _shoulders(character: Character, side: Side, stand: Upright) -> tuple[FloatA
 
 
 def seed_turn(seed: HandSeed) -> FloatArray:
-    """Return the wrist's rotation (4,) at its seed in the instrument's frame."""
+    """Return the wrist's rotation (4,) in the instrument's frame that the map suggests as a start."""
     outward = -1.0 if seed.hand == "left" else 1.0
     direction, normal = np.asarray(seed.finger_direction), np.asarray(seed.palm_normal)
     direction = direction - normal * float(direction @ normal) / float(normal @ normal)
@@ -213,14 +217,14 @@ def seed_turn(seed: HandSeed) -> FloatArray:
 
 
 def home_controls(of_finger: Sequence[Sequence[Station]]) -> frozenset[str]:
-    """Return the controls that the fingers of a hand work at home."""
+    """Return the controls that the fingers of a hand work at their home stations."""
     return frozenset(name for places in of_finger if places for name in places[0].controls)
 
 
 def _elsewhere(
     problem: HandProblem, model: InstrumentModel, instrument_map: InstrumentMap, carrier: Control | None
 ) -> tuple[Elsewhere, ...]:
-    """Return the fingers at their other stations; none for a hand moved by a control."""
+    """Return each finger at each station other than home; empty for a hand that a control moves."""
     found = []
     start = 7 + len(problem.dofs) + len(worked_dofs(problem))
     for number, places in enumerate(problem.stations if carrier is None else ()):
@@ -237,7 +241,7 @@ def _elsewhere(
 
 
 def _dofs(hand: HandModel, curl: tuple[float, ...]) -> tuple[Dof, ...]:
-    """Return the angles to solve, thumb first, with relaxed values from the seed's curl (1 is a fist)."""
+    """Return the angles to solve, thumb first, with relaxed values from ``curl`` of each finger (1 is a fist)."""
     found = []
 
     def add(joint: int, kind: int, relaxed_deg: float, spread: float, share: float = 1.0) -> None:
@@ -267,7 +271,7 @@ def worked_dofs(problem: HandProblem) -> list[int]:
 
 
 def _bounds(problem: HandProblem) -> tuple[FloatArray, FloatArray]:
-    """Parameters: wrist place (3), turn (3), swivel, angles at rest, of working fingers fully worked, elsewhere."""
+    """Return the lower and upper bounds (n,) of all n parameters, in the order described for the module."""
     order = _order(problem)
     low = [-np.inf] * 6 + [problem.swivel_range[0]] + [problem.dofs[i].low for i in order]
     high = [np.inf] * 6 + [problem.swivel_range[1]] + [problem.dofs[i].high for i in order]
@@ -275,7 +279,7 @@ def _bounds(problem: HandProblem) -> tuple[FloatArray, FloatArray]:
 
 
 def _order(problem: HandProblem) -> list[int]:
-    """Return the index of the angle of each parameter from the eighth on."""
+    """Return for each parameter from the eighth on the index in ``problem.dofs`` of the angle it stands for."""
     elsewhere = [i for one in problem.elsewhere for i in finger_dofs(problem, one.number)]
     return [*range(len(problem.dofs)), *worked_dofs(problem), *elsewhere]
 
@@ -289,13 +293,15 @@ def start_at(problem: HandProblem, turn: FloatArray) -> FloatArray:
 
 
 def wrist_transform(problem: HandProblem, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the wrist in the instrument's frame for B candidates: positions (B, 3) and rotations (B, 4)."""
+    """Return position (B, 3) and rotation (B, 4) of the wrist in the instrument's frame for parameters ``x`` of B
+    candidates.
+    """
     turn = quaternion.multiply(quaternion.from_rotation_vector(x[:, 3:6]), problem.seed_rotation)
     return problem.seed_m + METRES * x[:, :3], turn
 
 
 def joint_angles(problem: HandProblem, x: FloatArray) -> FloatArray:
-    """Joint angles (B, configs, 16, 3)."""
+    """Return the joint angles (B, configs, 16, 3) for parameters ``x`` of B candidates."""
     result = np.zeros((len(x), problem.configs, 16, 3))
     count = len(problem.dofs)
     for i, dof in enumerate(problem.dofs):

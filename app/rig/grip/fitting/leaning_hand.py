@@ -54,9 +54,9 @@ VALUES = np.array([0.0, 1.0])
 
 @dataclass(frozen=True, eq=False)
 class Leaning:
-    """A shift of the hand by which one finger reaches a station that it cannot reach otherwise.
+    """Offset of a hand by which one finger reaches a station that it cannot reach otherwise.
 
-    ``solved`` is that finger at the station, ``others`` the fingers at home, ``scene`` the wrist.
+    ``solved`` is that finger at the station, ``others`` are the other fingers at home, ``scene`` is the offset wrist.
     """
 
     index: int
@@ -72,8 +72,9 @@ def leanings(
     solved: Sequence[Solved],
     reported: Progress = lambda share: None,
 ) -> tuple[Leaning, ...]:
-    """Return the shift of the hand for every station that its finger cannot reach; empty if the hand moves with a part
-    of the instrument."""
+    """Return the wrist offset for every station that its finger cannot reach with the wrist at home; empty if the hand
+    moves with a part of the instrument.
+    """
     found = []
     if scene.carrier is not None:
         return ()
@@ -123,8 +124,10 @@ def _leant(
 def _lean_problem(
     problem: HandProblem, scene: GripScene, number: int, station: Station, x: FloatArray, eased: float
 ) -> HandProblem:
-    """Return the problem of a hand whose finger ``number`` is at a station while the others stay at home, with the
-    wrist near that in ``x``."""
+    """Return the least-squares problem of a hand whose finger ``number`` is at a station while the others stay at home.
+
+    The wrist is kept near that in the parameters ``x``; ``eased`` relaxes this.
+    """
     instrument, hand = scene.instrument_map, problem.hand
     chosen = [station if n == number else places[0] for n, places in enumerate(problem.stations) if places]
     worked = home_controls([[place] for place in chosen])
@@ -173,7 +176,7 @@ def whole_hand(side: str) -> tuple[str, ...]:
 
 
 def lean_of(problem: HandProblem, scene: GripScene, leaning: Leaning) -> WristOffset:
-    """A leaning as a difference to the wrist at home."""
+    """Return a solved offset as the difference from the wrist at home."""
     before, after = quaternion.from_matrix(scene.basis[0]), quaternion.from_matrix(leaning.scene.basis[0])
     return WristOffset(
         finger=f"{problem.hand.side}.{FINGERS[leaning.solved.number]}",

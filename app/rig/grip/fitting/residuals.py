@@ -53,7 +53,7 @@ for those that miss (`app.rig.grip.fitting.leaning_hand`).
 
 
 class Residuals:
-    """Residuals and their Jacobian; caches the distances to the proxy at the last pose, which both need."""
+    """Residuals and their Jacobian. Distances to the instrument at the last pose are cached, since both need them."""
 
     def __init__(self, problem: HandProblem, soft: float, stiff: bool = False) -> None:
         self.problem = problem
@@ -87,8 +87,9 @@ class Residuals:
         return np.concatenate([np.pad(home, ((0, 0), (0, len(x) - count))), *blocks])
 
     def _elsewhere_jacobian(self, one: Elsewhere, x: FloatArray, step: FloatArray) -> FloatArray:
-        """Return the rows of the Jacobian for one finger at another station; they depend only on the wrist (first six
-        columns) and that finger's angles."""
+        """Return the rows of the Jacobian for one finger at another station than home. They depend only on the wrist
+        (first six columns) and that finger's angles.
+        """
         columns = np.r_[0:6, one.angles]
         tried = np.repeat(x[None], len(columns) + 1, axis=0)
         tried[np.arange(1, len(tried)), columns] += step[columns]
@@ -136,8 +137,9 @@ class Residuals:
         return depth, slope
 
     def _parts(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the residuals without those of the instrument's bodies (B, m), and skin and balls (B, configs, V, 3)
-        in the instrument's frame, for B candidates."""
+        """Return for B candidates the m residuals (B, m) without those of skin inside the instrument, and the skin and
+        balls (B, configs, V, 3) in the instrument's frame.
+        """
         problem, hand = self.problem, self.problem.hand
         place, turn = wrist_transform(problem, x)
         angles = joint_angles(problem, x)
@@ -174,7 +176,7 @@ class Residuals:
         return np.concatenate(parts, axis=1), skin
 
     def _forearm(self, x: FloatArray, place: FloatArray) -> FloatArray:
-        """Balls (B, configs, C, 3) of the forearm."""
+        """Return the centres of the forearm's C balls (B, configs, C, 3) in the instrument's frame for B candidates."""
         wrist = place + self.problem.reference_shift_m
         behind = _elbow_place(self.problem, wrist, x[:, 6], self.problem.shoulder_m) - wrist
         behind /= np.linalg.norm(behind, axis=1)[:, None]
@@ -199,7 +201,9 @@ class Residuals:
         return np.stack(parts, axis=1)
 
     def arm(self, x: FloatArray, place: FloatArray, turn: FloatArray) -> FloatArray:
-        """Return the residuals that keep the wrist straight: direction and twist of the forearm, place of the elbow."""
+        """Return the residuals that keep the wrist straight: from direction and twist of the forearm and position of
+        the elbow.
+        """
         problem = self.problem
         wrist = place + problem.reference_shift_m
         bent, over = self._bend(x, wrist, turn, problem.shoulder_m)
@@ -217,8 +221,9 @@ class Residuals:
     def _bend(
         self, x: FloatArray, wrist: FloatArray, turn: FloatArray, shoulder_m: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Return for B candidates flexion, deviation and pronation of the wrist (B, 3), and the excess of these and the
-        judged values over their limits (B, 5)."""
+        """Return for B candidates flexion, deviation and pronation of the wrist (B, 3) in radians, and the excess over
+        their limits of these and of two further measures (B, 5).
+        """
         problem = self.problem
         elbow = _elbow_place(problem, wrist, x[:, 6], shoulder_m)
         forearm = wrist - elbow
@@ -239,8 +244,9 @@ class Residuals:
         return bent, np.maximum(both - high, 0.0) + np.minimum(both - low, 0.0)
 
     def _shared(self, forearm: FloatArray, hinge: FloatArray, turn: FloatArray) -> FloatArray:
-        """Return flexion and deviation (B, 2) of the hand joint for B candidates if the forearm takes its share of the
-        twist."""
+        """Return flexion and deviation (B, 2) of the wrist in radians for B candidates, after the forearm has taken its
+        share of the twist.
+        """
         hand = self.problem.hand
         sign = 1.0 if hand.side == "left" else -1.0
         frame = quaternion.from_frames(sign * forearm, -sign * hinge)
@@ -251,8 +257,9 @@ class Residuals:
         return quaternion.to_rotation_vector(swing) @ hand.axes[0, :2].T
 
     def _anchored(self, x: FloatArray) -> FloatArray:
-        """Return the residuals (B, m) that keep a hand near its seed, and grips of neighbouring knots similar with a
-        common swivel of the elbow."""
+        """Return the residuals (B, m) that keep a hand near its seed, or, for a hand moved by a control, near the
+        solution at the neighbouring value.
+        """
         if self.problem.anchor is None:
             off: FloatArray = x[:, :6] / np.repeat([SEED_M / METRES, SEED_RAD], 3)
         else:
@@ -262,7 +269,9 @@ class Residuals:
 
 
 def _elbow_place(problem: HandProblem, wrist: FloatArray, swivel: FloatArray, shoulder_m: FloatArray) -> FloatArray:
-    """Return the elbow's position (B, 3) for B wrists (B, 3) and swivels (B,) from straight down to the outside."""
+    """Return the elbow's position (B, 3) for B wrists (B, 3) and swivels (B,): 0 is straight down, positive is
+    outwards.
+    """
     a, b = problem.upper_m, problem.lower_m
     line = wrist - shoulder_m
     reach = np.clip(np.linalg.norm(line, axis=1), abs(a - b) + 1e-4, (a + b) * 0.9999)
@@ -283,7 +292,7 @@ def _pole(problem: HandProblem, direction: FloatArray, swivel: FloatArray) -> Fl
 
 
 def pressure_cost(depth: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the cost of a depth and its slope: flesh yields a little, then resists."""
+    """Return the cost of a depth of skin in the instrument, and its derivative: flesh yields a little, then resists."""
     deep = depth > GIVE_M
     return depth + (STIFFENING - 1.0) * np.maximum(depth - GIVE_M, 0.0), np.where(deep, STIFFENING, depth > 0.0)
 

@@ -50,8 +50,9 @@ def with_own_arms(
 def arms_cost(
     grip: GripPose, character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body
 ) -> float:
-    """Return the strain of both arms when a character has the hold of another one with the same hands: squares of a
-    fit's residuals of elbows and wrists."""
+    """Return the strain of both arms if a character uses the grip of another one with the same hands: the sum of
+    squares of the fit's residuals for elbows and wrists.
+    """
     stand = upright(character, instrument, body, fit_lips(character, instrument, body))
     hands = zip(grip.hands, instrument.hands, strict=True)
     return sum(
@@ -68,14 +69,14 @@ def are_strained(
     carried: tuple[InstrumentMap, InstrumentMap],
     body: Body,
 ) -> bool:
-    """Return whether a character bends its wrists much further than another one with the same hands.
+    """Return whether a character bends its wrists much further than another one with the same hands and grip.
 
     Parameters
     ----------
     grip : GripPose
-        The other character's.
+        Grip of the other character.
     carried : (InstrumentMap, InstrumentMap)
-        The instrument as either carries it.
+        The instrument as carried by the character, and as carried by the other one.
     """
     times, more = STRAINED
     usual = arms_cost(grip, other, model, carried[1], body)
@@ -100,7 +101,7 @@ def _elbow(
 
 
 def _costs(hand: HandHold, problem: HandProblem) -> tuple[FloatArray, FloatArray]:
-    """Return the swivels of the elbow that are tried, and the cost of each (`SWIVELS`,)."""
+    """Return the tried swivels of the elbow (`SWIVELS`,) in radians, and the cost of each."""
     swivels = np.linspace(*problem.swivel_range, SWIVELS)
     tried = np.zeros((SWIVELS, len(problem.low)))
     tried[:, 6] = swivels

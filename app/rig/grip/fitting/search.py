@@ -1,4 +1,4 @@
-"""Solving of a hand's grip: many starts with soft contacts, a few with harder ones, one final solution."""
+"""Solution of a hand's grip: many starts with soft contacts, a few continued with harder ones, one final solution."""
 
 from __future__ import annotations
 
@@ -39,8 +39,11 @@ TILTS = (
 
 
 def starts(problem: HandProblem, progress: Progress = no_progress) -> list[FloatArray]:
-    """Return first solutions of a hand on its instrument, best first: from the seed and rotations of it with soft
-    contacts, then the best few again with harder ones."""
+    """Return first solutions (rows of parameters) of a hand on its instrument, best first.
+
+    Starts are the suggested hand and rotations of it, solved with soft contacts; the best few are solved again with
+    harder ones.
+    """
     loose = []
     for number, tilt in enumerate(TILTS):
         progress(0.8 * number / len(TILTS))
@@ -54,8 +57,9 @@ def starts(problem: HandProblem, progress: Progress = no_progress) -> list[Float
 
 
 def refined_solution(problem: HandProblem, start: FloatArray) -> FloatArray:
-    """Return the parameters of the final solution from a start: first with contacts at full stiffness, then with skin
-    at its own."""
+    """Return the parameters of the final solution from a start: first with contacts at full stiffness, then also with
+    skin.
+    """
     hard = solve(Residuals(problem, 1.0), start, 25)
     return np.asarray(solve(Residuals(problem, 1.0, stiff=True), hard.x, 12).x)
 
@@ -67,8 +71,9 @@ def search_knots(
     carrier: Control,
     progress: Progress = no_progress,
 ) -> tuple[FloatArray, FloatArray]:
-    """Solve the hold of a hand that a control carries, at K values of the control: the values ascending (K,) and the n
-    parameters (K, n)."""
+    """Solve the grip of a hand that a control moves: return K ascending values (K,) of the control, and the n
+    parameters at each (K, n).
+    """
     found: dict[float, FloatArray] = {}
     for value in KNOTS:
         place, turn = nodes_at(model, instrument_map, home_controls(problem.stations), carrier, np.array([value]))

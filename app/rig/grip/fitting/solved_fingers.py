@@ -1,4 +1,4 @@
-"""Fingers at values of their controls between the ends, solved with the wrist fixed."""
+"""Solution of fingers for values of their controls between rest and fully worked, with the wrist fixed."""
 
 from __future__ import annotations
 
@@ -41,8 +41,9 @@ STILL_VALUES = np.zeros(1)
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """Angles (S, 16, 3) of the hand's 16 joints with one finger at one station, over S values of its control; other
-    fingers have the given angles."""
+    """Joint angles (S, 16, 3) of the hand with one finger solved at one station for S values of its control; the other
+    fingers keep the angles that were given.
+    """
 
     number: int
     station: Station
@@ -65,18 +66,18 @@ def solve_tables(
     reported: Progress = lambda share: None,
 ) -> tuple[Solved, ...]:
     """Solve the fingers at each station over the values of their controls with the wrist fixed; a finger without
-    contacts stays relaxed.
+    contacts stays relaxed. Return one result for each finger and station.
 
     Parameters
     ----------
     angles : (S, configs, 16, 3) float64
-        Angles of the solved grip: one sample, or one for every value of the control that moves the hand.
+        Joint angles of the solved grip: S is 1, or the number of values of the control that moves the hand.
     elsewhere : (n,) float64
         Parameters of the solved grip for the fingers' other stations.
 
-    A finger has more joints than a touch needs, so samples solved apart may fall into different bends and the finger
-    would twitch. Each is followed from one end of the control to the other, from both ends, solved again about a smooth
-    path, and the better of the two kept.
+    A finger has more joints than a touch needs, so samples solved separately may bend differently and the finger would
+    twitch. Samples are solved one after another, from either end of the control's range, then again near a smooth path,
+    and the better of the two results is kept.
     """
     result = []
     others = {(one.number, one.station.controls): elsewhere[one.angles] for one in problem.elsewhere}
@@ -103,7 +104,9 @@ def solve_tables(
 
 
 def followed_table(problem: HandProblem, scene: GripScene, number: int, station: Station, angles: FloatArray) -> Solved:
-    """Solve one finger at a station, from the angles (16, 3) of a hand with fully worked controls."""
+    """Solve one finger at a station for all values of its control, starting from the angles (16, 3) of a hand with
+    controls fully worked.
+    """
     values = values_of(scene, station)
     pose = np.repeat(angles[None], len(values), axis=0)
     finger = FingerOnTouches(problem, scene.over(values), number, station, values, pose)
@@ -117,7 +120,9 @@ def followed_table(problem: HandProblem, scene: GripScene, number: int, station:
 def solved_about(
     problem: HandProblem, scene: GripScene, home: Solved, values: FloatArray, angles: FloatArray
 ) -> Solved:
-    """Solve a finger at home for another wrist, near the angles (16, 3) of a hand with fully worked controls."""
+    """Solve a finger at its home station for another wrist, starting near the angles (16, 3) of a hand with controls
+    fully worked.
+    """
     pose = home.angles[np.searchsorted(home.values, values)].copy()
     pose += angles - pose[-1]
     exacter = LESS_EXACT if home.station.controls else EXACTER
@@ -145,8 +150,9 @@ def missed_m(problem: HandProblem, scene: GripScene, one: Solved) -> float:
 
 
 def _both_ways(finger: FingerOnTouches, first: FloatArray, last: FloatArray) -> FloatArray:
-    """Return the angles (S, n) of a finger over S samples, followed from that end of its control's range which gives
-    the lower cost."""
+    """Return the angles (S, n) of a finger over S samples, solved one after another from that end of its control's
+    range which gives the lower cost.
+    """
     count = len(finger.values)
     if count == 1:
         return finger.solve(last[None], last[None], WORKED_RAD, np.arange(1))[0]
@@ -155,7 +161,7 @@ def _both_ways(finger: FingerOnTouches, first: FloatArray, last: FloatArray) -> 
 
 
 def _followed(finger: FingerOnTouches, start: FloatArray, order: Sequence[int]) -> tuple[FloatArray, float]:
-    """Return the angles (S, n) of a finger followed from sample to sample in an order and smoothed, and their cost."""
+    """Return the angles (S, n) of a finger, solved from sample to sample in an order and smoothed, and their cost."""
     found = np.zeros((len(order), len(start)))
     here = start
     for sample in order:
@@ -171,7 +177,7 @@ def _followed(finger: FingerOnTouches, start: FloatArray, order: Sequence[int]) 
 
 
 def finger_tables(problem: HandProblem, scene: GripScene, solved: Sequence[Solved]) -> tuple[FingerTable, ...]:
-    """Return the solved angles as rotations, finger by finger."""
+    """Return the tables of finger poses (rotations) for the solved angles."""
     hand = problem.hand
     tables = []
     for number, name in enumerate(FINGERS):

@@ -1,4 +1,4 @@
-"""Places that the fingers touch, and the surrounding nodes, in the instrument's frame for values of the controls."""
+"""Points that fingers touch, and the nodes of the instrument, in the instrument's frame for values of the controls."""
 
 from __future__ import annotations
 
@@ -30,9 +30,10 @@ HOVER_TURNS = 2.0
 
 @dataclass(frozen=True, eq=False)
 class TouchTarget:
-    """The place on the instrument that a finger touches, at S values of the controls that the finger works.
+    """Point on the instrument that a finger must touch, at S values of the controls that it works.
 
-    ``positions`` and ``normals`` are (S, 3), ``active``, ``spread_m`` and ``spread_normal`` (S,).
+    ``positions`` and ``normals`` are (S, 3). Arrays (S,): ``active`` is True if the contact is required there,
+    ``spread_m`` and ``spread_normal`` are the tolerances of position and normal.
     """
 
     contact: Contact
@@ -51,8 +52,8 @@ def touch_at(
     carrier: Control | None,
     values: FloatArray,
 ) -> TouchTarget:
-    """Return a contact while all ``worked`` controls are at ``values`` (S,), and the place of a finger waiting over
-    it.
+    """Return the target of a contact while all ``worked`` controls are at ``values`` (S,), raised for a finger that
+    waits above its control.
     """
     position, normal = contact_at(model, instrument_map, contact, worked, carrier, values)
     exact_m, exact_normal = SPREADS[contact.grip]
@@ -69,7 +70,7 @@ def touch_at(
 
 
 def counts(contact: Contact, values: FloatArray) -> BoolArray:
-    """Return a mask (S,) of the values of the control at which a contact must be kept."""
+    """Return a mask (S,) of the control values at which a contact is required."""
     if contact.when == "pressed":
         return values > 0.0
     return values == 0.0 if contact.when == "released" else values >= 0.0
@@ -83,8 +84,9 @@ def contact_at(
     carrier: Control | None,
     values: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return position (S, 3) and normal (S, 3) of a contact in the instrument's frame while the worked controls take S
-    values."""
+    """Return position (S, 3) and normal (S, 3) of a contact in the instrument's frame while the ``worked`` controls
+    take S values; a hand moved by ``carrier`` stays with its own node.
+    """
     place = model.node_positions_m[model.node_names.index(contact.node)] + contact.position_m
     normal = np.asarray(contact.normal, dtype=np.float64)
     part = next((part for part in instrument_map.moving_parts if part.node == contact.node), None)
@@ -105,9 +107,10 @@ def nodes_at(
     carrier: Control | None,
     values: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return positions (S, N, 3) and bases (S, N, 3, 3) of the N nodes while the worked controls take S values.
+    """Return positions (S, N, 3) and bases (S, N, 3, 3) of the instrument's N nodes while the ``worked`` controls take
+    S values.
 
-    For a hand moved by a control, its own node is fixed and all others move the opposite way.
+    For a hand moved by the control ``carrier``, its own node is fixed and all others move the opposite way.
     """
     place, turn = node_transforms(model, instrument_map, _at(worked, values), len(values))
     if carrier is not None:

@@ -1,7 +1,8 @@
-"""Offsets of a hand for two fingers at once, where the sum of the single offsets does not suit both.
+"""Wrist offsets for two fingers at the same time, for cases in which the sum of the single offsets does not suit both.
 
 Offsets of single fingers (`app.rig.grip.fitting.leaning_hand`) are added. If a finger then misses its place, the wrist
-is solved again for both with the poses of `app.rig.grip.finger_poses`, and the difference is stored.
+is solved again for both with the poses of `app.rig.grip.finger_poses`, and the difference is stored as a further
+offset.
 """
 
 from __future__ import annotations
@@ -38,8 +39,10 @@ ROUNDS = 25
 
 @dataclass(frozen=True, eq=False)
 class _Pair:
-    """A hand with two fingers at stations other than home. The six parameters are the wrist's position in units of 0.1
-    m and its rotation, added to its offsets."""
+    """Least-squares problem of a hand with two fingers at stations other than home.
+
+    The six parameters are a shift of the wrist in units of 0.1 m and a rotation vector, added to its single offsets.
+    """
 
     hand: HandHold
     stations: dict[str, int]
@@ -47,7 +50,7 @@ class _Pair:
 
     @property
     def tables(self) -> list[FingerTable]:
-        """Return the tables of the fingers with contacts."""
+        """Tables of the fingers that have contacts."""
         return [table for table in self.hand.fingers if table.stations and table.stations[0].tip_joint >= 0]
 
     def wrist(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -58,8 +61,9 @@ class _Pair:
         return wrist_given(self.hand, [*given, *extra])
 
     def missed_m(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the vectors (B, fingers, 3) from fingers, and (B, N, 3) from the N places of palm and web, to where
-        they should be, in metres."""
+        """Return the vectors in metres from fingers (B, fingers, 3), and from the N touching points of palm and web (B,
+        N, 3), to their places.
+        """
         wrist = self.wrist(x)
         fingers = [_missed(self.hand, table, self.stations.get(table.finger, 0), wrist) for table in self.tables]
         home_m, home = wrist_given(self.hand, [])
@@ -99,12 +103,12 @@ class _Pair:
 def leans_beside(
     hand: HandHold, whole_m: FloatArray, together: Sequence[tuple[Place, Place]]
 ) -> tuple[WristOffset, ...]:
-    """Return the additional offsets for two fingers at once.
+    """Return the additional wrist offsets for pairs of stations that the single offsets do not suit.
 
     Parameters
     ----------
     hand : HandHold
-        With the leans of single fingers.
+        Hand with the offsets for single fingers.
     whole_m : (N, 3) float64
         Contact points of palm and web in the instrument's frame.
     together : sequence of pairs of (finger, station)
@@ -126,8 +130,9 @@ def leans_beside(
 
 
 def _missed(hand: HandHold, table: FingerTable, index: int, wrist: tuple[FloatArray, FloatArray]) -> FloatArray:
-    """Return the vector (B, 3) by which a finger misses its place in the instrument's frame, metres, with its controls
-    fully worked."""
+    """Return the vector (B, 3) in the instrument's frame, in metres, by which a finger misses its place for B wrists,
+    with its controls fully worked.
+    """
     station = table.stations[index]
     own = wrist_given(hand, [(one, np.ones(1)) for one in hand.leans if one.places == ((table.finger, index),)])
     requested = own[0] + quaternion.rotate(own[1], tip_m(table, station, station.rotations[-1:]))

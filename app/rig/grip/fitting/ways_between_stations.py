@@ -1,4 +1,6 @@
-"""Heights of fingers on the ways between their stations, and places at which they wait for a hand offset."""
+"""Heights of fingers on their way between stations, and the heights at which they wait until the hand has its
+offset.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,7 @@ away from the other key, around obstacles between the two.
 
 @dataclass(frozen=True)
 class _Height:
-    """Height of a finger on a way, and the greatest depth of its points in the instrument."""
+    """Height of a finger on its way between stations, and the greatest depth of its skin in the instrument there."""
 
     lift_m: float
     deep_m: float
@@ -45,7 +47,7 @@ class _Height:
 
     @property
     def near(self) -> bool:
-        """True if the way is clear, and not farther from the keys than a waiting finger."""
+        """True if the finger clears the instrument and is not higher than a waiting finger."""
         return self.clear and self.lift_m <= MOST_HOVER_M
 
     def betters(self, other: _Height) -> bool:
@@ -57,8 +59,11 @@ class _Height:
 def lifted_ways(
     problem: HandProblem, scene: GripScene, tables: tuple[FingerTable, ...], wrists: Mapping[tuple[int, int], GripScene]
 ) -> tuple[FingerTable, ...]:
-    """Return the tables of fingers supplemented with the height by which each finger is lifted on its way between home
-    and another station."""
+    """Return the tables of fingers with the height by which each finger is lifted on its way between home and another
+    station.
+
+    ``wrists`` are the offset wrists by (finger, station).
+    """
     result = []
     for number, table in enumerate(tables):
         found = [table.stations[0]] if table.stations else []
@@ -112,8 +117,10 @@ def _lifted_along(
     off: FloatArray,
 ) -> tuple[StationTable, _Height]:
     """Return a station with the height of its finger on the way in direction ``away`` and while waiting in direction
-    ``off`` (instrument's frame), and that height. ``scenes`` are at home and at the station, ``which`` are the numbers
-    of finger and station."""
+    ``off`` (instrument's frame), and that height.
+
+    ``scenes`` are the wrists at home and at the station, ``which`` the indices of finger and station.
+    """
     (scene, wrist), (number, index) = scenes, which
     home, there = table.stations[0], table.stations[index]
     away, off = away @ scene.basis[0], off @ scene.basis[0]
@@ -150,7 +157,7 @@ def _lifted_along(
 
 
 def _waiting(station: StationTable) -> FloatArray:
-    """Return the poses (2, n, 4) of a waiting finger at its greatest and its least height."""
+    """Return the rotations (2, n, 4) of a waiting finger at its greatest and its least height."""
     low = LOW_HOVER if station.hovers else 0.0
     return interpolated(station.values, station.rotations, np.array([0.0, low]))
 
@@ -158,8 +165,11 @@ def _waiting(station: StationTable) -> FloatArray:
 def _least_lift(
     problem: HandProblem, scene: GripScene, number: int, lifted: Callable[[float], FloatArray], lifts_m: FloatArray
 ) -> tuple[float, float]:
-    """Return the first of the heights ``lifts_m`` at which all poses of a finger clear the instrument, or the best of
-    them, and the greatest depth there; ``lifted`` returns poses (K, n, 4) for a height."""
+    """Return the first of the heights ``lifts_m`` at which a finger clears the instrument, else the best of them, and
+    the greatest depth there in metres.
+
+    ``lifted`` returns the poses (K, n, 4) of the finger for a height.
+    """
     hand = problem.hand
     own = slice(1 + 3 * number, 4 + 3 * number)
     carried = hand.all_points[own, 3].sum(axis=0) > 0.5
