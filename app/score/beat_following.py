@@ -17,14 +17,16 @@ SURE: Final = 0.5
 
 @dataclass(frozen=True)
 class UnmatchedSpan:
-    """A span found in only one of score and recording: in ticks of the score, or in seconds of the recording."""
+    """A span that exists only in the score (in ticks) or only in the recording (in seconds)."""
 
     start: float
     end: float
 
 
 def bars_named(*runs: tuple[int, int]) -> dict[str, Argument]:
-    """Runs of bars (first, last) as arguments of a message: ``bars`` ("3-5, 8"), and their total number ``count``."""
+    """Convert ranges of bars (first, last) to arguments of a message: ``bars``, such as "3-5, 8", and ``count``, the
+    total number of bars.
+    """
     named = [f"{first}" if first == last else f"{first}-{last}" for first, last in runs]
     return {"bars": ", ".join(named), "count": sum(last - first + 1 for first, last in runs)}
 
@@ -36,9 +38,9 @@ class RunnerUp:
     Attributes
     ----------
     later_s : float
-        How much later it lies than the likeliest one, in seconds of the recording; negative if earlier.
+        Seconds of the recording by which it is later than the likeliest place; negative if earlier.
     confidence : float
-        0..1.
+        Confidence that the piece is there, 0..1.
     """
 
     later_s: float
@@ -80,17 +82,17 @@ class Following:
     Attributes
     ----------
     ticks : (N,) int64
-        The beats, in order.
+        Ticks of the score's beats, in order.
     recording_s : (N,) float64
         Time at which each beat sounds in the recording, rising; below 0 or past the end where the recording lacks it.
     confidence : (N,) float64
-        0..1.
+        Confidence in the time of each beat, 0..1.
     missing : tuple of UnmatchedSpan
         Ticks of the score that are missing in the recording.
     added : tuple of UnmatchedSpan
         Seconds of the recording, between its first and last note, that are not in the score.
     runner_up : RunnerUp or None
-        None where no other place is alike at all.
+        Second likeliest place; None if no other place is similar.
     """
 
     ticks: IntArray

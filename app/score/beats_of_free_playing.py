@@ -26,12 +26,12 @@ _SLOWEST_US, _FASTEST_US = 2_000_000.0, 200_000.0
 
 
 def find_beats(onsets_s: FloatArray, ends_s: FloatArray, start_bpm: float = 100.0) -> FloatArray:
-    """Times of the beats.
+    """Find the times of the beats in music played freely.
 
     Parameters
     ----------
     onsets_s, ends_s : float64, shape (n,)
-        Of the notes. Longer notes begin on beats more often.
+        Start and end of each note in seconds. Longer notes begin on beats more often.
     start_bpm : float
         Likely tempo; decides between a beat and one twice as fast or slow.
 
@@ -111,8 +111,9 @@ def tempo_of_beats(beats_s: FloatArray, ticks_per_quarter: int) -> TempoMap:
 
 
 def _settled(beats_s: FloatArray, onsets_s: FloatArray) -> FloatArray:
-    """Move each beat (N,) in seconds to the nearest note onset, if one is close: the envelope from which beats are
-    found is coarser than onsets."""
+    """Move each beat (N,) in seconds to the nearest note onset, if one is close, since the envelope in which beats were
+    found has a coarser time grid than the onsets.
+    """
     if not len(beats_s):
         return beats_s
     after = np.clip(np.searchsorted(onsets_s, beats_s), 1, len(onsets_s) - 1)

@@ -38,14 +38,14 @@ _ROUNDING: Final = 1e-3
 
 
 class _Channel(msgspec.Struct):
-    """The parameter a channel has selected, and its range in semitones and cents.
+    """State of a channel: the registered parameter it has selected, and its bend range in semitones and cents.
 
     Attributes
     ----------
     number : tuple of int
         Registered parameter, coarse and fine; valid while ``registered``.
     coarse, fine_first : bool
-        The semitones were sent since the parameter was selected; the cents were sent before them.
+        Whether the semitones were sent since the parameter was selected, and whether the cents were sent before them.
     """
 
     number: tuple[int, int] = _NULL
@@ -76,12 +76,12 @@ class BendRanges:
         return USUAL_SEMITONES if state is None else min(state.semitones + state.cents / 100, 2.0 * MOST_BEND)
 
     def receive(self, channel: int, control: int, value: int) -> Collection[int]:
-        """Receive a controller of `PARAMETERS`; any other controller is ignored.
+        """Update the ranges by a controller message; controllers not in `PARAMETERS` are ignored.
 
         Returns
         -------
         collection of int
-            The channels whose range is set by it.
+            Channels whose range the message sets.
         """
         state = self._channels.setdefault(channel, _Channel())
         if control == RESET:
@@ -214,8 +214,8 @@ def bent(raw: Mapping[int, float], ranges: Mapping[int, float]) -> dict[int, flo
 
 
 def range_for(values: Iterable[float]) -> int:
-    """The smallest whole number of semitones, at least the usual range, that can represent the bends (in units of the
-    usual range).
+    """Return the smallest bend range in whole semitones, not below the usual range, that can represent all of the
+    bends; these are in units of the usual range.
     """
     most = max(map(abs, values), default=0.0)
     return min(max(ceil(most * USUAL_SEMITONES - _ROUNDING), int(USUAL_SEMITONES)), _MOST_SEMITONES)

@@ -33,8 +33,8 @@ class ChannelNotes(msgspec.Struct):
 
 
 def end_unended(notes: ChannelNotes, silenced: Mapping[int, int], most_ticks: int, track_end: int) -> int:
-    """End every note of the pitches that lack a note-off, drop notes struck twice at once, and return the number of
-    notes that had no end.
+    """Set ends for notes without a note-off, change the ends of the other notes of the same pitches to match, drop a
+    second note of one pitch and tick, and return the number of notes that had no end.
 
     So far note-offs were matched first in, first out; here the first note-off after a note ends it, unless the pitch is
     struck again before.
@@ -137,7 +137,9 @@ def end_late(notes: ChannelNotes) -> None:
 
 
 def covered(notes: ChannelNotes, ends: Sequence[int]) -> tuple[int, int]:
-    """Count the notes that lie wholly within a note of another pitch, and sum the ticks of the notes so covered."""
+    """Return the number of notes that lie completely within a note of another pitch, and the total ticks in which a
+    note overlaps an earlier note of another pitch.
+    """
     swallowed = together = 0
     # The latest ends so far of the two pitches that end last: of the pitch whose last one that is, and of any other.
     last, last_end, other_end = -1, -1, -1

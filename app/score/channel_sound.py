@@ -27,11 +27,11 @@ class ChannelSound(msgspec.Struct, frozen=True, gc=False):
     Attributes
     ----------
     certain : bool
-        Whether an unambiguous message sets it; otherwise the track's name has priority.
+        Whether an unambiguous message sets the sound; otherwise the track's name has priority.
     program : int or None
         Program number; None if no message sets one.
     kit : {"", "gs", "xg"}
-        Numbering of the sounds of a rhythm part, beyond the numbers that General MIDI shares with all.
+        System whose numbers for drum sounds a rhythm part uses; empty: General MIDI's.
     """
 
     use: Use
@@ -40,8 +40,8 @@ class ChannelSound(msgspec.Struct, frozen=True, gc=False):
     kit: Literal["", "gs", "xg"] = ""
 
     def struck(self, pitch: int) -> int:
-        """Convert the pitch of a rhythm part's note to the General MIDI 2 number of its sound; unchanged if there is no
-        other number.
+        """Return the General MIDI 2 number of the drum sound that a pitch of a rhythm part stands for; the pitch itself
+        if the kit has no numbers of its own.
         """
         if self.kit == "xg":
             return _XG_SOUNDS.get(pitch, pitch)
@@ -95,7 +95,7 @@ class _ChannelState:
 
     @property
     def is_said(self) -> bool:
-        """Return whether any message was about the channel itself."""
+        """Return whether any message set program, mode or bank of the channel itself."""
         return self.program is not None or self.mode is not None or self.bank is not None
 
     def take(self, step: SoundChange) -> None:

@@ -193,7 +193,7 @@ def _is_line(spans: Sequence[_Span]) -> bool:
 def curves_of(
     events: TrackEvents, channels: Collection[int], zones: Mapping[int, frozenset[int]]
 ) -> tuple[ControllerCurve, ...]:
-    """Merge the controller curves of some channels, by kind.
+    """Merge the controller curves of the channels that one player uses, by kind of controller.
 
     Where several channels send a kind, the channel of the most recent note counts. The manager channel of an MPE zone
     applies to all members: its bend is added to theirs; its other controllers count where the members send none. If
@@ -239,7 +239,9 @@ def _curve(
 
 
 def _held(points: _Points, ticks: Sequence[int]) -> list[float]:
-    """The value at ascending ticks; 0 before the first."""
+    """Return the value of a step function, given as points, at each of the ascending ticks; 0 before its
+    first point.
+    """
     at, now, values = sorted(points), 0.0, []
     place = 0
     for tick in ticks:
@@ -268,7 +270,7 @@ def _by_turns(own: Mapping[int, _Points], spans: Sequence[_Span], kind: SentKind
 
 
 def _without_repeats(points: _Points) -> _Points:
-    """Return the controller's steps without those that repeat the previous value."""
+    """Remove from a controller's steps those that repeat the previous value."""
     changed: _Points = {}
     before: float | None = None
     for tick in sorted(points):
@@ -282,7 +284,7 @@ def _moves(points: Mapping[int, float]) -> bool:
 
 
 def _is_dynamics(points: Mapping[int, float], spans: Sequence[_Span]) -> bool:
-    """Return whether a controller moves and is up under most notes."""
+    """Return whether a controller is used for dynamics: its value changes, and is above 0 under most notes."""
     if not _moves(points):
         return False
     ticks = sorted(points)

@@ -144,8 +144,8 @@ def clean_notes(notes: Played, cleaning: Cleaning) -> Cleaned:
 
 
 def _is_sent(notes: Played, cleaning: Cleaning) -> BoolArray:
-    """Mask (N,) of notes whose loudness is given by the breath controller; False where there is no breath although the
-    velocity is high.
+    """Mask (N,) of notes that the player sent with breath, or so softly that their velocity shows the lack of breath;
+    False for notes that have no breath although their velocity is high.
     """
     breath = notes.curves.get("breath")
     if breath is None:
@@ -156,7 +156,7 @@ def _is_sent(notes: Played, cleaning: Cleaning) -> BoolArray:
 
 
 def _trills(notes: Played) -> BoolArray:
-    """(N,): whether each note belongs to a trill."""
+    """Mask (N,) of the notes that belong to a trill."""
     found = np.zeros(len(notes), bool)
     if len(notes) < _TRILL_NOTES:
         return found
@@ -183,7 +183,7 @@ def loudest(notes: Played) -> FloatArray:
 
 
 def highest(curve: Controlled, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
-    """The highest value (N,) of a controller within each span from ``starts_s`` to ``ends_s``, both ends included."""
+    """Highest value (N,) of a controller within each span from ``starts_s`` to ``ends_s``, both ends included."""
     values = np.concatenate(([0.0], curve.values, [0.0]))
     first = np.searchsorted(curve.times_s, starts_s, side="right")
     last = np.maximum(np.searchsorted(curve.times_s, ends_s, side="right"), first) + 1
@@ -215,7 +215,9 @@ def _is_double(
 
 
 def _goes_on(notes: Played, end_s: float, onset_s: float) -> bool:
-    """Return whether breath data exists and stays up from the end of one note to the onset of the next."""
+    """Return whether the take has breath data and the breath does not stop from ``end_s``, the end of one note, to
+    ``onset_s``, the onset of the next.
+    """
     breath = notes.curves.get("breath")
     if breath is None or not len(breath.times_s):
         return False
@@ -252,8 +254,8 @@ def _is_octave_slip(
 
 
 def _is_before_its_note(held: int, place: int, audible: list[int], onsets: FloatArray) -> bool:
-    """Return whether a short note is a grace note before the next note, judged by whether the next note is on the local
-    pulse. A slipped octave key instead begins where its note should have.
+    """Return whether a short note is a grace note: then the note after it is on the local pulse. If the short note
+    itself is on the pulse, it is a slipped octave key.
     """
     index, following = audible[place], audible[place + 1]
     around = onsets[audible[max(place - _PULSE_NOTES, 0) : place]], onsets[audible[place + 1 :][: _PULSE_NOTES + 1]]

@@ -52,8 +52,8 @@ def assigned_score(
 
 
 def uncast_score(contents: PieceContents) -> Score:
-    """Build a score for listening only: every track except percussion and sound effects is one part, without player or
-    instrument map.
+    """Build a score without players, for listening: every track except percussion and sound effects becomes one part
+    without an instrument map.
     """
     parts = tuple(
         Part(

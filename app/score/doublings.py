@@ -32,13 +32,13 @@ def doubled_instruments(
     Parameters
     ----------
     channels : sequence of int
-        Of the notes.
+        Channels of the track that have the notes.
     name : str
-        The track's.
+        Name of the track.
     texts : sequence of (tick, text)
         Texts of the track with their ticks.
     onset_ticks : list of int
-        Of the notes, ascending.
+        Onset of each note in ticks, ascending.
     """
     if not all(map(events.is_melodic, channels)):
         return [""] * len(onset_ticks)

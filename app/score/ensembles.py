@@ -74,7 +74,9 @@ def named_by_ensemble(channels: Sequence[TrackChannel], title: str) -> list[Trac
 
 
 def _agrees(ensemble: Ensemble, said: Sequence[Instrument | None], sections: Sequence[Instrument | None]) -> bool:
-    """Return whether the known instruments and sections of the tracks agree with the staves of an ensemble."""
+    """Return whether the staves of an ensemble match the instruments (``said``) and sections that are known for the
+    tracks; None stands for an unknown one.
+    """
     words = vocabulary()
     parts = [words.instruments[part] for part in ensemble.parts]
     return all(
@@ -87,8 +89,8 @@ def _agrees(ensemble: Ensemble, said: Sequence[Instrument | None], sections: Seq
 
 
 class _Away(NamedTuple):
-    """Mean distance in semitones of the parts without instrument from an ensemble's usual ranges: of the medians, and
-    in total.
+    """Mean distance in semitones between the parts without an instrument and the usual ranges of an ensemble's staves:
+    of the middle notes alone, and in total.
     """
 
     median: float

@@ -49,12 +49,12 @@ def felt_beats(clock: TempoMap, metre_map: MetreMap, bars: IntArray) -> FeltBeat
 
 
 def felt_beat_ticks(numerator: int, denominator: int, quarters_bpm: float, ticks_per_quarter: int) -> int:
-    """The beat felt in a metre at a tempo, ticks.
+    """Length in ticks of the beat that musicians feel in a metre at a tempo.
 
     Parameters
     ----------
     quarters_bpm : float
-        Quarters in a minute, whatever the metre counts in.
+        Tempo in quarter notes per minute, also if the metre counts other units.
     """
     unit = 4.0 / denominator
     compound = numerator % 3 == 0 and (numerator > 3 or denominator > 8) and denominator >= 8

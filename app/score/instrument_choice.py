@@ -217,9 +217,9 @@ def refusal(channel: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
 def _instead(
     numbered: Instrument, found: MapCandidates, pitches: Sequence[int], maps: Sequence[MapChoice]
 ) -> MapCandidates | None:
-    """Maps of another instrument if the one of a part's program cannot play the notes at sounding or written pitch: of
-    the same family, of a similar name ("horn" for English horn), of the section, or any; None if the program's
-    instrument fits.
+    """Candidate maps of another instrument, if the instrument that a part's program names cannot play its notes,
+    neither as sounding nor as written pitches: of the same family, of a similar name ("horn" for English horn), of the
+    section, or any; None if the program's instrument fits.
     """
     least = LEAST_OUTSIDE * len(pitches)
     if not found.maps or any(
@@ -248,8 +248,8 @@ def plays(choice: MapChoice, instrument: Instrument) -> bool:
 
 
 def _of_instrument(how: How, instrument: Instrument, maps: Sequence[MapChoice]) -> MapCandidates:
-    """Maps that play an instrument or one of its varieties; else maps that substitute for it; else maps of the more
-    general instrument.
+    """Candidate maps for an instrument: those that play it or one of its varieties; else those that substitute for it;
+    else those of the more general instrument.
     """
     exact = frozenset(choice.map_id for choice in maps if instrument.id in choice.plays)
     own = [choice for choice in maps if plays(choice, instrument)]
@@ -261,8 +261,8 @@ def _of_instrument(how: How, instrument: Instrument, maps: Sequence[MapChoice]) 
 
 
 def _where(maps: Iterable[MapChoice], requested: Callable[[Instrument], bool]) -> list[MapChoice]:
-    """Maps that play at least one instrument accepted by ``requested``, and maps that play none known to the
-    vocabulary.
+    """Select the maps that play at least one instrument for which ``requested`` returns True, and those with an
+    instrument missing in the vocabulary.
     """
     known = vocabulary().instruments
     return [choice for choice in maps if any(id not in known or requested(known[id]) for id in choice.plays)]

@@ -58,8 +58,9 @@ def without_key_switches(
 
 
 def _far(pitches: IntArray) -> list[BoolArray]:
-    """Return masks (N,) of the few notes below, and of those above, the widest gap of a stream's pitches; empty if no
-    gap is wide."""
+    """Return masks (N,) of the few notes below, and of those above, the widest gap in a channel's pitches; empty if no
+    gap is wide.
+    """
     used = np.unique(pitches)
     gaps = np.diff(used)
     if not len(gaps) or gaps.max() < _APART:
@@ -71,7 +72,7 @@ def _far(pitches: IntArray) -> list[BoolArray]:
 
 
 def _switch(channel: TrackChannel, away: BoolArray, tempo_map: TempoMap) -> bool:
-    """Return whether the notes marked in ``away`` are played as key switches are: short and before the music, or held
+    """Return whether the notes marked in ``away`` are played like key switches: short and before the music, or held
     while it sounds.
     """
     onsets = tempo_map.seconds(np.array(channel.onset_ticks))
@@ -87,7 +88,7 @@ def _switch(channel: TrackChannel, away: BoolArray, tempo_map: TempoMap) -> bool
 
 
 def _kept(channel: TrackChannel, kept: BoolArray) -> TrackChannel:
-    """Return a stream with only those notes that the mask selects."""
+    """Return a channel with only those notes that the mask selects."""
     places = np.flatnonzero(kept).tolist()
     columns = ("onset_ticks", "end_ticks", "pitches", "velocities", "numbers")
     return msgspec.structs.replace(

@@ -36,7 +36,8 @@ def most_parts(hours: float) -> int:
 
 
 def too_long(score: Score, end_tick: int | None = None) -> dict[str, Argument] | None:
-    """Return the message arguments for a piece that is too long, in time or in quarters; None if it is not.
+    """Return the arguments of the message about a piece that is too long, in hours or in quarters; None if it is short
+    enough.
 
     Parameters
     ----------

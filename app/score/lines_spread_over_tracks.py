@@ -36,6 +36,7 @@ class SpreadLine(NamedTuple):
     events : TrackEvents
         The channels of all its tracks, and the controllers of the zone's manager channel.
     channels : tuple of int
+        MIDI channels of its tracks.
     """
 
     first: int
@@ -79,7 +80,9 @@ def _base(name: str, channel: int) -> str:
 
 
 def _together(own: Sequence[TrackEvents], managing: Sequence[TrackEvents], manager: int | None) -> TrackEvents:
-    """Merge the channels of several tracks, with everything other tracks send on the manager channel."""
+    """Merge the events of the tracks of one line (``own``), with all events that the tracks ``managing`` send on the
+    manager channel of their MPE zone.
+    """
     events = TrackEvents(port=own[0].port)
     for one in own:
         events.channels.update(one.channels)

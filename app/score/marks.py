@@ -21,7 +21,7 @@ class Marking(NamedTuple):
     Attributes
     ----------
     id : str
-        Also in users' files.
+        Name of the kind; also stored in project files.
     anchor : {"note", "notes", "place", "span"}
         Anchor: one note (or first and last of a written-out ornament), first and last of several notes, a tick, or a
         span of ticks.

@@ -74,7 +74,9 @@ _METRES: Final = (
 
 
 class _Kind(NamedTuple):
-    """A candidate metre: length of bar and beat in cells."""
+    """A candidate metre: numerator and denominator, and the lengths of bar and beat in cells (the smallest unit of
+    time).
+    """
 
     numerator: int
     denominator: int
@@ -235,7 +237,7 @@ def _harmony_changes(classes: FloatArray, reach: int) -> FloatArray:
 
 
 def _alike(kinds: FloatArray, lag: int) -> float:
-    """Return the share of notes that equal the note ``lag`` cells earlier, 0..1."""
+    """Share, 0..1, of the cells with a note in which the kinds of notes equal those ``lag`` cells earlier."""
     now, before = kinds[:, lag:], kinds[:, :-lag]
     if now.shape[1] < 16:
         return 0.0
@@ -262,14 +264,14 @@ def _candidates(signals: _Signals) -> list[tuple[_Kind, int, float]]:
 
 
 def _score(bar: FloatArray, number: int, place: int, signals: _Signals, again: dict[int, float], scale: float) -> float:
-    """Return the score of a candidate.
+    """Score of a candidate (metre and first bar line) by its fit to the notes; higher is better.
 
     Parameters
     ----------
     bar : (S, B) float64
         Mean of each feature by cell of the bar.
     number : int
-        Of the metre.
+        Index of the metre among the candidates.
     again : dict of int to float
         Repetition after each lag in cells, relative to the piece's general repetition.
     scale : float

@@ -49,7 +49,7 @@ def beat_ticks_at(beats: FeltBeats, ticks: npt.ArrayLike) -> IntArray:
 
 @lru_cache(maxsize=64)
 def _edges(beats: FeltBeats) -> IntArray:
-    """Array (2, N): ticks from which each felt beat applies, and the lengths in ticks."""
+    """Return the felt beats as an array (2, N): ticks from which each applies, and their lengths in ticks."""
     edges = np.ascontiguousarray(np.array(beats, np.int64).T)
     edges.flags.writeable = False
     return edges
@@ -143,8 +143,9 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return self.tick_of_bar(np.arange(first, stop, dtype=np.int64))
 
     def _kept(self, name: str, span: tuple[int, int], make: Callable[[int, int], IntArray]) -> IntArray:
-        """Return the array for a name and span of ticks, made once and cached: all players of a piece ask for the
-        same."""
+        """Return the array that ``make`` computes for a span of ticks, cached by ``name`` and span, since all players
+        of a piece need the same arrays.
+        """
         found = self._known.get((name, *span))
         if found is None:
             found = make(*span)
@@ -265,8 +266,9 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return self._written(first_bar, end_bar, np.where(np.diff(starts) % felt == 0, felt, 0))
 
     def _bar_at(self, tick: int) -> tuple[int, int, int]:
-        """Number and start tick of the bar at a tick, and the length of its first beat if that one is incomplete, as in
-        a pickup."""
+        """Return for the bar at a tick its number, its start tick, and the length of its first beat if that beat is
+        incomplete, as in a pickup.
+        """
         bar = self.bar_of_tick(tick)
         start = self.tick_of_bar(bar)
         if bar != 0 or not self.has_pickup:
@@ -277,8 +279,9 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
     def _written(
         self, first_bar: int, end_bar: int, instead_ticks: IntArray | None = None
     ) -> tuple[IntArray, IntArray]:
-        """Return the ticks of the beats from ``first_bar`` to before ``end_bar``, and their numbers in the bar; lengths
-        in ``instead_ticks`` (one per bar) replace the metre's beat where not 0."""
+        """Ticks of the beats from ``first_bar`` to before ``end_bar``, and their numbers in the bar. Where
+        ``instead_ticks`` (one value per bar) is not 0, it replaces the metre's beat length.
+        """
         numbers = np.arange(first_bar, end_bar + 1, dtype=np.int64)
         starts = self.tick_of_bar(numbers)
         lengths, starts = np.diff(starts), starts[:-1]

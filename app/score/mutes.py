@@ -79,8 +79,8 @@ def _muted_families() -> set[str]:
 
 
 def sounds_of(programs: Sequence[tuple[int, int]], named: Instrument | None = None) -> list[tuple[int, int]]:
-    """Program changes (tick, program) of a player without changes to General MIDI's muted trumpet, if other changes or
-    the name give the brass instrument: notation programs use that sound for muted horns and trombones too.
+    """Drop General MIDI's muted trumpet from a player's program changes (tick, program) if other changes or the name
+    give another brass instrument, since notation programs use that sound for muted horns and trombones too.
     """
     known = vocabulary()
     brass = _muted_families()
@@ -91,7 +91,7 @@ def sounds_of(programs: Sequence[tuple[int, int]], named: Instrument | None = No
 
 
 def _sections(section: Instrument) -> tuple[str, ...]:
-    """Families of a section if the muted trumpet is in it (brass); empty for other sections."""
+    """Families of a section that includes the muted trumpet (brass); empty for other sections."""
     muted = vocabulary().by_program(MUTED_TRUMPET)
     return section.families if muted is not None and muted.family in section.families else ()
 
@@ -111,7 +111,7 @@ def mutes_of(events: TrackEvents, channels: Collection[int], name: str, texts: S
     Parameters
     ----------
     name : str
-        Of the track.
+        Name of the track.
     texts : sequence of (tick, text)
         Texts of the track for the player of these channels.
     """

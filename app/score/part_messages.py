@@ -44,8 +44,8 @@ def cleaned_take(part: str, faults: Mapping[Fault, list[Note]], piece: Score) ->
 
 
 def silent_notes(id_: str, part: str, notes: Sequence[Note], piece: Score) -> list[UnplayedPart]:
-    """Notes of a part that its players leave out, as one silent part; empty without notes. Stray notes and key switches
-    count as silent.
+    """Summarise notes of a part that its players leave out (such as stray notes and key switches) as one part without a
+    player; empty if there are no such notes.
     """
     if not notes:
         return []

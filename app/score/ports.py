@@ -17,7 +17,7 @@ def split_by_port(messages: Sequence[Any]) -> list[Sequence[Any]]:
     Parameters
     ----------
     messages : sequence of mido messages
-        With delta times.
+        Messages of the track, with delta times.
 
     Returns
     -------

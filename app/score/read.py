@@ -191,7 +191,7 @@ def _require_few(parts: int, file: str) -> None:
 
 
 def _require_length(empty: Score, tracks: Sequence[TrackEvents], file: str) -> None:
-    """Refuse a piece longer than any music; silence behind the last note does not count."""
+    """Raise FileError if the piece is longer than any real music; silence after the last note does not count."""
     last = max(range(len(tracks)), key=lambda index: tracks[index].last_tick)
     long = too_long(empty, tracks[last].last_tick)
     if long is not None:

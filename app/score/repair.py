@@ -149,7 +149,7 @@ class _TrackCopy:
         self._closed_at = -1
 
     def with_rest(self, at: int) -> Repaired:
-        """The track with all bytes from an event on."""
+        """Finish the copy by appending all bytes from the offset ``at`` unchanged."""
         running = bytes([self._status]) if _byte(self._data, at) < 0x80 and self._status else b""
         out = bytes(self._out) + encoded_length(self.delta) + running + self._data[at:]
         return Repaired(out, None, self._skipped, self._first_skipped)

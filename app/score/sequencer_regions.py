@@ -41,7 +41,7 @@ def groups(channels: Sequence[TrackChannel]) -> list[tuple[int, ...]]:
 
 
 def _alone(channels: Sequence[TrackChannel]) -> frozenset[int]:
-    """Indices of melodic channels with a name that have no second part in their track and channel."""
+    """Indices of those named melodic channels that are the only part in their track and MIDI channel."""
     owners: dict[tuple[int, int], list[int]] = {}
     for place, channel in enumerate(channels):
         owners.setdefault((channel.track, channel.channel), []).append(place)

@@ -34,12 +34,14 @@ Word = tuple[int, int]
 
 
 def words_of_players(texts: Sequence[tuple[int, str]]) -> tuple[Word, ...]:
-    """Words in a track's texts about the playing players, in order of ticks."""
+    """Find the texts of a track that say which players play ("1. Solo", "a2", "tutti"), in order of ticks."""
     return tuple(sorted((tick, who) for tick, text in texts if (who := _says(text)) is not None))
 
 
 def _says(text: str) -> int | None:
-    """Return the player's number in a text, 0 for all players, or None for another text."""
+    """Return the number of the player that a text names, 0 if it names all players, None if it is about
+    something else.
+    """
     words = " ".join(text[:MOST_NAME].split()).strip("()[]")
     if _ALL.fullmatch(words):
         return 0

@@ -105,7 +105,7 @@ def channel_sounds(tracks: Sequence[Setups], quarter: int) -> list[dict[int, lis
     Parameters
     ----------
     quarter : int
-        Ticks.
+        Ticks per quarter.
 
     Returns
     -------
@@ -169,7 +169,9 @@ def _listening(port: Port) -> tuple[Port | None, ...]:
 
 
 def _addressed(port: Port | None, track: Setups) -> Port | None:
-    """Port to which a message is addressed; None for all ports, if a track without notes names none."""
+    """Port to which the messages of a track are addressed; None means all ports, if a track without notes names no
+    port.
+    """
     if port is not None or not track.first_onsets:
         return port
     return track.port or FIRST_PORT
@@ -230,7 +232,9 @@ def _yamaha(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _Par
 def _part_values(
     other_port: bool, part: int, low: int, data: bytes, places: Mapping[_Parameter, int]
 ) -> list[_Reset | _PartValue]:
-    """Part parameters covered by data that begin at an address."""
+    """Convert data bytes that begin at the address ``low`` of a part to the parameters they set; ``places`` has the
+    address of each parameter.
+    """
     return [
         _PartValue(other_port, part, parameter, data[place - low])
         for parameter, place in places.items()
@@ -269,8 +273,8 @@ def _by_port(
     parameters: Collection[_Parameter],
     made_of: Callable[[Sequence[_Row]], list[_Made]],
 ) -> dict[Port, list[_Made]]:
-    """Collect resets and some part parameters by port. A port without a reset of its own takes the resets of other
-    ports, as ports of the same module.
+    """Collect resets and the given part parameters by port, each list converted by ``made_of``. A port without a reset
+    of its own takes the resets of other ports, since they belong to the same module.
     """
     rows: dict[Port | None, list[_Row]] = {}
     for place, track in enumerate(tracks):

@@ -113,8 +113,9 @@ def _sustained(spans: VoiceSpans, depths: IndexArray, more: int, several: int) -
 
 
 def _doubled(spans: VoiceSpans, pitches: IntArray) -> BoolArray:
-    """Return a mask (N,) of the notes that only double another one beside them in order of time, in unison or
-    octaves."""
+    """Mask (N,) of the notes that only double another note in unison or octaves, struck and released at the
+    same time.
+    """
     doubled = np.zeros(len(pitches), bool)
     order = np.lexsort((pitches, spans.onsets))
     for step in range(1, 3):

@@ -23,7 +23,7 @@ UNSTATED: Final = (Metre(0, 4, 4),)
 
 
 class Assumed(msgspec.Struct, frozen=True):
-    """Metres for a file that states none, taken from an earlier version of it."""
+    """Metres and pickup to use for a file without time signatures, taken from an earlier version of the file."""
 
     metres: tuple[Metre, ...]
     pickup_ticks: int

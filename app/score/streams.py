@@ -91,7 +91,9 @@ def _by_kind(
     played_on: Sequence[str],
     program_at: Callable[[int], int | None],
 ) -> list[TrackChannel]:
-    """Split the notes of some channels by kind of sound and by instrument of the player."""
+    """Split the notes of a player's channels by kind of sound (melody, rhythm, effect) and by the instrument that the
+    player uses.
+    """
     kinds = [(sound.use, instrument) for sound, instrument in zip(sounds, played_on, strict=True)]
     streams = []
     for change, kind in enumerate(sorted(dict.fromkeys(kinds), key=_kind_order)):
@@ -143,8 +145,8 @@ def _kind_order(kind: tuple[Use, str]) -> tuple[int, bool]:
 
 
 def _doubled_name(name: str, instrument: str) -> str:
-    """Name of a track's notes on the player's second instrument; the instrument comes first, so that it is recognised
-    on reading.
+    """Name for the notes of a track that the player plays on a second instrument: the instrument comes first, so that
+    it is recognised when the file is read again.
     """
     spoken = vocabulary().instruments[instrument].names[0]
     return f"{spoken} ({name})" if name else spoken

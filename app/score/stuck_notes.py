@@ -61,8 +61,9 @@ def cut_stuck_notes(
 
 
 def _candidates(tracks: Sequence[TrackEvents], tempo_map: TempoMap) -> tuple[list[_Long], int, bool]:
-    """Notes that sound longer than `BESIDE_S` alone and may be stuck, the tick at which all other notes have ended, and
-    whether there are others."""
+    """Find the notes that may be stuck because they sound alone for longer than `BESIDE_S`; also return the tick at
+    which all other notes have ended, and whether there are other notes.
+    """
     long: list[_Long] = []
     rest_tick, others = 0, False
     for track, events in enumerate(tracks):

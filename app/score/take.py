@@ -31,7 +31,7 @@ class ControllerMapping(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
     Attributes
     ----------
     channel : int
-        1..16; 0: any.
+        MIDI channel 1..16 of the controllers; 0: any channel.
     """
 
     channel: int = 0
@@ -56,7 +56,7 @@ class Cleaning(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     quantise : float
         Strength of quantising onsets to the grid, 0..1.
     grid_quarters : float
-        The grid's step.
+        Step of the grid in quarters.
     align : float
         Strength of moving notes to the matched notes of the score, 0..1; 0: no comparison.
     """
@@ -154,7 +154,7 @@ class Played:
     Attributes
     ----------
     onsets_s, ends_s : float64
-        Performance time. A note still held at the end of the take ends there.
+        Start and end of each note in performance time; a note still held at the end of the take ends there.
     pitches, velocities : int64
     curves : mapping of CurveKind to Controlled
         ``breath`` and ``bite`` by the take's mapping, the others as received.
@@ -266,7 +266,9 @@ _USUAL: Final[Mapping[str, CurveKind]] = {
 
 
 def _source(message: mido.Message) -> tuple[str, float]:
-    """Return the source of a message as a `BreathSource` or `BiteSource`, and its value 0..1, for a bend -1..1."""
+    """Return the controller that a message sets, named as in `BreathSource` or `BiteSource`, and its value 0..1 (pitch
+    bend -1..1).
+    """
     if message.type == "control_change":
         return f"cc{message.control}", message.value / 127.0
     if message.type == "aftertouch":

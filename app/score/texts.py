@@ -56,6 +56,7 @@ class TextDecoder:
     names : iterable of bytes
         Names of tracks and instruments.
     others : iterable of bytes
+        All other texts, which count as evidence too.
     encoding : str, optional
         Overrides the guess; undecodable bytes become U+FFFD.
 
@@ -134,7 +135,9 @@ class _Encoding(msgspec.Struct, frozen=True):
 
 
 def _evidence(encoding: str, data: bytes) -> float:
-    """Return a score of how well a text in an encoding matches instrument names; ASCII letters do not count."""
+    """Score the match of a text, decoded in an encoding, with instrument names: higher is better; ASCII letters do not
+    count.
+    """
     text = data[:_MOST_BYTES].decode(encoding, errors="replace")
     found = vocabulary().by_name(text)
     if found is None or found == vocabulary().by_name(_NOT_ASCII.sub(" ", text)):

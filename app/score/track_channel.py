@@ -18,7 +18,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
     Attributes
     ----------
     track : int
-        Counted from 0.
+        Index of the track in the file, from 0.
     name, instrument_name : str
         The track's names in the file, empty if there are none.
     onset_ticks, end_ticks, pitches, velocities, numbers : list of int
@@ -98,5 +98,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
         return list(map(Note, ids, self.onset_ticks, durations, self.pitches, self.velocities))
 
     def seats(self, players: int) -> dict[str, int]:
-        """Player of each note, by note id, for notes whose voice is assigned to one of this number of players."""
+        """Return the player of each note, by note id, for those notes whose voices divide the staff among exactly this
+        number of players.
+        """
         return {f"{self.track + 1}:{number}": player for number, player, of in self.desks if of == players}

@@ -55,7 +55,7 @@ def recognised(channel: TrackChannel) -> Instrument | None:
 
 
 def use_of(channel: TrackChannel) -> Use:
-    """Return whether a track is a melody, a rhythm part (its notes are drum kit sounds) or sound effects.
+    """Classify a track as melody, rhythm part (its notes are drum kit sounds) or sound effects.
 
     The settings of the sound module decide. If they are only defaults (channel 10, a bank), a name other than
     percussion makes the track a melody. The name of drums or other untuned percussion makes any channel a rhythm part;
@@ -86,7 +86,9 @@ def sounds_of(channel: TrackChannel) -> list[int]:
 
 
 def _untuned(channel: TrackChannel, telling: Instrument | None, vague: Instrument | None) -> Instrument | None:
-    """The untuned percussion given by a track's names or, without a name, by its program."""
+    """Untuned percussion instrument that a track's names or, without a name, its program give; None if it is something
+    else.
+    """
     words = vocabulary()
     numbered = None if channel.program is None else words.by_program(channel.program)
     found = numbered if telling is None and vague is None else telling
@@ -159,8 +161,8 @@ def by_program_alone(channel: TrackChannel) -> Instrument | None:
 
 
 def _member(channel: TrackChannel) -> Instrument | None:
-    """The instrument that a size or key in the name selects from the program's family: "Alto" among saxophones. A word
-    that is also an instrument ("Baritone") counts only if voices are named so.
+    """Return the member of the program's instrument family that a size or key in the track's name selects: "Alto"
+    selects the alto saxophone. A word that is also an instrument ("Baritone") counts only if voices are named so.
     """
     words = vocabulary()
     numbered = None if channel.program in (None, _NO_PROGRAM) else words.by_program(channel.program or _NO_PROGRAM)
@@ -174,7 +176,9 @@ def _member(channel: TrackChannel) -> Instrument | None:
 
 
 def said_of(channel: TrackChannel) -> Instrument | None:
-    """Instrument named by a track; None if only the ensemble suggests one."""
+    """Instrument that names or numbers of the track itself give; None if only the title or the ensemble
+    suggests one.
+    """
     if channel.reported and channel.reported_by == "ensemble":
         return None
     return (None if channel.played_on else _member(channel)) or said_plainly(channel)

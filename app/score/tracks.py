@@ -48,7 +48,7 @@ class TrackEvents(msgspec.Struct):
     Attributes
     ----------
     name, instrument_name : bytes
-        The first of each.
+        First track name and first instrument name in the track.
     texts : list of (tick, text)
     tempos : list of (tick, microseconds per quarter)
     metres : list of (tick, numerator, denominator)
@@ -64,7 +64,7 @@ class TrackEvents(msgspec.Struct):
     sounds : dict of channel to list of (tick, ChannelSound)
         Sounds of channels with notes from each tick on; set once all tracks are collected.
     controls : dict of (channel, kind) to dict of tick to value
-        The last value of each tick; of bends the share of the range their channel has.
+        Value of each controller by tick; pitch bends as a share of their channel's range.
     parameters : list of (tick, channel, control, value)
         Controllers that set the pitch bend range (`app.score.bend_range`).
     after_end : int
@@ -123,11 +123,11 @@ class TrackEvents(msgspec.Struct):
         return changes[max(bisect_right(changes, tick, key=itemgetter(0)) - 1, 0) if len(changes) > 1 else 0][1]
 
     def is_melodic(self, channel: int) -> bool:
-        """Return whether a channel is nothing but a melody's."""
+        """Return whether a channel has only melodic sounds, no drums or effects, throughout."""
         return all(sound.use == "melodic" for _, sound in self.sounds[channel])
 
     def take_turns(self, channels: Collection[int]) -> bool:
-        """Return whether notes of the channels never overlap those of another one."""
+        """Return whether the notes of different channels never overlap."""
         spans = sorted(
             (onset, end, channel)
             for channel in channels
@@ -147,7 +147,7 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
     Parameters
     ----------
     messages : iterable of mido messages
-        With delta times.
+        Messages of the track, with delta times.
     begin_tick : int
         Tick at which the track begins.
     most_unended_ticks : int
@@ -276,7 +276,9 @@ def _close(events: TrackEvents) -> None:
 
 
 def no_notes(tracks: Sequence[TrackEvents], counts: Sequence[int], texts: TextDecoder) -> list[Message]:
-    """Report the tracks of a file without notes, with ``counts`` events each; empty for other files."""
+    """Return warnings if none of the tracks has notes, with the number of events in each track (``counts``); empty
+    otherwise.
+    """
     if any(events.channels for events in tracks):
         return []
     warnings = [Message("midi.no_notes", {"tracks": len(tracks)})]

@@ -75,7 +75,7 @@ def assigned_voices(
 def _best(
     beam: list[_Hypothesis], candidates: list[tuple[float, int, tuple[int, ...]]], sounding: list[LastPlayed]
 ) -> list[_Hypothesis]:
-    """The cheapest hypotheses among those that leave the voices in different states."""
+    """Keep the cheapest of the hypotheses that end in the same state of all voices."""
     candidates.sort()
     states: dict[tuple[LastPlayed, ...], _Hypothesis] = {}
     limit = candidates[0][0] + _HOPELESS_COST
@@ -99,8 +99,9 @@ def _in_order(free: int, size: int) -> tuple[tuple[int, ...], ...]:
 
 
 def _choices(free: int, costs: list[list[float]]) -> tuple[tuple[int, ...], ...]:
-    """Ordered assignments of a group's notes (rows) to free voices (columns); only the cheapest ones if there are too
-    many.
+    """Possible assignments of a group's notes to free voices, keeping the order of pitch: for each note, the index of
+    its voice. ``costs`` has notes as rows and voices as columns; if there are too many assignments, only the cheapest
+    is returned.
     """
     if comb(free, len(costs)) <= _CHOICES:
         return _in_order(free, len(costs))

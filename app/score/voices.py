@@ -109,7 +109,7 @@ def split_voices(
     notes : sequence of Note
         The notes by onset.
     most : int
-        Voices.
+        Largest number of voices.
     least : int
         Number of players if notes are ever struck together, from a name such as "Horn 1.2"; single lines are played by
         all of them.
@@ -157,7 +157,9 @@ def split_voices(
 
 
 def _unisons(notes: Sequence[Note], spans: VoiceSpans) -> set[int]:
-    """Indices of notes that duplicate another note of the same pitch and onset which lasts as long or longer."""
+    """Indices of notes that can be dropped, because another note of the same pitch and onset lasts as long
+    or longer.
+    """
     found: set[int] = set()
     last: dict[int, int] = {}
     onsets, ends = spans.onsets.tolist(), spans.ends.tolist()
@@ -174,8 +176,9 @@ def _unisons(notes: Sequence[Note], spans: VoiceSpans) -> set[int]:
 
 
 def _first(spans: VoiceSpans, _: IntArray, order: IndexArray, count: int) -> list[int]:
-    """Return the indices of the notes that find a free voice if each occupies one until its release; further notes
-    exceed any section and are dropped."""
+    """Return the indices of the notes that ``count`` voices have room for, if each note occupies a voice until its
+    release; notes beyond exceed any section and are dropped.
+    """
     sounding: list[float] = []
     kept = []
     onsets, releases = spans.onsets[order].tolist(), spans.releases[order].tolist()

@@ -281,7 +281,7 @@ def _step(kind: CurveKind, value: float, channel: int) -> mido.Message:
 
 
 def _track(events: list[_Event]) -> mido.MidiTrack:
-    """Return a MIDI track of events (tick, rank, message), sorted, with delta times."""
+    """Build a MIDI track with delta times from events (tick, rank, message), which are sorted first."""
     events.sort(key=itemgetter(0, 1))
     track = mido.MidiTrack()
     at = 0

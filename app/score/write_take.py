@@ -36,13 +36,13 @@ def write_take(
     Parameters
     ----------
     times_us : sequence of int
-        Microseconds, not descending.
+        Time of each message in microseconds, not descending.
     messages : sequence of bytes
-        Whole messages of channels.
+        Complete MIDI channel messages.
     name : str
-        Of the track.
+        Name of the track.
     beats_per_minute : float
-        Quarters.
+        Tempo in quarters per minute.
     end_us : int, optional
         End of the take; by default the time of the last message.
 
@@ -118,5 +118,7 @@ def _begins(message: mido.Message) -> bool:
 
 
 def _kind(message: mido.Message) -> tuple[object, ...]:
-    """Key of a message; of two with the same key the later replaces the earlier."""
+    """Key of a message by type, channel and controller or note: of two messages with equal keys only the later has
+    effect.
+    """
     return message.type, message.channel, getattr(message, "control", None), getattr(message, "note", None)

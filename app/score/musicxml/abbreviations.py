@@ -1,7 +1,8 @@
-"""Signs that stand for music: measures that repeat those before them, and slashes for what is made up.
+"""Abbreviations in MusicXML: measures that repeat earlier ones (measure-repeat signs), and slashes for improvised
+music.
 
-A file should have the notes that a sign of repetition stands for; some programs leave them out. Slashes have none:
-their pitches mean nothing, and no one plays them.
+A file should contain the notes that a repeat sign stands for, but some programs leave them out. Slash notes stand for
+improvisation: their pitches have no meaning, and they are not played.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ _STYLES: Final = "attributes/measure-style/"
 
 
 def expand_repeats(part: WrittenPart, measures: Sequence[Measure]) -> None:
-    """Give measures that have a sign of repetition and no notes those of the measures before."""
+    """Fill measures that have a measure-repeat sign but no notes with the chords of the repeated measures."""
     back = 0
     for index, (_, content) in enumerate(part.measures):
         for sign in content.iterfind(f"{_STYLES}measure-repeat"):
@@ -34,12 +35,12 @@ def expand_repeats(part: WrittenPart, measures: Sequence[Measure]) -> None:
 
 
 def is_slash(notehead: Element | None) -> bool:
-    """Return whether a note is a slash."""
+    """Return whether a notehead is a slash, so that its pitch has no meaning."""
     return notehead is not None and (notehead.text or "").strip() == "slash"
 
 
 def slashed(part: WrittenPart) -> str:
-    """The numbers of the measures with slashes, in ranges ("3, 5-8"); empty: none."""
+    """Numbers of the measures with slash notes, in ranges such as "3, 5-8"; empty if there are none."""
     within = False
     found = []
     for index, (head, content) in enumerate(part.measures):

@@ -1,4 +1,4 @@
-"""Bars of a score as it is played: how long each measure is, and the metres that number them."""
+"""Bars of a score as it is played: the length of each measure, and the metres by which bars are numbered."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ _MOST_NUMERATOR, _MOST_DENOMINATOR = 255, 64
 
 
 def measure_lengths(bars: Sequence[Bar], parts: Sequence[Sequence[Measure]], quarter: int) -> list[tuple[int, int]]:
-    """Set the lengths of all measures, and return the metre (beats, unit) in force in each.
+    """Set the length of every measure, and return the metre (beats, unit) in force in each.
 
-    A measure is as long as what is longest in it, whatever the time signature says; one without notes has the length of
-    the signature. Where parts disagree, rests alone make none longer.
+    A measure is as long as its longest content, whatever the time signature says; a measure without notes has the
+    length of the time signature. If the parts disagree, rests alone do not make a measure longer.
     """
     metres = []
     metre = _FOUR
@@ -36,7 +36,9 @@ def measure_lengths(bars: Sequence[Bar], parts: Sequence[Sequence[Measure]], qua
 
 
 def _longest(parts: Sequence[Measure], nominal: Time, is_implicit: bool) -> Time:
-    """The length of a measure: of its longest part, of those that sound where the others rest for longer."""
+    """Length in ticks of a measure: that of its longest part, or of its notes if only rests of other parts
+    are longer.
+    """
     longest = max((measure.length for measure in parts), default=0)
     if len({measure.length for measure in parts if measure.chords}) < 2:
         return longest
@@ -48,13 +50,13 @@ def _longest(parts: Sequence[Measure], nominal: Time, is_implicit: bool) -> Time
 
 
 def nominal_ticks(metre: tuple[int, int], quarter: int) -> Time:
-    """The ticks of a bar of a time signature."""
+    """Length in ticks of a full bar of a metre (beats, unit)."""
     ticks = Fraction(4 * quarter * metre[0], metre[1])
     return ticks.numerator if ticks.denominator == 1 else ticks
 
 
 class Metred(NamedTuple):
-    """The metres of a piece, and the length of its pickup."""
+    """Metres of a piece in order of time, and the length of its pickup in ticks."""
 
     metres: tuple[Metre, ...]
     pickup_ticks: int
@@ -63,8 +65,10 @@ class Metred(NamedTuple):
 def metres_of(
     order: Sequence[int], starts: Sequence[Time], bars: Sequence[Bar], written: Sequence[tuple[int, int]], quarter: int
 ) -> Metred:
-    """Return the metres of a piece as it is played: those written, and others where a measure is shorter or longer.
-    Consecutive short ones that make up a whole bar are one."""
+    """Return the metres of a piece in the order it is played: the written ones, and an additional one wherever a
+    measure is shorter or longer than written. Consecutive short measures that together form a full bar count as one
+    bar.
+    """
     found: list[Metre] = []
     pickup = 0
     place = 0
@@ -109,8 +113,9 @@ def metres_of(
 
 
 def _fitting(length: Time, denominator: int, quarter: int) -> tuple[int, int] | None:
-    """Return the time signature (beats, unit) of which one bar has exactly a length, starting with ``denominator``;
-    None if there is none."""
+    """Find a time signature (beats, unit) whose bar has exactly this length, trying units from ``denominator`` to
+    smaller ones; None if there is none.
+    """
     while denominator <= _MOST_DENOMINATOR:
         beats = Fraction(length) * denominator / (4 * quarter)
         if beats.denominator == 1:
@@ -120,5 +125,5 @@ def _fitting(length: Time, denominator: int, quarter: int) -> tuple[int, int] | 
 
 
 def _once(metres: Sequence[Metre]) -> tuple[Metre, ...]:
-    """Return the metres by tick; of several at one tick the last."""
+    """Keep one metre per tick: the last of several at the same tick."""
     return tuple({metre.tick: metre for metre in metres}.values())

@@ -1,8 +1,8 @@
-"""The document of a MusicXML file, plain or compressed, within bounds.
+"""Reads the XML document of a MusicXML file, plain or compressed, within size limits.
 
-A file is data: a document that declares entities is refused, one that names others outside it is read without them.
-Texts of any encoding are taken that a notation program wrote: UTF-8 and UTF-16 with or without their marks, what the
-declaration names, and characters that XML does not allow are dropped.
+For security, a document that declares entities is refused, and references to external files are ignored. Text may be
+UTF-8 or UTF-16, with or without a byte order mark, or in the encoding that the XML declaration names; characters that
+XML forbids are dropped.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ _BOMS: Final = (
 
 
 def is_musicxml(path: Path) -> bool:
-    """Return whether a file is to be read as MusicXML: by its first bytes, and by its name where they do not show it.
+    """Return whether a file is MusicXML, judged by its first bytes, or by its name if they are not conclusive.
 
     Raises FileError as `open_file`.
     """
@@ -67,18 +67,19 @@ def is_musicxml(path: Path) -> bool:
 
 
 def read_document(path: Path) -> tuple[Element, int]:
-    """Read the document of a score.
+    """Parse the XML document of a score.
 
     Returns
     -------
     root : Element
-        ``score-partwise`` or ``score-timewise``.
+        Root element, ``score-partwise`` or ``score-timewise``.
     size : int
-        Bytes of the file.
+        Size of the file in bytes.
 
     Raises
     ------
     FileError
+        The file cannot be read, is damaged or too large, or is not a score.
     """
     file = str(path)
     content = read_file(path, MOST_BYTES)
@@ -94,7 +95,9 @@ def read_document(path: Path) -> tuple[Element, int]:
 
 
 def _unpacked(content: bytes, file: str) -> bytes:
-    """The score of a compressed file: the first one that its index names, else the first that looks like one."""
+    """Extract the score from a compressed file: the first file named in its index, else the first member that looks
+    like a score.
+    """
     try:
         with zipfile.ZipFile(BytesIO(content)) as archive:
             names = archive.namelist()
@@ -118,7 +121,7 @@ def _unpacked(content: bytes, file: str) -> bytes:
 
 
 def _named(archive: zipfile.ZipFile, names: list[str], file: str) -> str | None:
-    """The member that the index of a compressed file names."""
+    """Name of the archive member that the index of a compressed file gives as the score; None if it gives none."""
     if _INDEX not in names:
         return None
     index = _parsed(_decoded(_member(archive, _INDEX, file, _SMALL)), file)
@@ -144,7 +147,7 @@ def _member(archive: zipfile.ZipFile, name: str, file: str, most: int) -> bytes:
 
 
 def _decoded(content: bytes) -> str:
-    """The text of a document, without what XML does not allow."""
+    """Decode the bytes of a document to text, without characters that XML forbids."""
     encoding = next((name for mark, name in _BOMS if content.startswith(mark)), None)
     if encoding is None:
         declared = _DECLARED.match(content[:_START])

@@ -96,7 +96,9 @@ def _typed(item: Element, at: Time, bar: Bar, place: Place) -> Iterator[Directio
 
 
 def _metronome(item: Element, place: Place) -> float | None:
-    """Quarters per minute of a metronome mark; None where it equates two lengths, or is written in words."""
+    """Tempo of a metronome mark in quarters per minute; None if the mark equates two note lengths or has words instead
+    of a number.
+    """
     unit = _UNITS.get((item.findtext("beat-unit") or "").strip())
     said = re.search(r"\d+(?:[.,]\d+)?", item.findtext("per-minute") or "")
     if unit is None or said is None or len(item.findall("beat-unit")) > 1:
@@ -107,8 +109,9 @@ def _metronome(item: Element, place: Place) -> float | None:
 
 
 def read_sound(sound: Element, at: Time, bar: Bar, place: Place) -> Iterator[Direction]:
-    """Yield the tempo, loudness, mutes and instrument changes that a MusicXML ``<sound>`` element prescribes,
-    independent of what is drawn; its repeats and jumps are stored in ``bar``."""
+    """Yield the directions for playback that a MusicXML ``<sound>`` element contains: tempo, loudness, mutes and
+    instrument changes. Its repeats and jumps are stored in ``bar``.
+    """
     tempo, loudness = sound.get("tempo"), sound.get("dynamics")
     if tempo is not None:
         value = float(place.number_of(tempo, "tempo"))
@@ -135,7 +138,7 @@ def read_sound(sound: Element, at: Time, bar: Bar, place: Place) -> Iterator[Dir
 
 
 def read_barline(one: Element, bar: Bar, place: Place) -> None:
-    """Store repeats, endings and signs of a MusicXML barline in ``bar``."""
+    """Store the repeats, endings, segno and coda of a MusicXML barline in ``bar``."""
     repeat, ending = one.find("repeat"), one.find("ending")
     if repeat is not None:
         if repeat.get("direction") == "forward":
@@ -159,6 +162,6 @@ def read_barline(one: Element, bar: Bar, place: Place) -> None:
 
 
 def _numbers(text: str) -> Iterator[int]:
-    """Numbers of an ending: "1", "1, 2", "1-3"."""
+    """Yield the numbers in the text of an ending, such as 1, 2, 3 for "1-3"."""
     for first, last in re.findall(r"(\d{1,3})(?:\s*-\s*(\d{1,3}))?", text)[:_MOST_NUMBERS]:
         yield from range(int(first), min(int(last or first), int(first) + _MOST_NUMBERS) + 1)

@@ -1,4 +1,4 @@
-"""Flutter tonguing that is asked for: by a sign at a note, or by words over the staff."""
+"""Detects flutter tonguing requested by a sign at a note or by words over the staff."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ _ENDS: Final = re.compile(r"\b(?:ord|nat|norm|modo\s+ord)|ohne|senza|普通", re
 
 
 def is_flutter(text: str) -> bool:
-    """Return whether words ask for flutter tonguing."""
+    """Return whether words over a staff request flutter tonguing."""
     return _FLUTTER.search(text[:MOST_NAME]) is not None and _ENDS.search(text[:MOST_NAME]) is None
 
 
 def fluttered(words: Sequence[tuple[int, str]], onsets: Sequence[int]) -> list[bool]:
-    """Return for each onset, in order, whether words ask for flutter tonguing: as far as others say that it ends, else
-    at the next note alone.
+    """Return for each of the ascending onsets whether words request flutter tonguing for it: from the words until other
+    words end it, or for the next note alone if none do.
 
     Parameters
     ----------
     words : sequence of (tick, str)
-        By tick.
+        Words over the staff, ordered by tick.
     """
     spans: list[tuple[int, int]] = []
     end: int | None = None

@@ -1,7 +1,7 @@
-"""Directions in force at each measure as the page is read through, restored where the music jumps.
+"""Finds the directions in force at each measure, and restores them where repeats and jumps go back in the score.
 
-After a repeat, a D.C. or a D.S. a player goes by the page: what was said later on it, a change to the piccolo, a mute,
-a dynamic or who plays, does not hold before the place where it stands.
+After a repeat, a D.C. or a D.S., directions that are printed later in the score (a change to the piccolo, a mute, a
+dynamic, a solo) are no longer in force.
 """
 
 from __future__ import annotations
@@ -28,12 +28,13 @@ _State = dict[str, Direction]
 
 
 def restored(measures: Sequence[Measure], order: Sequence[tuple[Time, int]]) -> list[tuple[int, Direction]]:
-    """Directions (tick, Direction) that hold again where the music jumps, none that holds there anyway.
+    """Directions, each with the tick, that must be repeated where playing jumps back because they are in force there
+    again; none that is in force anyway.
 
     Parameters
     ----------
     order : sequence of (start, measure)
-        Measures as they are played, all of them.
+        Start tick and index of every measure in the order they are played.
     """
     jumps = [
         (start, before + 1, place)
@@ -56,7 +57,7 @@ def restored(measures: Sequence[Measure], order: Sequence[tuple[Time, int]]) -> 
 
 
 def _after(state: _State, measure: Measure) -> _State:
-    """Words in force after a measure, and the last ones after the others."""
+    """Return the directions in force after a measure, by subject; those set in the measure come last."""
     changed = {}
     for one in sorted(measure.directions, key=lambda one: one.start):
         subject = _subject(one)
@@ -68,7 +69,9 @@ def _after(state: _State, measure: Measure) -> _State:
 
 
 def _subject(one: Direction) -> str:
-    """Subject of a direction that holds until another; empty: it holds no longer than its place."""
+    """Subject of a direction that stays in force until another one replaces it: ``"instrument"``, ``"mute"``,
+    ``"dynamic"`` or ``"players"``; empty if it has no lasting effect.
+    """
     if one.kind in ("instrument", "mute"):
         return one.kind
     if one.kind == "dynamic":

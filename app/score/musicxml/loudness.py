@@ -1,6 +1,6 @@
-"""Loudness of a part: dynamics, hairpins and accents to velocities, and to marks.
+"""Loudness of a part in MusicXML: converts dynamics, hairpins and accents to velocities and to marks.
 
-Velocities are those that MuseScore gives to the marks, so that a score sounds as it does there.
+The velocities are those of MuseScore, so that a score sounds the same in both programs.
 """
 
 from __future__ import annotations
@@ -32,7 +32,9 @@ _MOST_HAIRPINS: Final = 20_000
 
 
 class Loudness(NamedTuple):
-    """Levels of a part over time: linear between points, and accents on the notes of single ticks."""
+    """Loudness of a part over time as velocities: linear between points, and forced values for accents at
+    single ticks.
+    """
 
     ticks: list[int]
     levels: list[float]
@@ -40,7 +42,7 @@ class Loudness(NamedTuple):
     forced: dict[int, float]
 
     def at(self, tick: int) -> float:
-        """The velocity of an ordinary note that begins at a tick."""
+        """Velocity at a tick of a note without marks of its own."""
         if tick in self.forced:
             return self.forced[tick]
         place = bisect_right(self.ticks, tick) - 1
@@ -53,7 +55,9 @@ class Loudness(NamedTuple):
 
 
 def velocity_of(level: float, kinds: Iterable[str], loudness: float | None) -> int:
-    """The velocity of a note with marks of some kinds; ``loudness`` is what the file says of just this note."""
+    """Velocity of a note at a ``level``, with marks of the given kinds; ``loudness`` (1: forte), if the file gives it
+    for this note, overrides both.
+    """
     if loudness is not None:
         return int(min(max(round(_FORTE * loudness), 1), _MOST))
     share = max((ACCENT_SHARES.get(kind, 1.0) for kind in kinds), default=1.0)
@@ -61,7 +65,7 @@ def velocity_of(level: float, kinds: Iterable[str], loudness: float | None) -> i
 
 
 def _level(text: str) -> float | None:
-    """The level that a dynamic sets for what follows; None where it is an accent alone."""
+    """Velocity that a dynamic sets from its place on; None if it is only an accent."""
     if text in ("mp", "mf"):
         return 64.0 if text == "mp" else 80.0
     if text == "n":
@@ -77,26 +81,29 @@ def _level(text: str) -> float | None:
 
 
 def held_dynamic(text: str) -> str:
-    """The dynamic that holds behind one: "p" of "fp"; empty where it is an accent alone."""
+    """Dynamic that stays in force after a dynamic mark, such as "p" after "fp"; empty if the mark is only an accent."""
     if _level(text) is None or text in ("mp", "mf", "n") or text.strip("p") == "" or text.strip("f") == "":
         return text if _level(text) is not None else ""
     return "f" if text == "pf" else text[len(text.rstrip("p")) :]
 
 
 def _struck(text: str) -> float | None:
-    """The level of the notes at a dynamic itself, where it is another than afterwards."""
+    """Velocity of the notes directly at a dynamic mark, if it differs from the one afterwards (as in "fp");
+    else None.
+    """
     if text in ("mp", "mf", "n") or not text.strip("p") or not text.strip("f"):
         return None
     return float(_SOFT[0]) if text == "pf" else float(_LOUD[0]) if text == "fp" else _FORCED
 
 
 def hairpins(directions: Sequence[tuple[int, Direction]], quarter: int, end_tick: int) -> list[Mark]:
-    """Crescendos and diminuendos of a part as marks: hairpins, and words as far as a dash or the next dynamic.
+    """Crescendos and diminuendos of a part as marks: from hairpins, and from words, which last to the end of their
+    dashes or to the next dynamic.
 
     Parameters
     ----------
     directions : sequence of (tick, Direction)
-        By tick.
+        Directions of the part, ordered by tick.
     """
     found: list[Mark] = []
     open_: dict[str, tuple[int, str]] = {}
@@ -132,14 +139,14 @@ def hairpins(directions: Sequence[tuple[int, Direction]], quarter: int, end_tick
 
 
 def loudness_of(directions: Sequence[tuple[int, Direction]], spans: Sequence[Mark], quarter: int) -> Loudness:
-    """The levels of a part.
+    """Compute the loudness of a part from its directions and hairpins.
 
     Parameters
     ----------
     directions : sequence of (tick, Direction)
-        By tick.
+        Directions of the part, ordered by tick.
     spans : sequence of Mark
-        Its hairpins, by tick.
+        Hairpins of the part, ordered by tick.
     """
     written = {tick for tick, one in directions if one.kind == "dynamic"}
     steps: dict[int, float] = {}
@@ -178,6 +185,6 @@ def loudness_of(directions: Sequence[tuple[int, Direction]], spans: Sequence[Mar
 
 
 def _now(points: dict[int, tuple[float, float]], at: Sequence[int], tick: int) -> float:
-    """The level that has been reached at a tick."""
+    """Velocity level in force at a tick, given the ``points`` with a level by tick and their sorted ticks ``at``."""
     place = bisect_right(at, tick)
     return points[at[place - 1]][0] if place else _USUAL

@@ -1,4 +1,4 @@
-"""Measures of a part to chords at exact times, with everything that is written at the notes."""
+"""Converts the measures of a MusicXML part to chords at exact times, with all marks written at the notes."""
 
 from __future__ import annotations
 
@@ -114,15 +114,16 @@ def read_measures(part: WrittenPart, bars: list[Bar], ticks: int, place: Place) 
     Parameters
     ----------
     bars : list of Bar
-        Of all parts so far; what this part says of them is added.
+        Bars shared by all parts; information from this part is added in place.
     ticks : int
-        Per quarter.
+        Ticks per quarter.
 
     Returns
     -------
     measures : list of Measure
+        Contents of each measure of the part.
     transposition : int or None
-        Semitones by which the part first sounds higher than it is written; None: it does not say.
+        Semitones by which the part initially sounds higher than written; None if the file gives none.
     """
     state = _State(ticks, ticks)
     # A program writes the divisions of the first measure behind its notes.
@@ -193,7 +194,7 @@ def _attributes(one: Element, bar: Bar, state: _State, place: Place) -> None:
 
 
 def _metre(time: Element, place: Place) -> tuple[int, int] | None:
-    """A time signature as numerator and denominator; denominator 0 where there is none."""
+    """Parse a time signature as (numerator, denominator); denominator 0 if it is unmetred."""
     if time.find("senza-misura") is not None:
         return 0, 0
     whole, finest = Fraction(0), 1
@@ -211,7 +212,7 @@ def _metre(time: Element, place: Place) -> tuple[int, int] | None:
 
 
 def _duration(one: Element, state: _State, place: Place) -> Time:
-    """The duration that an element states, in ticks; that of the note's type where it states none."""
+    """Duration of an element in ticks; if it states none, that of its note type."""
     text = one.findtext("duration")
     if text is not None:
         length = place.number_of(text, "duration")
@@ -229,7 +230,7 @@ def _duration(one: Element, state: _State, place: Place) -> Time:
 
 
 def _ticks(exact: Time) -> Time:
-    """A time as whole ticks, or in parts of a tick."""
+    """Convert an exact time to whole ticks if it is whole, else keep it as a fraction of ticks."""
     if _PARTS_OF_TICK % exact.denominator:
         exact = Fraction(round(exact * _PARTS_OF_TICK), _PARTS_OF_TICK)
     return exact.numerator if exact.denominator == 1 else exact
@@ -316,7 +317,9 @@ def _with_neighbours(tone: Tone, pitch: Element, fifths: int, place: Place) -> N
 
 
 def _neighbour(step: str, octave: int, by: int, fifths: int) -> int:
-    """The written pitch of the next step up or down in a key."""
+    """Written pitch of the scale step above or below (``by``) a note in the key with ``fifths`` sharps (negative:
+    flats).
+    """
     place = _ORDER.index(step) + by
     name = _ORDER[place % 7]
     altered = _SHARPS.index(name)
@@ -390,7 +393,7 @@ def _ornaments(written: Element, chord: Chord, tone: Tone | None) -> None:
 
 
 def _fermata_at_end(one: Element, measure: Measure) -> None:
-    """Give the last note of a measure the fermata over its barline."""
+    """Apply a fermata over a barline to the last note of the measure."""
     fermata = one.find("fermata")
     last = next((chord for chord in reversed(measure.chords) if chord.tones and not chord.grace), None)
     if fermata is not None and last is not None and one.get("location", "right") == "right" and last.fermata == 1.0:

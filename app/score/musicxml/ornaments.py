@@ -1,4 +1,4 @@
-"""Grace notes, trills, turns, mordents and tremolos as they are played, in the tempo that holds there."""
+"""Writes out grace notes, trills, turns, mordents and tremolos as they are played, at the local tempo."""
 
 from __future__ import annotations
 
@@ -24,8 +24,9 @@ _UNMEASURED: Final = 3
 
 
 def place_graces(chords: Sequence[PlayedChord], tempo: TempoMap) -> None:
-    """Let grace notes sound before the notes that they lead to, from the time of what comes before; at the beginning of
-    the piece, from their own."""
+    """Place grace notes before the notes they belong to, taking their time from the preceding chord; at the beginning
+    of the piece, from their own main note.
+    """
     voices: dict[str, list[PlayedChord]] = {}
     for chord in chords:
         voices.setdefault(chord.chord.voice, []).append(chord)
@@ -41,7 +42,7 @@ def place_graces(chords: Sequence[PlayedChord], tempo: TempoMap) -> None:
 
 
 def _ticks(seconds: float, tick: int, tempo: TempoMap) -> int:
-    """Return the number of ticks of a time in seconds at a tick."""
+    """Return the number of ticks of a time in seconds, at the tempo of the given tick."""
     return max(round(tempo.ticks(tempo.seconds(float(tick)) + seconds) - tick), 1)
 
 
@@ -64,7 +65,7 @@ def _place_group(graces: Sequence[PlayedChord], onset: int, before: Sequence[Pla
 
 
 def _lead_in(own: Sequence[PlayedChord]) -> None:
-    """Grace notes before the first note of all take their time from it."""
+    """Place the grace notes before the very first note of a part, taking their time from that note."""
     graces = [chord for chord in own if chord.chord.grace and chord.onset == 0 and chord.end <= 1]
     main = next((chord for chord in own if not chord.chord.grace), None)
     if not graces or main is None or main.onset != 0:
@@ -169,7 +170,7 @@ def _pairs(chords: Sequence[PlayedChord]) -> Iterator[tuple[PlayedChord, PlayedC
 
 
 def _alternate(first: PlayedChord, second: PlayedChord, quarter: int, tempo: TempoMap) -> None:
-    """Write out a tremolo between two chords: the notes of both, by turns, over the time of both."""
+    """Write out a tremolo between two chords: their notes in alternation over the combined length of both."""
     onset, end = first.onset, second.end
     least = _ticks(_TRILL_S / 2, onset, tempo)
     each = max(quarter // 2 ** max(first.chord.tremolo[1], 1), least, 1)

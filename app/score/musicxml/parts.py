@@ -1,4 +1,4 @@
-"""The list of parts: names, instruments and the sounds of percussion; and the measures of each part."""
+"""Reads the part list of a MusicXML score (names, instruments, percussion sounds) and the measures of each part."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ class PartInstrument:
     Attributes
     ----------
     sound : str
-        Its id in the standard list of sounds; empty: the file does not say.
+        Id in MusicXML's standard list of sounds; empty if the file gives none.
     program : int or None
-        General MIDI, from 0.
+        General MIDI program, from 0; None if the file gives none.
     stroke : int or None
-        The key of a drum kit.
+        MIDI key of the sound in a drum kit; None if it is not part of one.
     """
 
     name: str = ""
@@ -49,14 +49,14 @@ class PartInstrument:
 
 @dataclass(slots=True)
 class WrittenPart:
-    """A part of the score.
+    """A part of a MusicXML score before it is read: its instruments and the elements of its measures.
 
     Attributes
     ----------
     instruments : dict of str to PartInstrument
-        By id, in the order of the file.
+        Instruments by id, in the order of the file.
     measures : list of (Element, Element)
-        Each measure's attributes, and what is in it.
+        For each measure the element with its attributes, and the element with its content.
     """
 
     id: str
@@ -101,7 +101,7 @@ def written_parts(root: Element, place: Place) -> list[WrittenPart]:
 
 
 def _require_few(measures: int, place: Place) -> None:
-    """Refuse more measures of all parts together than any score has."""
+    """Raise FileError if all parts together have more measures than any real score."""
     if measures > MOST_MEASURES:
         raise FileError("musicxml.too_many_measures", file=place.file, most=MOST_MEASURES)
 
@@ -123,7 +123,7 @@ def _listed(one: Element, id: str, place: Place) -> WrittenPart:
 
 
 def _midi(owner: Element, tag: str, most: int) -> int | None:
-    """A number of MIDI, from 0; None where the file has none that is possible."""
+    """Number in a MIDI element of the file, converted to count from 0; None if it is missing or above ``most``."""
     text = (owner.findtext(tag) or "").strip()
     number = int(text) if text.isascii() and text.isdigit() and len(text) < 4 else 0
     return number - 1 if 1 <= number <= most else None
@@ -145,7 +145,7 @@ _SIGNS = {"flat": "♭", "sharp": "♯"}
 
 
 def stroke_of(instrument: PartInstrument | None, part_name: str) -> int:
-    """The key of a drum kit that percussion without a pitch sounds as."""
+    """MIDI key in a drum kit for unpitched percussion, by the instrument or the part's name."""
     if instrument is None:
         return vocabulary().stroke(part_name) or _DEFAULT_STROKE
     if instrument.stroke is not None:
@@ -155,18 +155,18 @@ def stroke_of(instrument: PartInstrument | None, part_name: str) -> int:
 
 
 def is_kit(instrument: PartInstrument) -> bool:
-    """Return whether an instrument is on the channel of percussion."""
+    """Return whether an instrument is assigned to MIDI's percussion channel."""
     return instrument.channel == _KIT_CHANNEL
 
 
 def said_instrument(part_name: str, instrument: PartInstrument, transposition: int | None) -> Instrument | None:
-    """The instrument that the standard id of a sound means; its size and key as the part's name says them, or else its
-    transposition. None where names and programs are to tell.
+    """Instrument given by its id in MusicXML's list of sounds, with size and key from the part's name or else from the
+    transposition. None if the id is not informative, so that name and program decide.
 
     Parameters
     ----------
     transposition : int or None
-        Semitones by which it sounds higher than it is written.
+        Semitones by which the part sounds higher than written; None if unknown.
     """
     words = vocabulary()
     said = words.by_sound(instrument.sound)

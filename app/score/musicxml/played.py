@@ -1,4 +1,4 @@
-"""The notes of a part as they are played: measures unrolled, ties joined, slurs found."""
+"""Notes of a part in the order they are played: repeats unrolled, ties joined, slurs matched."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class PlayedPart:
     Attributes
     ----------
     slurs : list of (first, last)
-        Chords from and to which slurs go.
+        First and last chord of each slur.
     directions : list of (tick, Direction)
-        By tick.
+        Directions with the tick at which they take effect, ordered by tick.
     held : list of (onset, end, stretch)
-        Notes and rests with fermatas.
+        Start and end tick of notes and rests with fermatas, and the factor by which they are lengthened.
     """
 
     chords: list[PlayedChord]
@@ -39,17 +39,17 @@ class PlayedPart:
 
     @property
     def notes(self) -> list[PlayedNote]:
-        """All notes that begin in the part, by onset."""
+        """All notes that begin in the part, in order of their onsets."""
         return [note for chord in self.chords for note in chord.begun]
 
 
 def played_part(measures: Sequence[Measure], visits: Sequence[Sequence[Time]]) -> PlayedPart:
-    """Unroll the measures of a part.
+    """Build a part in the order it is played, with repeats written out.
 
     Parameters
     ----------
     visits : sequence of sequence of Time
-        Where each measure begins, as often as it is played.
+        For each measure the start times of all its passes.
     """
     chords: list[PlayedChord] = []
     document: list[list[PlayedChord]] = []
@@ -87,13 +87,15 @@ def played_part(measures: Sequence[Measure], visits: Sequence[Sequence[Time]]) -
 
 
 def _breathing(before: Chord, rest: Chord) -> Chord:
-    """The chord with the breath marks of a rest behind it; a copy, for it may be played again without."""
+    """Copy a chord and add to it the breath marks that are written at the rest after it; a copy, since the chord may be
+    repeated without them.
+    """
     more = [mark for mark in rest.marks if mark[0] in ("breath", "caesura") and mark not in before.marks]
     return replace(before, marks=[*before.marks, *more])
 
 
 def _join_ties(chords: Sequence[PlayedChord]) -> None:
-    """Make notes of tones: one of those that are tied."""
+    """Create the notes of the chords in place; tied tones become one note."""
     open_: dict[tuple[int, bool], list[PlayedNote]] = {}
     for chord in chords:
         for tone in chord.chord.tones:
@@ -111,7 +113,9 @@ def _join_ties(chords: Sequence[PlayedChord]) -> None:
 
 
 def _tied(waiting: list[PlayedNote], chord: PlayedChord) -> PlayedNote | None:
-    """The note that is tied to one of a chord: it ends where that begins, of the same voice if there are two."""
+    """Find the waiting note that a tie connects to a chord: it must end where the chord begins; of several, one of the
+    same voice.
+    """
     # Later chords begin no earlier: what has ended is tied to nothing any more.
     waiting[:] = [note for note in waiting if note.end >= chord.onset - 1][-_MOST_OPEN:]
     near = [note for note in waiting if note.end <= chord.onset + 1]
@@ -119,11 +123,10 @@ def _tied(waiting: list[PlayedNote], chord: PlayedChord) -> PlayedNote | None:
 
 
 def _slurs(measures: Sequence[Sequence[PlayedChord]]) -> list[tuple[PlayedChord, PlayedChord]]:
-    """Slurs from their first to their last chords.
+    """Match the starts and stops of slurs, and return the first and last chord of each.
 
-    A number is that of one slur at a time in the order of the file. That goes through a measure voice by voice, so that
-    the end of a slur may stand before its beginning. One that begins with the number of another that has not ended lies
-    within it.
+    A slur number identifies one slur at a time, in the order of the file. The file lists each measure voice by voice,
+    so a slur's stop may come before its start. A slur that starts with the number of one still open is nested in it.
     """
     found: list[tuple[PlayedChord, PlayedChord]] = []
     open_: dict[str, list[PlayedChord]] = {}
@@ -156,7 +159,9 @@ def _slurs(measures: Sequence[Sequence[PlayedChord]]) -> list[tuple[PlayedChord,
 
 
 def _nearest(others: Sequence[PlayedChord], chord: PlayedChord, *, after: bool) -> PlayedChord | None:
-    """The last of other chords with which a slur can join one: of the same voice if there is one."""
+    """Find the last of ``others`` that a slur can connect with a chord, before it or (``after``) after it; preferably
+    of the same voice.
+    """
     fitting = [
         one for one in others if one is not chord and (one.onset > chord.onset if after else one.onset <= chord.onset)
     ]

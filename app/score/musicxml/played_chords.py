@@ -1,4 +1,4 @@
-"""Chords and notes where they are played, and which players of a staff have them."""
+"""Chords and notes at the times they are played, with the players of a shared staff who play them."""
 
 from __future__ import annotations
 
@@ -9,14 +9,15 @@ from app.score.musicxml.written import Chord, Tone
 
 
 class Desk(NamedTuple):
-    """Players of a chord, of all who are written in its measure.
+    """Assignment of a chord to some of the players who share a staff.
 
     Attributes
     ----------
     first : int
-        The player of its highest note, from 1; the next have those below. 0: nothing says who.
+        Number of the player who has the chord's highest note, from 1; the next players have the lower notes. 0:
+        unknown.
     players : int
-        All players of the measure.
+        Number of players in the measure.
     """
 
     first: int = 0
@@ -33,9 +34,10 @@ class PlayedNote:
     Attributes
     ----------
     rows : list of (onset, end, pitch)
-        Ticks of what it is written out in; one row where that is the note itself.
+        Start tick, end tick and pitch of each note that is played for it: several if an ornament is written out, else
+        one.
     last : Tone
-        The last of those tied together.
+        Last of the tied tones.
     """
 
     onset: int
@@ -50,7 +52,7 @@ class PlayedNote:
 
 @dataclass(slots=True, eq=False)
 class PlayedChord:
-    """A chord of a part with repeats written out: the notes that it begins, and those that it holds on."""
+    """A chord at the time it is played: the notes that begin with it, and those it continues by ties."""
 
     onset: int
     end: int

@@ -1,6 +1,6 @@
-"""Players of a staff by its voices: where several are written, each has the notes of its own, stems up first.
+"""Assigns the voices of a shared staff to players: each voice with its own notes is one player's, stems up first.
 
-What sounds while the other voices have neither a note nor a rest that is shown is everyone's: then nothing is said.
+A passage in which the other voices have neither notes nor visible rests is played by everyone; it gets no assignment.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _MOST_VOICES: Final = 8
 
 
 def seat(measure: Sequence[PlayedChord]) -> None:
-    """Set the desks of the chords of a measure."""
+    """Set for each chord of a measure the players who play it (its desk), from the voices of the staff."""
     lines: dict[tuple[str, str], list[PlayedChord]] = {}
     for one in measure:
         if one.chord.tones or not one.chord.hidden:
@@ -36,12 +36,12 @@ def seat(measure: Sequence[PlayedChord]) -> None:
 
 
 def _goes_down(line: Sequence[PlayedChord]) -> bool:
-    """Return whether the stems of a voice go down."""
+    """Return whether the stems of a voice point down."""
     stems = [one.chord.stem for one in line]
     return stems.count("down") > stems.count("up")
 
 
 def _sounds(spans: Sequence[tuple[int, int]], start: int, end: int) -> bool:
-    """Return whether something of a voice, in order, lies between two ticks."""
+    """Return whether any of the ordered spans of a voice overlaps the span from ``start`` to ``end`` ticks."""
     before = bisect_left(spans, (end, 0)) - 1
     return before >= 0 and spans[before][1] > start

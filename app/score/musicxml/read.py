@@ -1,10 +1,10 @@
-"""Reads a score in MusicXML into what a MIDI file is read into: notes as they are played, tempo, metres and markers.
+"""Reads a MusicXML score into the same form as a MIDI file: notes as they are played, tempo, metres and markers.
 
-Each part is a track, its instruments streams of it. Pitches sound as the part's transposition says; repeats, endings
-and jumps are played (`repeats_and_jumps`); grace notes, trills, turns, mordents and tremolos are written out
-(`ornaments`), tempo, rit., accel. and fermatas are in the tempo map (`tempos`), dynamics and accents in velocities
-(`loudness`). What is written over the notes is kept as marks (`app.score.marks`). Lyrics, chord names, figured bass and
-layout are passed over, and so are cue notes, which their player does not play.
+Each part becomes a track, with one channel for each of its instruments. Pitches sound as the part's transposition says.
+Repeats, endings and jumps are unrolled (`repeats_and_jumps`); grace notes, trills, turns, mordents and tremolos are
+written out (`ornaments`); tempo marks, rit., accel. and fermatas form the tempo map (`tempos`); dynamics and accents
+determine velocities (`loudness`). Marks at the notes are kept (`app.score.marks`). Lyrics, chord names, figured bass,
+layout and cue notes are ignored.
 """
 
 from __future__ import annotations
@@ -45,12 +45,12 @@ MOST_TIMES: Final = 16
 
 
 def read_musicxml(path: Path) -> PieceContents:
-    """Read a score.
+    """Read a MusicXML score.
 
     Raises
     ------
     FileError
-        It cannot be read, or is larger than any music.
+        The file cannot be read, or is larger than any real score.
     """
     file = str(path)
     root, size = read_document(path)
@@ -109,7 +109,7 @@ _MOST_TEXT: Final = 200
 
 
 def _require_few(measures: Sequence[Sequence[Measure]], visits: Sequence[Sequence[Time]], size: int, file: str) -> None:
-    """Refuse a score with more items, counted as often as they are played, than any piece has."""
+    """Raise FileError if a score, with its repeats unrolled, has more items than any real piece."""
     written = played = 0
     for part in measures:
         for measure, times in zip(part, visits, strict=False):

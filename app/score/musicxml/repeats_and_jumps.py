@@ -1,6 +1,6 @@
-"""The order in which measures are played: repeats, endings, *D.C.*, *D.S.*, *Fine* and *Coda*.
+"""Determines the order in which measures are played: repeats, endings, *D.C.*, *D.S.*, *Fine* and *Coda*.
 
-After a jump repeats are not taken again, and of endings the last one is played, as players do.
+After a jump, repeats are not played again and only the last ending is played, as is customary.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ _STRAINS: Final = 4
 
 
 class Order(msgspec.Struct, frozen=True):
-    """Indices of measures in the order of playing, and the indices of those with an invalid jump."""
+    """Indices of the measures in playing order, and the indices of measures whose jump is invalid."""
 
     measures: tuple[int, ...]
     lost: tuple[str, ...] = ()
 
 
 def playing_order(bars: Sequence[Bar], file: str) -> Order:
-    """Unroll the measures of a score.
+    """Determine the order in which the measures of a score are played.
 
     Raises
     ------
@@ -42,7 +42,7 @@ def playing_order(bars: Sequence[Bar], file: str) -> Order:
 
 
 def _explain(bars: Sequence[Bar]) -> None:
-    """Read jumps from words and signs where the file has no ``sound`` element that gives them."""
+    """Set jumps in ``bars`` from printed words and signs, if the file has no ``sound`` elements for them."""
     jumps = any(bar.da_capo or bar.dal_segno for bar in bars)
     for bar in bars:
         said = bar.said
@@ -93,7 +93,7 @@ def _unnamed_trio(bars: Sequence[Bar]) -> int:
 
 
 class _Player:
-    """Goes through the measures as a player does."""
+    """Walks through the measures in the order in which a player plays them."""
 
     def __init__(self, bars: Sequence[Bar], file: str) -> None:
         self.bars, self.file = bars, file
@@ -161,7 +161,7 @@ class _Player:
         return place + 1
 
     def _times(self, place: int, bar: Bar) -> int:
-        """Return the number of times that a section ending at a measure is played."""
+        """Return the number of times that the section ending with a measure is played in all."""
         group = self.groups[place]
         if group is None:
             return bar.backward
@@ -173,7 +173,9 @@ class _Player:
         return place
 
     def _find(self, kind: str, name: str, place: int) -> int | None:
-        """Index of the measure that a jump leads to, or None; of several with the same word, the nearest."""
+        """Index of the measure to which a jump of this kind and name leads, the nearest of several; None if there is
+        none.
+        """
         named = [one for one, bar in enumerate(self.bars) if getattr(bar, kind) and name in (getattr(bar, kind), _ANY)]
         named = named or [one for one, bar in enumerate(self.bars) if getattr(bar, kind)]
         if not named:
@@ -185,8 +187,9 @@ class _Player:
 
 
 class _Group(NamedTuple):
-    """Consecutive endings of a repeat ("1.", "2."): their numbers, the count of them, and True if the last of them is
-    repeated."""
+    """Consecutive endings of a repeat ("1.", "2."): all their numbers, how many endings there are, and whether the last
+    one leads back to the start.
+    """
 
     numbers: frozenset[int]
     endings: int
@@ -194,7 +197,7 @@ class _Group(NamedTuple):
 
 
 def _groups(bars: Sequence[Bar], endings: Sequence[frozenset[int] | None]) -> list[_Group | None]:
-    """The endings to which each measure belongs; None: to none."""
+    """For each measure the group of consecutive endings that it belongs to; None if it is in no ending."""
     found: list[_Group | None] = []
     for is_ending, places in groupby(range(len(bars)), key=lambda place: bool(endings[place])):
         own = list(places)
@@ -206,7 +209,7 @@ def _groups(bars: Sequence[Bar], endings: Sequence[frozenset[int] | None]) -> li
 
 
 def _endings(bars: Sequence[Bar]) -> list[frozenset[int] | None]:
-    """The numbers of the ending that each measure belongs to; None: to none."""
+    """For each measure the numbers of the ending that it belongs to; None if it is in no ending."""
     found: list[frozenset[int] | None] = []
     current: frozenset[int] | None = None
     for bar in bars:

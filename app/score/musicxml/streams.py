@@ -1,4 +1,4 @@
-"""The streams of a part: its notes by instrument, numbered in the order they are played, with velocities and marks."""
+"""Groups the notes of a part by instrument, numbered in playing order, with velocities and marks."""
 
 from __future__ import annotations
 
@@ -29,7 +29,9 @@ _SHORT: Final = {"staccatissimo": 0.34, "staccato": 0.5, "marcato": 0.75}
 
 @dataclass(slots=True)
 class _Row:
-    """One note of a stream while it is read from MusicXML: onset, end, pitch, velocity and more."""
+    """One sounding note of a part: start and end tick, pitch, velocity, instrument (``kind``), the written note and its
+    player.
+    """
 
     onset: int
     end: int
@@ -44,16 +46,16 @@ class _Row:
 def part_streams(
     part: WrittenPart, played: PlayedPart, track: int, transposition: int | None, quarter: int, end_tick: int
 ) -> list[TrackChannel]:
-    """The streams of a part; none of one without notes.
+    """Return the notes of a part as one `TrackChannel` per instrument; empty if the part has no notes.
 
     Parameters
     ----------
     track : int
-        Its place among the parts, from 0.
+        Index of the part, from 0.
     transposition : int or None
-        Semitones by which it sounds higher than it is written.
+        Semitones by which the part sounds higher than written; None if unknown.
     quarter, end_tick : int
-        Ticks per quarter, and of the whole piece.
+        Ticks per quarter, and end tick of the piece.
     """
     spans = hairpins(played.directions, quarter, end_tick)
     rows = _rows(played, loudness_of(played.directions, spans, quarter).at, _kinds(part, played, transposition))
@@ -101,7 +103,7 @@ def part_streams(
 
 
 def _mark_flutters(played: PlayedPart, words: list[tuple[int, str]]) -> None:
-    """Mark the notes that words over them ask to be flutter-tongued."""
+    """Mark the notes for which words over the staff request flutter tonguing."""
     by_onset = sorted(played.notes, key=lambda note: note.onset)
     for note, flutters in zip(by_onset, fluttered(words, [note.onset for note in by_onset]), strict=True):
         if flutters:
@@ -109,25 +111,25 @@ def _mark_flutters(played: PlayedPart, words: list[tuple[int, str]]) -> None:
 
 
 def _channel(track: int) -> int:
-    """A channel for a part, other than that of drums."""
+    """Choose a MIDI channel for a part by its index, never the percussion channel."""
     channel = track % 15
     return channel + (channel >= DRUM_CHANNEL)
 
 
 def _doubled(name: str, instrument: str) -> str:
-    """The name of what a part's player plays on another instrument."""
+    """Name for the notes that a part's player plays on a second instrument."""
     spoken = vocabulary().instruments[instrument].names[0] if instrument else ""
     return (f"{spoken} ({name})" if name and spoken else spoken or name)[:MOST_NAME]
 
 
 def _base(part: WrittenPart, first: PartInstrument, transposition: int | None) -> str:
-    """The instrument that a part is for, as an id in the vocabulary; empty: its name and program tell."""
+    """Main instrument of a part as an id in the vocabulary; empty if name and program must decide."""
     said = said_instrument(part.name, first, transposition)
     return "" if said is None else said.id
 
 
 def _kinds(part: WrittenPart, played: PlayedPart, transposition: int | None) -> dict[int, str]:
-    """Return the instrument of each note by the note's identity: as the note itself says, or the words before it."""
+    """Find the instrument of each note, by `id_of` the note: as given at the note, or by the last words before it."""
     instruments = part.instruments
     first = next(iter(instruments), "")
     base = _base(part, instruments.get(first, PartInstrument()), transposition)
@@ -162,7 +164,7 @@ def _kinds(part: WrittenPart, played: PlayedPart, transposition: int | None) -> 
 
 
 def id_of(note: PlayedNote) -> int:
-    """The identity of a note while its part is read."""
+    """Return a number that identifies a note while its part is read."""
     return id(note)
 
 
@@ -185,7 +187,7 @@ def _rows(played: PlayedPart, level: Callable[[int], float], kinds: dict[int, st
 
 
 def _is_brass(kind: str, name: str) -> bool:
-    """Return whether a stream of notes is that of a brass instrument."""
+    """Return whether an instrument, given by id (``kind``) or else by name, is a brass instrument."""
     return takes_mutes(
         vocabulary().instruments[kind] if kind in vocabulary().instruments else vocabulary().by_name(name)
     )
@@ -194,7 +196,9 @@ def _is_brass(kind: str, name: str) -> bool:
 def _mutes(
     rows: Sequence[_Row], played: PlayedPart, words: Sequence[tuple[int, str]], *, brass: bool
 ) -> list[tuple[int, int, How]]:
-    """Ways in which a stream's notes are played: each by its own sign, else by the last words before it."""
+    """Return for each note its start tick, end tick and way of playing (such as muted or hand-stopped): by its own
+    sign, else by the last words before it.
+    """
     said: list[tuple[int, How]] = [(tick, how) for tick, text in words if (how := said_of_mute(text)) is not None]
     for tick, one in played.directions:
         if one.kind == "mute":
@@ -217,8 +221,9 @@ def _mutes(
 
 
 def _signed(rows: Sequence[_Row], words: Sequence[tuple[int, str]], others: Sequence[int]) -> Iterator[tuple[int, How]]:
-    """Yield the ticks at which "+" and "o" as words stop and open the bell: "+" holds until an "o" or other words, and
-    where no "o" follows only for the notes that begin with it."""
+    """Yield the ticks at which the written signs "+" and "o" close and open the bell by hand. A "+" applies until an
+    "o" or other words about mutes; if no "o" follows, only to the notes that begin with it.
+    """
     signs = [(tick, text.strip()) for tick, text in words if text.strip() in (STOPPED_SIGN, OPEN_SIGN)]
     ends = sorted({tick for tick, _ in signs} | set(others))
     onsets = sorted({row.onset for row in rows})
@@ -266,8 +271,9 @@ def _marks(played: PlayedPart, prefix: str, spans: Sequence[Mark]) -> list[Mark]
 
 
 def _paired(start: PlayedChord, end: PlayedChord) -> list[tuple[PlayedNote, PlayedNote]]:
-    """Pair the notes of two chords that a slur joins: the highest with the highest; where one has more, its others with
-    the lowest."""
+    """Pair the notes of two chords connected by a slur from the highest down; surplus notes of one chord are paired
+    with the lowest of the other.
+    """
     upper, lower = (sorted(one.notes, key=lambda note: -note.tone.pitch) for one in (start, end))
     if not upper or not lower:
         return []

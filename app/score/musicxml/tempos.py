@@ -53,13 +53,14 @@ _STEPS: Final = 2
 
 
 class TempoEvent(NamedTuple):
-    """Mark that affects the tempo.
+    """A mark that affects the tempo.
 
     Attributes
     ----------
     kind : {"set", "word", "slower", "faster", "back", "first"}
+        A tempo in numbers or words; a gradual change; a return to the previous or to the first tempo.
     value : float
-        Quarters per minute, or the share at the end of a gradual change.
+        Tempo in quarters per minute; for a gradual change, the share of the tempo reached at its end.
     """
 
     tick: int
@@ -76,7 +77,7 @@ class Held(NamedTuple):
 
 
 def said_of_tempo(tick: int, words: str) -> TempoEvent | None:
-    """Read words over a staff as a mark of tempo; None if they speak of something else."""
+    """Interpret words over a staff as a tempo mark; None if they are about something else."""
     text = words[:MOST_NAME].strip().strip("()")
     if _FIRST.search(text):
         return TempoEvent(tick, "first")
@@ -91,14 +92,14 @@ def said_of_tempo(tick: int, words: str) -> TempoEvent | None:
 
 
 def tempo_map(events: Sequence[TempoEvent], held: Sequence[Held], end_tick: int, ticks_per_quarter: int) -> TempoMap:
-    """The tempo map of a score.
+    """Build the tempo map of a score from its tempo marks and fermatas.
 
     Parameters
     ----------
     events : sequence of TempoEvent
-        By tick. Of several at one tick a number goes before words.
+        Tempo marks ordered by tick; at one tick a number has priority over words.
     end_tick : int
-        Where the piece ends.
+        Last tick of the piece.
     """
     changes = _changes(events, end_tick, ticks_per_quarter)
     spans = _joined(held)
@@ -148,7 +149,7 @@ def _changes(events: Sequence[TempoEvent], end_tick: int, quarter: int) -> list[
 
 
 def _joined(held: Sequence[Held]) -> list[Held]:
-    """Spans in order that do not overlap."""
+    """Merge overlapping fermata spans, and order them."""
     found: list[Held] = []
     for one in sorted(held):
         if found and one.tick < found[-1].end_tick:

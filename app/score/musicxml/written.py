@@ -1,4 +1,4 @@
-"""Values that a score in MusicXML is read into: chords, directions and bars as they are written, measure by measure."""
+"""Data classes for the contents of a MusicXML score as written: chords, directions and bars, measure by measure."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Place:
     measure: str = ""
 
     def bad(self, element: str, value: str | None) -> FileError:
-        """Return the error of a value that makes no sense."""
+        """Create the error about an invalid value of an element at this place."""
         said = shortened((value or "").strip(), 40)
         return FileError(
             "musicxml.bad_value", file=self.file, part=self.part, measure=self.measure, element=element, value=said
@@ -37,7 +37,7 @@ class Place:
         return None if text is None else self.number_of(text, tag)
 
     def number_of(self, text: str, tag: str) -> Time:
-        """The number that a text of an element says. Raises as `number`."""
+        """Parse the number in the text of an element ``tag``. Raises FileError as `number` does."""
         plain = text.strip()
         try:
             if plain.isascii() and plain.isdigit() and len(plain) < _MOST_DIGITS:
@@ -61,15 +61,15 @@ class Tone:
     Attributes
     ----------
     pitch : int
-        Sounding, MIDI number; of percussion the key of a drum kit.
+        Sounding pitch as MIDI number; for percussion, the key of a drum kit.
     instrument : str
-        Id in the part; empty: its first one.
+        Id of the instrument in the part; empty: the part's first one.
     upper, lower : int
-        Semitones to the neighbours in the key, for ornaments.
+        Semitones to the next scale steps above and below, for ornaments.
     loudness : float or None
-        What the file says of its sound, 1 is forte.
+        Loudness that the file gives for playback; 1 is forte.
     marks : list of (kind, text)
-        Marks of this note alone: its fingering.
+        Marks of this note alone, such as its fingering.
     """
 
     pitch: int
@@ -90,21 +90,21 @@ class Chord:
     Attributes
     ----------
     start, length : Time
-        From the beginning of the measure.
+        Start relative to the measure, and length, in ticks.
     tones : list of Tone
-        None: a rest.
+        Notes of the chord; empty for a rest.
     marks : list of (kind, text)
-        As `app.score.marks` has them.
+        Marks of the whole chord, with the kinds of `app.score.marks`.
     slurs : list of (type, number)
-        Starts and stops.
+        Slurs that start or stop here, by MusicXML's slur number.
     fermata : float
-        How many times as long it lasts.
+        Factor by which a fermata lengthens it; 1: no fermata.
     tremolo : (type, strokes)
-        ``single``, ``start`` or ``stop``; strokes 0: none.
+        Type ``single``, ``start`` or ``stop``, and number of strokes; 0: no tremolo.
     stem : str
-        ``up`` or ``down``.
+        Direction of the stem, ``up`` or ``down``.
     hidden : bool
-        Whether it is not shown.
+        Whether the chord or rest is not printed.
     """
 
     start: Time
@@ -148,7 +148,7 @@ class Measure:
     Attributes
     ----------
     length : Time
-        As far as anything in it goes.
+        Time at which its last content ends, in ticks.
     """
 
     chords: list[Chord] = field(default_factory=list)
@@ -163,13 +163,13 @@ class Bar:
     Attributes
     ----------
     metre : (numerator, denominator) or None
-        Where it changes; denominator 0: it has none.
+        Time signature, if it changes here; denominator 0: unmetred.
     length : Time
-        In ticks.
+        Length in ticks.
     numbers : set of int
-        Of the ending that begins here, or holds.
+        Numbers of the ending that begins here or continues.
     to_coda, coda, segno, dal_segno : str
-        Names of places; empty: none here.
+        Names of the coda and segno signs in this measure; empty if there are none.
     """
 
     number: str = ""
