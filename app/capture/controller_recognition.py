@@ -23,14 +23,15 @@ _AS_MUCH: Final = 0.8
 
 
 class Learned(msgspec.Struct, frozen=True):
-    """Controller for breath, with its channel, 1..16."""
+    """Recognised breath controller: the MIDI message that carries breath, and its channel, 1..16."""
 
     source: BreathSource
     channel: int
 
 
 def recognised_controller(events: Iterable[tuple[int, bytes]], trusted: Sequence[BreathSource] = ()) -> Learned | None:
-    """Return the controller with the largest variation without jumps; None if there is none.
+    """Find the MIDI controller that carries the breath: the one with the largest variation without jumps; None if there
+    is none.
 
     Some instruments send breath by two messages: among those that vary about as much as the largest, the most trusted
     is chosen.
@@ -38,7 +39,7 @@ def recognised_controller(events: Iterable[tuple[int, bytes]], trusted: Sequence
     Parameters
     ----------
     events : iterable of (int, bytes)
-        Times of any clock, and messages.
+        Time on any clock, and bytes, of each message.
     trusted : sequence of BreathSource
         Sources in order of trust, as `metadata.model.Controller.breath`; all others come after.
     """
@@ -61,7 +62,8 @@ def recognised_controller(events: Iterable[tuple[int, bytes]], trusted: Sequence
 def learned_bite(
     bitten: Iterable[tuple[int, bytes]], blown: Iterable[tuple[int, bytes]], breath: Learned
 ) -> BiteSource | None:
-    """Return the controller with the largest variation during biting; None if there is none.
+    """Find the MIDI controller that carries the bite: the one with the largest variation while biting; None if there is
+    none.
 
     Parameters
     ----------

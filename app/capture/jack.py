@@ -17,8 +17,8 @@ _SHUTDOWN: Final = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 
 
 def share_library() -> None:
-    """Make libraries loaded later use the system's JACK library instead of their own copy, which supports only servers
-    of its version. Does nothing if there is no such library.
+    """Make MIDI libraries that are loaded later use the system's JACK library instead of their own copy, which works
+    only with servers of its own version. Does nothing if the system has no JACK library.
     """
     if sys.platform == "linux":
         with contextlib.suppress(OSError):
@@ -33,9 +33,9 @@ class ServerWatch:
     Attributes
     ----------
     has_library : bool
-        Whether JACK's library is there.
+        Whether JACK's library is installed.
     has_ended : bool
-        Whether the server of the beginning has ended; remains true if another starts.
+        Whether the server that ran at creation has ended; remains true if another one starts.
     """
 
     def __init__(self) -> None:
@@ -61,7 +61,7 @@ class ServerWatch:
 
     @property
     def is_connected(self) -> bool:
-        """True if a server was running at the beginning."""
+        """True if a server was running when the watch was created."""
         return self._client is not None
 
     def _report(self, _: int | None) -> None:

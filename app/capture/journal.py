@@ -76,7 +76,7 @@ _VERSIONS: Final = msgspec.json.Decoder(_Version)
 
 
 class SyncPoint(msgspec.Struct, frozen=True, gc=False):
-    """Position of the piece that sounded at a moment, and the pass of the loop."""
+    """Position of the piece in seconds that was heard at a moment, and the number of the pass when looping."""
 
     ns: int
     position_s: float
@@ -89,10 +89,11 @@ class Journal(msgspec.Struct, frozen=True):
     Attributes
     ----------
     times_ns : tuple of int
-        Times of arrival, ascending; `time.perf_counter_ns`.
+        Arrival time of each message by `time.perf_counter_ns`, ascending.
     messages : tuple of bytes
-        Whole channel messages.
+        Bytes of each MIDI channel message.
     gaps : tuple of (int, int or None)
+        Times in nanoseconds at which the device was disconnected and reconnected (None: never).
     complete : bool
         Whether the recording was ended regularly and not interrupted.
     """
@@ -167,7 +168,9 @@ class JournalWriter:
         self.count += 1
 
     def sync(self, ns: int, position_s: float, pass_: int) -> None:
-        """Add received messages. Times are made monotonic, as readers require."""
+        """Append the position of the piece (in seconds, in pass ``pass_`` of a loop) that was heard at a time in
+        nanoseconds. Times are made monotonic, as readers require.
+        """
         if not math.isfinite(position_s) or abs(position_s) > _LARGEST_S:
             return
         ns, pass_ = self._last_sync = max(ns, self._last_sync[0]), max(pass_, self._last_sync[1])
@@ -180,7 +183,7 @@ class JournalWriter:
         self._pending += b"%s %d\n" % (word.encode(), ns)
 
     def write(self) -> None:
-        """Pass everything to the system. Raises OSError, after which nothing is lost."""
+        """Pass all buffered lines to the operating system. Raises OSError; unwritten lines stay in the buffer."""
         while self._pending:
             del self._pending[: self._file.write(self._pending)]
 
@@ -194,8 +197,8 @@ class JournalWriter:
         return True
 
     def move(self, path: str) -> None:
-        """Continue in another file that must not exist; everything written so far is copied to it and the first file
-        deleted.
+        """Continue the journal in another file, which must not exist: everything written so far is copied there, and
+        the first file is deleted.
 
         Raises
         ------

@@ -91,7 +91,7 @@ class JournalKeeper:
             self._report_failure(error)
 
     def _begun(self, start: StartRecording) -> JournalWriter:
-        """Return a new journal, in the second folder if the disk has no room."""
+        """Create the journal, in the second folder if the first disk is full."""
         try:
             return JournalWriter(os.fsdecode(start.path), start.header, resumed=start.resumed_ns is not None)
         except FileError as error:

@@ -19,7 +19,7 @@ def takes_of(
     start_s: float | None = None,
     taken: Collection[str] = (),
 ) -> tuple[Take, ...]:
-    """Return a take for every pass of the loop with a note, in order; the project assigns the ids.
+    """Return a take for every pass of the loop in which a note was played, in order; the project assigns the ids.
 
     Parameters
     ----------

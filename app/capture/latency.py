@@ -52,7 +52,7 @@ class LatencyMeasurement(msgspec.Struct, frozen=True):
 
 
 def measured_latency(clicks_s: Sequence[float], hits_s: Sequence[float]) -> LatencyMeasurement:
-    """Return the latency given the times of clicks and notes, both ascending on one clock.
+    """Compute the latency from the times of clicks and of the notes played to them, both ascending on the same clock.
 
     Each click is assigned the note with the most typical delay; missing and double notes do no harm.
     """
@@ -79,14 +79,16 @@ def measured_latency(clicks_s: Sequence[float], hits_s: Sequence[float]) -> Late
 
 
 def _densest(offsets: Sequence[float]) -> float:
-    """Return the offset with the most others around it, so that notes between the clicks have no influence."""
+    """Return the delay with the most similar other delays, so that notes played between the clicks have no
+    influence.
+    """
     values = np.sort(np.array(offsets))
     around = np.searchsorted(values, values + 0.05) - np.searchsorted(values, values - 0.05)
     return float(np.median(values[around == around.max()]))
 
 
 def hits(events: Iterable[tuple[float, bytes]], breath: BreathSource) -> tuple[float, ...]:
-    """Return the times at which the user began to blow: by notes, or by breath if the device sends no notes; double
+    """Times in seconds at which the user began to blow: by notes, or by breath if the device sends no notes; double
     onsets are excluded.
 
     Parameters

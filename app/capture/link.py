@@ -145,7 +145,7 @@ class RecorderLink:
                 self._report(Stop())
 
     def poll(self) -> list[News]:
-        """Return the news since the last call, in order."""
+        """Return the recorder's news since the last call, in order."""
         self._is_called = False
         found = []
         with contextlib.suppress(IndexError):
@@ -163,7 +163,7 @@ class RecorderLink:
         self._thread.join()
 
     def _end_surely(self) -> None:
-        """Kill a recorder that was requested to end but is blocked by a driver. The lock must be held."""
+        """Kill a recorder that was told to end but is blocked by a MIDI driver. The lock must be held."""
         assert self._child is not None
         self._ending = threading.Timer(_END_WITHIN_S, self._child.process.kill)
         self._ending.daemon = True
@@ -212,7 +212,9 @@ class RecorderLink:
                 self._put(Restarted(Message("capture.recorder_ended")))
 
     def _started(self, resumed_ns: int | None) -> StartedChild[News] | None:
-        """Return a new recorder that continues the work of the last one; None after the link was closed."""
+        """Start a new recorder that continues the work of the last one, and return it; None after the link
+        was closed.
+        """
         with self._lock:
             if self._is_closed:
                 return None

@@ -1,4 +1,4 @@
-"""Latest messages of a device in few lines, for the input monitor."""
+"""Log of the latest messages of a MIDI device, shortened for the input monitor."""
 
 from __future__ import annotations
 

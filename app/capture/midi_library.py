@@ -25,7 +25,7 @@ _RTMIDI2_SYSTEMS: Final = {"linux": ("alsa", "jack"), "darwin": ("core",), "win3
 
 
 class PortLists(Protocol):
-    """Ports of a MIDI system under the system's own names."""
+    """Lists of the ports of a MIDI system, by the names that the system gives them."""
 
     def inputs(self) -> list[str]:
         """Return the names of the system's MIDI input ports."""
@@ -65,7 +65,7 @@ class MidiLibrary(Protocol):
     errors: tuple[type[Exception], ...]
 
     def lists(self, system: str) -> PortLists:
-        """Connect to a system. Raises one of `errors`."""
+        """Connect to a MIDI system to list its ports. Raises one of `errors`."""
         ...
 
     def open_input(self, system: str, index: int, callback: MidiCallback) -> OpenInput:
@@ -102,7 +102,7 @@ class PythonRtmidi:
         self.errors: tuple[type[Exception], ...] = (rtmidi.RtMidiError, OSError, ValueError, TypeError)
 
     def lists(self, system: str) -> PortLists:
-        """Return the lists of inputs and outputs of a MIDI system (such as ALSA)."""
+        """Connect to a MIDI system (such as ALSA) to list its inputs and outputs."""
         number = self._numbers[system]
         return _PythonRtmidiLists(self._rtmidi.MidiIn(number, CLIENT), self._rtmidi.MidiOut(number, CLIENT))
 
@@ -167,7 +167,7 @@ class Rtmidi2:
         self.errors: tuple[type[Exception], ...] = (RuntimeError, OSError, ValueError, TypeError)
 
     def lists(self, system: str) -> PortLists:
-        """Return the lists of inputs and outputs of a MIDI system (such as ALSA)."""
+        """Connect to a MIDI system (such as ALSA) to list its inputs and outputs."""
         number = self._numbers[system]
         return _Rtmidi2Lists(
             self._rtmidi2.MidiIn(CLIENT, api=number),

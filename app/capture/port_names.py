@@ -57,13 +57,14 @@ class Port(msgspec.Struct, frozen=True):
 
 
 def named(found: Sequence[str], system: str, known: Mapping[str, str] | None = None) -> tuple[Port, ...]:
-    """Return the ports in a system's list, without the program's own.
+    """Return the ports in a system's list under stable names, without the ports of this program.
 
     Parameters
     ----------
     found : sequence of str
         Names given by the system.
     system : {"alsa", "jack", "core", "winmm"}
+        MIDI system that gave the names.
     known : mapping of str to str, optional
         Names of ports connected before, by identity: of two equal devices, the one that stays connected keeps its name.
     """
@@ -104,12 +105,14 @@ def matching(requested: str, names: Sequence[str], *, partly: bool = False) -> t
 
 
 def _identity(full: str, index: int, system: str) -> str:
-    """Return a device's identity: its system name without the index in the list."""
+    """Return the identity of a port: its full system name, without the index in the list where the system
+    appends one.
+    """
     return full.removesuffix(f" {index}") if system == "winmm" else full
 
 
 def _identities(plain: Sequence[str]) -> list[str]:
-    """Return unique names of the ports without the system's numbers."""
+    """Make names without the system's numbers unique, as "EWI5000" and "EWI5000 (2)"."""
     seen: Counter[str] = Counter()
     found = []
     for name in plain:
@@ -152,6 +155,6 @@ def _of_client(client: str, port: str) -> str:
 
 
 def _key(name: str) -> str:
-    """Return the part that all names of one device have in common."""
+    """Return the part of a port's name that is equal on all MIDI systems."""
     client, colon, port = _OF_A_KIND.sub("", name).partition(":")
     return (_of_client(client, port) if colon else client).casefold()

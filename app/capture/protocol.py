@@ -39,7 +39,7 @@ class StartRecording(_Report, frozen=True):
 
 
 class Sync(_Report, frozen=True):
-    """Command that reports the position of the piece at a moment."""
+    """Command that reports the position of the piece heard at a moment, for the journal."""
 
     ns: int
     position_s: float
@@ -108,7 +108,7 @@ class NotStarted(_Failure, frozen=True):
 
 
 class Restarted(_Failure, frozen=True):
-    """Report that the recorder ended unexpectedly and was restarted; the journal is continued."""
+    """Report that the recorder ended unexpectedly and was restarted, with the reason; the journal is continued."""
 
 
 class SystemEnded(_Report, frozen=True):

@@ -121,7 +121,7 @@ class RecorderProcess:
                 self._journal.put(command)
 
     def look(self) -> None:
-        """Update the list of ports, and detect the loss or return of the open one."""
+        """Check the system's ports: report changes, and detect the loss or return of the open one."""
         system = self._answering()
         if system is None:
             return
@@ -136,8 +136,8 @@ class RecorderProcess:
         self._has_ports = bool(inputs or outputs)
 
     def _answering(self) -> MidiSystem | None:
-        """Return the MIDI system, trying again regularly if none responds. A missing JACK server looks like a server
-        without ports.
+        """Return the MIDI system, if one responds; otherwise try again at intervals. A missing JACK server looks like a
+        server without ports.
         """
         is_sure = self._system is not None and (self._has_ports or self._system.name != "jack")
         now_s = time.perf_counter()
@@ -307,7 +307,7 @@ def take_precedence() -> None:
 
 
 def main() -> None:
-    """Record for the parent process."""
+    """Run the recorder in this process, with commands from standard input and news to standard output."""
     sys.excepthook = _end_at_once
     threading.excepthook = lambda failed: _end_at_once(failed.exc_type, failed.exc_value, failed.exc_traceback)
     confine_this_process("recorder")

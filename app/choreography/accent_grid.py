@@ -17,15 +17,16 @@ WEAK: Final = 0.0
 
 @dataclass(frozen=True, eq=False)
 class AccentGrid:
-    """Times at which a dance may place accents.
+    """Grid of G times in a piece at which a dance may place accents: beats, and divisions between them.
 
     Attributes
     ----------
     times_s : (G,) float64
-        Ascending.
+        Ascending times in seconds.
     on_beat : (G,) bool
+        Whether each is on a beat that dancers feel.
     written : (G,) bool, optional
-        Whether each is a beat of the piece itself; by default all beats are.
+        Whether each is a beat of the piece itself, not one that dancers feel in addition; by default all beats are.
     """
 
     times_s: FloatArray
@@ -47,7 +48,7 @@ class AccentGrid:
 
 
 def grid_of(rhythm: Rhythm) -> AccentGrid:
-    """Return the beats and the places that divide them by the metre."""
+    """Return the grid of a rhythm: its beats, and the times that divide them as the metre does."""
     beats = rhythm.beats_s
     if len(beats) < 2:
         return AccentGrid(beats, np.ones(len(beats), bool))

@@ -1,13 +1,12 @@
-"""The T-pose of a skeleton, found in the frames of its motion.
+"""Finds the T-pose of a captured skeleton in the frames of its motion.
 
-A file's zero pose need not be a standing body: programs lay every bone along an axis of its own. But in each bone some
-directions are fixed, whatever the zero pose is: to the next joint, between the hip joints or the shoulders, about which
-a knee or an elbow bends, away from the floor a foot stands on. They say how the bone is turned in the T-pose. Neither
-the zero pose nor the axes of bones are used, so that a motion is the same on any rig, to the last digits; what nothing
-shows is as people usually hold it, in the mean of the motion.
+The zero pose of a motion file need not be a standing body, since programs choose any axes for bones. But some
+directions are fixed in a bone whatever its axes are: towards the next joint, between the hip joints or the shoulders,
+the axis about which a knee or an elbow bends, and the up direction of a standing foot. These determine how each bone is
+rotated in the T-pose, so that a motion gives the same result on any rig. Rotations that nothing in the motion
+determines follow from the usual human posture, applied to the mean of the motion.
 
-A twist is that of the hinge as in `app.rig.characters.t_pose`: the motion of a knee or an elbow shows more of it than a
-pose.
+The twist of a limb is that of its hinge, as in `app.rig.characters.t_pose`.
 """
 
 from __future__ import annotations
@@ -54,7 +53,7 @@ EDGE_DEG: Final = 20.0
 
 
 def t_pose(body: Captured) -> dict[str, FloatArray]:
-    """Rotations (4,) of each segment's bone in the T-pose."""
+    """Rotation (4,) of each segment's bone in the T-pose, by segment name."""
     found = _trunk(body)
     for side, sign in SIDES:
         leg, arm = ([side + name for name in limb] for limb in (LEG, ARM))
@@ -71,8 +70,9 @@ def t_pose(body: Captured) -> dict[str, FloatArray]:
 
 
 def _ways(body: Captured, name: str, turn: FloatArray, way: FloatArray) -> FloatArray:
-    """Directions (F, 3) in the world of the direction ``way`` (3,) of a body segment's T-pose; ``turn`` is the bone's
-    rotation in that pose."""
+    """World directions (F, 3), over the motion, of a direction ``way`` (3,) that is given in the T-pose of a body
+    segment; ``turn`` is the rotation of the segment's bone in the T-pose.
+    """
     return quaternion.rotate(
         quaternion.multiply(body.rotations[:, body.segments[name]], quaternion.conjugate(turn)), way
     )
@@ -132,12 +132,12 @@ def _head(body: Captured, chest: FloatArray) -> FloatArray:
 
 
 def _limb(body: Captured, limb: list[str], sign: float, known: FloatArray | None) -> dict[str, FloatArray]:
-    """Turns of the upper and the lower part of a limb.
+    """Find the T-pose rotations (4,) of the bones of the upper and the lower part of a limb, by segment name.
 
     Parameters
     ----------
     known : (F, 3) float64, optional
-        Axis of the knee or the elbow in the world, as the foot or the hand has it; for a limb that never bends.
+        Axis of the knee or elbow in the world as the foot or hand suggests it, used for a limb that never bends.
     """
     leg = limb[0].endswith("Leg")
     bend = body.bend(limb, sign)
@@ -163,7 +163,9 @@ def _limb(body: Captured, limb: list[str], sign: float, known: FloatArray | None
 
 
 def _turns_palm(body: Captured, arm: list[str], sign: float, palm: FloatArray) -> bool:
-    """Return whether a forearm's bone turns the palm: its hand is more fixed in it than the axis of its elbow."""
+    """Return whether a forearm's bone rotates together with the palm: the hand's axes are more constant in that bone
+    than the elbow's axis is.
+    """
     bend = body.bend(arm, sign)
     return body.axis(arm[1], _ways(body, arm[2], palm, Y))[1] > body.axis(arm[1], bend)[1]
 
@@ -175,7 +177,9 @@ def _limb_frame(way: FloatArray, across: FloatArray, leg: bool, sign: float) -> 
 
 
 def _along(body: Captured, side: str) -> FloatArray:
-    """Direction (3,) in a hand's bone to its second knuckle or its end, or as the forearm has it in the mean."""
+    """Direction (3,) of the fingers in the axes of a hand's bone: towards a knuckle or the hand's end, else the
+    forearm's mean direction.
+    """
     name, knuckles = f"{side}Hand", body.knuckles(side)
     if knuckles:
         return body.mean(name, knuckles[min(1, len(knuckles) - 1)] - body.at(name))
@@ -202,12 +206,13 @@ def _palm(body: Captured, side: str, sign: float) -> FloatArray | None:
 
 
 def _hand(body: Captured, side: str, sign: float, forearm: FloatArray) -> FloatArray:
-    """Turn of a hand that shows no palm: as a T-pose beside the motion has it, or the axis of its elbow in the mean.
+    """Find the T-pose rotation (4,) of a hand whose palm direction is unknown: from a T-pose in the clip, else from the
+    mean axis of the elbow.
 
     Parameters
     ----------
     forearm : ndarray, shape (4,)
-        Turn of the forearm's bone.
+        T-pose rotation of the forearm's bone.
     """
     name, along = f"{side}Hand", _along(body, side)
     limb = [side + part for part in ARM]

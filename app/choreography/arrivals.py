@@ -72,8 +72,8 @@ def alignment(arrivals_s: FloatArray, beats_s: FloatArray) -> float:
 
 
 def beats_met(arrivals_s: FloatArray, falls_s: FloatArray, grid: AccentGrid) -> float:
-    """Return a score of how well a dance meets the beats: arrivals those of the piece, and footfalls those that are
-    felt.
+    """Score how well a dance meets the beats, higher is better: body arrivals on beats of the piece, and footfalls on
+    beats that dancers feel.
     """
     felt_s = grid.times_s[grid.on_beat]
     met = alignment(arrivals_s, grid.times_s[grid.strengths == 1.0]) + FALLS_SHARE * alignment(falls_s, felt_s)
@@ -81,9 +81,9 @@ def beats_met(arrivals_s: FloatArray, falls_s: FloatArray, grid: AccentGrid) -> 
 
 
 def chance_of_falls(falls_s: FloatArray, beats_s: FloatArray) -> float:
-    """Return a measure of how little footfalls keep to the beats: 0 if they meet them better than all shifted copies of
-    them do, 1 if `AS_WELL` of the copies or more meet them as well. Copies are shifted evenly, by up to the time from
-    the first to the last beat, round the end to the start.
+    """Estimate whether footfalls meet the beats only by chance: 0 if they fit better than shifted copies of themselves
+    do, rising to 1 if a share `AS_WELL` of the copies fits as well. Copies are shifted evenly over the piece and wrap
+    around its end.
     """
     if len(beats_s) < 2 or not len(falls_s):
         return 0.0
@@ -106,22 +106,23 @@ def best_arrival_map(
     *,
     with_falls: bool,
 ) -> TimeMap:
-    """Return the best of a few time maps that are derived from one another.
+    """Improve the time map of a dance in a few steps, so that arrivals and footfalls meet beats, and return the best
+    map.
 
     Parameters
     ----------
     draft : MotionClip
-        Dance with one time map.
+        Draft of the dance, made with the time map ``shown``.
     first_s : float
-        Time of its frame 0 in seconds.
+        Time of the draft's frame 0 in seconds.
     shown : TimeMap
         Time map of the draft.
     plain : TimeMap
-        With a knot at each segment's place: see `app.choreography.warp.map_with_arrivals`.
+        Time map with a knot only at the place of each segment (see `app.choreography.warp.map_with_arrivals`).
     falls : (N,) float64
         Times of footfalls in the draft in seconds.
     with_falls : bool
-        Put also footfalls without an arrival on beats.
+        Whether footfalls without an arrival of the body are put on beats too.
     """
     along, speeds = shown.at(first_s + np.arange(len(draft)) / float(draft.fps))
     seen = speeds > LEAST_SPEED

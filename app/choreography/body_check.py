@@ -54,7 +54,8 @@ class Checked:
 
 
 def checked(body: Captured, turns: Mapping[str, FloatArray]) -> tuple[Checked, ...]:
-    """Measure the T-pose of a body: level lines, an upright trunk, knees, elbows and toes ahead.
+    """Measure angles of a body's T-pose with their limits: lines that should be level, an upright trunk, and knees,
+    elbows and toes that point forward.
 
     Parameters
     ----------
@@ -96,8 +97,8 @@ def checked(body: Captured, turns: Mapping[str, FloatArray]) -> tuple[Checked, .
 
 
 def unlike(body: Captured, parents: Sequence[int]) -> tuple[str, ...]:
-    """Return the joints that belong to no limb: a part much shorter or longer than the other or of changing length, or
-    a bone attached to the limb of the other side.
+    """Return the joints that do not form proper limbs: a bone much shorter or longer than the one of the other side, of
+    changing length, or attached to the other side's limb.
 
     Parameters
     ----------

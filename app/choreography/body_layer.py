@@ -96,7 +96,7 @@ def body_layer(motion: Motion, character: Character, feet: DancedFeet | None = N
 
 
 def _middle_m(motion: Motion, character: Character) -> FloatArray:
-    """Middle (F, 3) of both hip joints in every frame, metres."""
+    """Midpoint (F, 3) between both hip joints in every frame, in metres."""
     skeleton = character.skeleton
     offset = np.mean([skeleton.offsets_m[skeleton.index(f"{side}UpperLeg")] for side in SIDES], axis=0)
     turned = motion.rotations[:, skeleton.index("hips")].astype(np.float64)

@@ -16,7 +16,9 @@ PARTS: Final = (*SEGMENTS, "place")
 
 
 def part_speeds(clip: MotionClip) -> FloatArray:
-    """(F - 1, 17) rad/s of every segment from frame to frame, and m/s of the hips."""
+    """Speeds (F - 1, 17) from frame to frame: rotation of each of the 16 segments in rad/s, and movement of the hips in
+    m/s.
+    """
     turns = angle(clip.rotations[:-1], clip.rotations[1:])
     ways = np.linalg.norm(np.diff(clip.hips_m, axis=0), axis=-1, keepdims=True)
     return np.concatenate([turns, ways], axis=1) * float(clip.fps)

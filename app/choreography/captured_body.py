@@ -59,6 +59,7 @@ class CapturedBody:
     up : str
         Axis of the file that points up, such as ``"+Z"``.
     guesses : tuple of Message
+        Messages about what was guessed.
     checked : tuple of Checked
         Deviations of the T-pose.
     found : JointMapping
@@ -77,12 +78,12 @@ class CapturedBody:
 
 
 def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = None) -> CapturedBody:
-    """Return the body in a clip.
+    """Find the body in a clip: its joints and its T-pose.
 
     Parameters
     ----------
     file : str
-        For messages.
+        Name of the file, for messages.
     joints : mapping of str to str
         The user's corrections, see `RawSkeleton.corrected`. Corrected pairs of legs, arms and eyes keep the sides of
         the corrections; others are exchanged as without corrections.
@@ -140,7 +141,7 @@ def _by_hand(
 
 
 class _Motion:
-    """A clip in its own space, with methods of finding the body in it."""
+    """A clip with the ways to find the body in it."""
 
     def __init__(self, bvh: BvhClip, file: str) -> None:
         self._bvh = bvh
@@ -156,7 +157,9 @@ class _Motion:
         return raw_skeleton(self._bvh, self._file, found, places, quaternion.multiply(turn, self._rotations[0]))
 
     def by_zero_pose(self) -> JointMapping:
-        """Joints by names, and by where their bones are in the zero pose where these say nothing."""
+        """Find joints by the names of bones and, where these are not enough, by the bones' positions in the
+        zero pose.
+        """
         mapping = map_joints(self.figure)
         if _missing(mapping.bones):
             return mapping
@@ -165,12 +168,13 @@ class _Motion:
         return map_joints(facing_ahead(standing, mapping.bones, _foot_tips(self._bvh, standing, mapping.bones)))
 
     def read(self, mapping: JointMapping, named: bool, kept: Collection[str] = ()) -> CapturedBody | tuple[str, ...]:
-        """The body of these bones; what of it is wrong where that is no body.
+        """Build the body from the bones of its joints; if the result is no plausible body, return the names of the
+        wrong joints instead.
 
         Parameters
         ----------
         named : bool
-            True if names say the sides.
+            True if left and right are known from names.
         kept : collection of str
             Joints that a user corrected.
         """
@@ -201,7 +205,7 @@ class _Motion:
         return JointMapping("", bones, (), tuple(bones))
 
     def _captured(self, bones: Mapping[str, int]) -> tuple[Captured, str]:
-        """Return the body with Y up, and the axis of the file that points up."""
+        """Return the captured motion of these bones with Y up, and the axis of the file that points up."""
         up = _up(self.places, bones)
         turn = np.asarray(UPS[up].as_quat(), np.float64)
         segments = _segment_bones(self._bvh.parents, bones)

@@ -46,6 +46,7 @@ class Captured:
     Attributes
     ----------
     positions, rotations : ndarray, shapes (F, J, 3) and (F, J, 4)
+        World position and rotation of each of J bones in F frames.
     joints : mapping of str to int
         Bones by VRM 1.0 joint.
     segments : mapping of str to int
@@ -75,11 +76,11 @@ class Captured:
         return places
 
     def within(self, segment: str, ways: FloatArray) -> FloatArray:
-        """Directions (F, 3) of the world in the axes of a segment's bone."""
+        """Convert directions (F, 3) of the world to the axes of a segment's bone, in each frame."""
         return quaternion.rotate(quaternion.conjugate(self.rotations[:, self.segments[segment]]), ways)
 
     def mean(self, segment: str, ways: FloatArray) -> FloatArray:
-        """Mean (3,) of the unit directions, in the axes of a segment's bone."""
+        """Mean (3,) over the motion of world directions (F, 3), as unit vectors in the axes of a segment's bone."""
         mean: FloatArray = self.within(segment, unit(ways)).mean(axis=0)
         return mean
 
@@ -104,8 +105,8 @@ class Captured:
         return unit(total), min(self.bent(bend), _share(fixed, FIXED))
 
     def axis(self, segment: str, bend: FloatArray) -> tuple[FloatArray, float]:
-        """Return the sum (3,) of a bend's axes in a bone, and its length relative to the sum of theirs: 1 if all are
-        equal.
+        """Sum (3,) over the motion of a joint's bending axes (F, 3), in the axes of a segment's bone; and the constancy
+        of their direction, 1 if it never changes.
         """
         axes = self.within(segment, bend)
         total: FloatArray = axes.sum(axis=0)
@@ -117,13 +118,15 @@ class Captured:
         return _share(float(np.degrees(np.arcsin(sine))), BENT_DEG)
 
     def knuckles(self, side: str) -> list[FloatArray]:
-        """Places (F, 3) of the first joint of each finger there is, from the index on, without the thumb."""
+        """World positions (F, 3) of the first joint of each existing finger from the index finger on, without the
+        thumb.
+        """
         names = [f"{side}{finger}Proximal" for finger in FINGERS]
         return [self.at(name) for name in names if name in self.joints]
 
     @property
     def up(self) -> FloatArray:
-        """+Y in every frame, (F, 3)."""
+        """Up direction +Y repeated for every frame, (F, 3)."""
         return np.tile(Y, (len(self.positions), 1))
 
     @cached_property
@@ -138,7 +141,7 @@ class Captured:
 
     @cached_property
     def posed(self) -> IntArray:
-        """Frames (K,) of a T-pose that was put before or after the motion, which jumps from or to it."""
+        """Frames (K,) of a T-pose that was added before or after the motion; there the motion jumps."""
         upright = [np.einsum("fi,fi->f", unit(self.top - self.start("hips")), self.up)]
         for side, sign in SIDES:
             arm = unit(self.at(f"{side}Hand") - self.at(f"{side}UpperArm"))
@@ -162,7 +165,7 @@ class Captured:
 
     @cached_property
     def top(self) -> FloatArray:
-        """Joint on top of the chest, (F, 3)."""
+        """World position (F, 3) of the joint at the top of the chest."""
         return self.at("neck" if "neck" in self.joints else "head")
 
     @cached_property
@@ -178,14 +181,15 @@ def _share(value: float, bounds: tuple[float, float]) -> float:
 
 
 def unit(vectors: FloatArray) -> FloatArray:
-    """Return vectors of length 1 (zero ones stay zero)."""
+    """Scale vectors to length 1; zero vectors stay zero."""
     result: FloatArray = vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
     return result
 
 
 def middle(vectors: FloatArray) -> FloatArray:
-    """Point (3,) whose distances to vectors (N, 3) sum up to the least, the same in any axes: their median by component
-    is not."""
+    """Geometric median (3,) of N vectors (N, 3): the point with the least total distance to them, which unlike a median
+    by component does not depend on the axes.
+    """
     found: FloatArray = vectors.mean(axis=0)
     for _ in range(SETTLES):
         weights = 1.0 / np.maximum(np.linalg.norm(vectors - found, axis=1), NEAR_PART * np.linalg.norm(found) + 1e-12)

@@ -29,7 +29,7 @@ class CleanedClip:
     Attributes
     ----------
     clip : MotionClip
-        The motion proper, mended.
+        The actual motion, with damage repaired.
     held : int
         Number of file frames for which each frame was repeated; only one of them remains.
     lead_in, trail : int
@@ -82,7 +82,7 @@ def held(clip: MotionClip) -> int:
 
 
 def without_held(clip: MotionClip, count: int) -> MotionClip:
-    """Return the first of every group of equal frames, at the rate of the groups."""
+    """Keep the first of every ``count`` equal frames, at the accordingly lower frame rate."""
     if count == 1:
         return clip
     changed = np.flatnonzero((part_speeds(clip) > 0.0).any(axis=1)) + 1

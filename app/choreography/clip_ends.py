@@ -86,7 +86,7 @@ def _backwards(clip: MotionClip) -> MotionClip:
 
 
 def _lead(clip: MotionClip) -> int:
-    """Number of frames before the motion proper."""
+    """Number of frames before the actual motion begins."""
     poses = angle(clip.rotations, clip.rotations[:1]).max(axis=1)
     places = np.linalg.norm(clip.hips_m - clip.hips_m[0], axis=1)
     left = np.flatnonzero((poses > HELD_RAD) | (places > HELD_M))
@@ -147,7 +147,7 @@ def _off_t_pose(rotations: FloatArray, segments: Sequence[int]) -> FloatArray:
 
 
 def _still(clip: MotionClip) -> BoolArray:
-    """Return whether a body stands from each frame on (F,)."""
+    """Mask (F,) of the frames from which on a body stands still."""
     over = max(1, round(STILL_OVER_S * float(clip.fps)))
     later = np.minimum(np.arange(len(clip)) + over, len(clip) - 1)
     turns = angle(clip.rotations[:, _BODY], clip.rotations[later][:, _BODY]).max(axis=1)

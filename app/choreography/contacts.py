@@ -27,7 +27,9 @@ SMOOTH_S: Final = 0.025
 
 
 def tips_m(clip: MotionClip, world: JointTransforms | None = None) -> FloatArray:
-    """Return positions (F, 2, 3) of the tips of the left and right foot in the world (that of the clip, if given)."""
+    """World positions (F, 2, 3) of the tips of the left and the right foot; ``world`` are the clip's transforms, if
+    known.
+    """
     world = clip.world() if world is None else world
     joints = [1 + SEGMENTS.index(foot) for foot in FEET]
     ends = clip.shape.ends_m[[ENDS.index(foot) for foot in FEET]]
@@ -35,7 +37,9 @@ def tips_m(clip: MotionClip, world: JointTransforms | None = None) -> FloatArray
 
 
 def foot_contacts(clip: MotionClip) -> BoolArray:
-    """Return whether the left and the right foot stand (F, 2), by speed and height of their tips, with hysteresis."""
+    """Mask (F, 2) of the frames in which the left and the right foot stand on the floor, judged by speed and height of
+    their tips, with hysteresis.
+    """
     fps, tips = float(clip.fps), tips_m(clip)
     if len(clip) < 2:
         return np.ones((len(clip), 2), bool)

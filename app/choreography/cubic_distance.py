@@ -36,13 +36,13 @@ def between(
 
 
 def window_lengths(fps: float, most_s: float) -> list[int]:
-    """Steps of the windows of up to a time; two at least."""
+    """Lengths of the windows to compare, in frame steps from two up to ``most_s`` seconds."""
     most = max(2, int(most_s * fps))
     return sorted({round(one) for one in np.geomspace(2, most, min(MOST_WINDOWS, most - 1))})
 
 
 def part_of_bound(length_s: float) -> float:
-    """Return the bound of a window of a time relative to that for `FAR_S`."""
+    """Return the bound for windows of a length in seconds, relative to the bound for windows of `FAR_S`."""
     return float(max(LEAST_PART, (length_s / FAR_S) ** GROWS))
 
 
@@ -59,7 +59,9 @@ def turns_off(rotations: FloatArray, start: IntArray, part: IntArray, length: in
 
 
 def moves_off(places: FloatArray, start: IntArray, length: int) -> FloatArray:
-    """Return the distances of positions (F, 3) from the cubic in metres, as for rotations."""
+    """Largest distance (N,) in metres between positions (F, 3) and a cubic through both ends of each window; the
+    windows begin at the frames ``start`` (N,).
+    """
     ends = [places[start + step] for step in (-1, 0, length, length + 1)]
     slopes = length * (ends[1] - ends[0]), length * (ends[3] - ends[2])
     off = np.zeros(len(start))
@@ -70,5 +72,5 @@ def moves_off(places: FloatArray, start: IntArray, length: int) -> FloatArray:
 
 
 def _inside(length: int) -> list[int]:
-    """Return the compared frames of a window."""
+    """Steps within a window of ``length`` at which positions are compared."""
     return sorted({round(one) for one in np.linspace(1, length - 1, min(MOST_INSIDE, length - 1))})

@@ -98,7 +98,7 @@ class Damage:
     start, stop : int
         Last sound frame before the damage and first one after it.
     parts : tuple of str
-        Of `PARTS`, in their order.
+        Damaged parts of the body, from `PARTS` in their order.
     """
 
     start: int
@@ -155,7 +155,9 @@ def _unknown(
 def _off_the_cubic(
     clip: MotionClip, speeds: FloatArray, length: int, tolerance: float
 ) -> Iterator[tuple[int, int, int]]:
-    """Yield the spans (start, stop, part) far from a cubic fitted over a window of steps."""
+    """Yield the spans (start, stop, index of the body part) in which a part is far from the cubic through the ends of a
+    window of ``length`` steps.
+    """
     count = len(speeds) - length - 1
     if count < 1:
         return
@@ -207,7 +209,7 @@ def _too_far_bent(clip: MotionClip) -> Iterator[tuple[int, int, int]]:
 
 
 def _merged(found: Iterable[tuple[int, int, int]]) -> Iterator[Damage]:
-    """Yield spans of single parts that overlap or touch, joined to one with all their parts."""
+    """Merge spans of single body parts that overlap or touch into one damage with all these parts."""
     start, stop, parts = 0, -1, set[int]()
     for one_start, one_stop, part in sorted(found):
         if one_start <= stop:

@@ -20,7 +20,7 @@ class Manner:
     source : int or None
         Index of the model's source whose motion is preferred.
     size : float
-        Of trunk and arms about their usual pose, 1 as captured.
+        Size of the motion of trunk and arms; 1 as captured.
     melody : float
         Weight of melody, bass and accents relative to percussion, 0..1.
     weight : float
@@ -43,11 +43,11 @@ class SegmentStep:
     Attributes
     ----------
     segment : int
-        In the model.
+        Index of the segment in the model.
     place : int
         Index of its accent in the grid of beats and their divisions.
     start_s, accent_s, end_s : float
-        In the piece.
+        Times in the piece, in seconds, of the segment's start, accent and end.
     """
 
     segment: int
@@ -71,7 +71,7 @@ class Dance:
     seams : tuple of int
         Frames at which motion begins that does not continue the capture before it.
     standing : tuple of FootPlant
-        Stands of the feet.
+        Spans in which a foot stands still.
     """
 
     clip: MotionClip

@@ -80,7 +80,9 @@ def sliding_stands(clip: MotionClip, standing: Sequence[FootPlant]) -> tuple[Foo
 
 
 def _changes(rotations: FloatArray, fps: Fraction) -> FloatArray:
-    """(N, F - 2, 16) change of angular velocity of motions (N, F, 16, 4) from frame to frame, rad/s."""
+    """Change (N, F - 2, 16) of the angular velocity of 16 segments from frame to frame in rad/s, for N motions (N, F,
+    16, 4).
+    """
     steps = quaternion.multiply(quaternion.conjugate(rotations[:, :-1]), rotations[:, 1:])
     velocity = quaternion.to_rotation_vector(steps) * float(fps)
     return np.asarray(np.linalg.norm(np.diff(velocity, axis=1), axis=-1))

@@ -93,6 +93,7 @@ class _Moments:
     Attributes
     ----------
     times_s : (M,) float64
+        Times in seconds.
     velocities : (M,) float64
         Velocity of the loudest note that begins.
     counts : (M,) float64
@@ -172,8 +173,9 @@ class _Moments:
         return np.asarray((salience >= 1.0) & greatest)
 
     def _begun(self, which: np.ufunc) -> IntArray:
-        """Return the highest or lowest pitch (M,) that begins at each of M moments, as ``which`` is maximum or
-        minimum."""
+        """Highest or lowest pitch (M,) among the notes that begin at each of M moments; ``which`` is `np.maximum` or
+        `np.minimum`.
+        """
         return np.asarray(which.reduceat(self._pitches, self._first), np.int64)
 
     def _sounding(self, time_s: float) -> IntArray:

@@ -43,14 +43,14 @@ class DancersDrums:
     shares: FloatArray
 
     def likeness(self, rhythm: Rhythm) -> tuple[FloatArray, FloatArray]:
-        """Return by beat the similarity of a piece's sounds to the dancers', and the dissimilarity to each dancer's.
+        """Compare the drum sounds around each beat of a piece with those that the dancers heard.
 
         Returns
         -------
         like : (N,) float64
-            Similarity 0..1; 0 without familiar sounds.
+            For each beat the similarity to the sounds of all dancers, 0..1; 0 without familiar sounds.
         unlike : (N, K) float64
-            Relative entropies.
+            For each beat the dissimilarity to each dancer's sounds, as relative entropy.
         """
         known = self.shares.any(axis=0)
         counts, shares = _around(rhythm)[:, known], self.shares[:, known]
@@ -103,7 +103,7 @@ def take_shares(
     Parameters
     ----------
     lasting : (S,) float64
-        Length of each segment.
+        Length of each segment in seconds.
     """
     captured = np.bincount(takes, lasting, len(drums.shares))
     if len(rhythm.beats_s) < 2:

@@ -36,7 +36,7 @@ _ALONG: Final = {
 
 
 def features(clip: MotionClip, cuts: Sequence[Cut]) -> FloatArray:
-    """Return features of motions of a clip.
+    """Compute for each motion of a clip, given as cuts, the features by which motions are compared.
 
     Returns
     -------
@@ -61,7 +61,7 @@ def facing(clip: MotionClip) -> FloatArray:
 
 
 def points_m(clip: MotionClip) -> FloatArray:
-    """(F, 21, 3) places of the joints of `SEGMENTS`, then of `ENDS`, in the world."""
+    """World positions (F, 21, 3) of the joints of `SEGMENTS`, followed by those of `ENDS`."""
     world = clip.world()
     last = [1 + SEGMENTS.index(name) for name in ENDS]
     ends = world.positions_m[:, last] + quaternion.rotate(world.rotations[:, last], clip.shape.ends_m)

@@ -41,7 +41,7 @@ NEVER: Final = -1e9
 
 @dataclass(frozen=True, eq=False)
 class Footfalls:
-    """Stands of the feet, and the moment of the motion that each foot has between them.
+    """Foot plants moved to beats, and for each foot the frame of the motion to show between them.
 
     Attributes
     ----------
@@ -62,20 +62,20 @@ def on_beats(
     step_s: float,
     speeds_m_s: FloatArray | None = None,
 ) -> Footfalls:
-    """Return the stands shifted to begin on nearby places of the grid.
+    """Move foot plants so that they begin on nearby accents of the grid.
 
     Parameters
     ----------
     standing : sequence of FootPlant
-        Stands by start, see `app.choreography.standing_feet.stands`.
+        Foot plants ordered by start, from `app.choreography.standing_feet.stands`.
     frames : int
-        Of the motion.
+        Number of frames of the motion.
     first_s : float
         Time of frame 0 in seconds.
     step_s : float
         Usual time of a step.
     speeds_m_s : (F, 2) float64, optional
-        Of the feet.
+        Speeds of the left and the right foot.
     """
     kicked = set() if speeds_m_s is None else _kicked(standing, speeds_m_s)
     falls = [at for at, stand in enumerate(standing) if stand.start > 0]
@@ -130,7 +130,8 @@ def _leaves(
     fps: float,
     step_s: float,
 ) -> int:
-    """Return the frame in which a foot leaves the floor between two landings.
+    """Choose the frame in which a foot leaves the floor between two of its landings, which were moved to the frames
+    ``came`` and ``comes``.
 
     It does not leave before the other foot has landed, if the motion has them in this order.
     """
@@ -148,9 +149,9 @@ def _leaves(
 def _chosen(
     falls: Sequence[FootPlant], fps: float, first_s: float, grid: AccentGrid, bounds_s: Sequence[tuple[float, float]]
 ) -> list[float]:
-    """Return the frames of landings with the greatest total value, by dynamic programming over consecutive pairs.
+    """Choose the frames of all landings with the greatest total value, by dynamic programming over consecutive pairs.
 
-    ``bounds_s`` are the first and last possible time of each.
+    ``bounds_s`` has the first and last possible time of each landing.
     """
     times = [first_s + fall.start / fps for fall in falls]
     alone = [_options(time_s, grid, *bounds) for time_s, bounds in zip(times, bounds_s, strict=True)]
@@ -202,8 +203,9 @@ def _along(
     options: Sequence[Sequence[tuple[float, float]]],
     bounds_s: Sequence[tuple[float, float]],
 ) -> list[tuple[float, float]]:
-    """Return the possible times of a landing with their values if the other foot lands a moment before or after, so
-    that both keep their distance in time."""
+    """Possible times of the landing ``at``, with their values, that keep its distance in time from a landing of the
+    other foot just before or after.
+    """
     found = []
     for other in (at - 1, at + 1):
         if not 0 <= other < len(falls) or falls[other].foot == falls[at].foot:

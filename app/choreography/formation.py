@@ -44,7 +44,7 @@ class Role:
 
 
 def roles(formation: Formation, dancers: int, manner: Manner, sources: int) -> tuple[Role, ...]:
-    """Return the roles of dancers in a row from the audience's left.
+    """Assign roles to dancers in a row, ordered from the audience's left.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def roles(formation: Formation, dancers: int, manner: Manner, sources: int) -> t
     manner : Manner
         Style of the first dancer, from which the others' are derived.
     sources : int
-        Of the model.
+        Number of sources (captured dancers) of the model.
     """
     found = []
     for number in range(dancers):

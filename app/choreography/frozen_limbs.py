@@ -65,7 +65,7 @@ def frozen(clip: MotionClip, speeds: FloatArray) -> Iterator[tuple[int, int, int
 
 
 def with_held(speeds: FloatArray, found: set[tuple[int, int, int]]) -> set[tuple[int, int, int]]:
-    """Return the spans extended by adjacent frames in which the segment is held."""
+    """Extend the spans of frozen parts by the adjacent frames in which the part does not move either."""
     still = speeds <= EXACT
     long = [
         [run for run in runs(still[:, part]) if run[1] - run[0] >= FROZEN] if _is_seldom(still[:, part]) else []

@@ -113,7 +113,7 @@ class Choreographer:
 
     @cached_property
     def _beat_s(self) -> float:
-        """Return the usual time in seconds between footfalls in the capture."""
+        """Usual time in seconds between footfalls in the captures."""
         gaps_s = np.concatenate([np.diff(falls) for falls in self._falls_s])
         return own_beat_s(gaps_s) if len(gaps_s) else BEAT_S
 
@@ -141,19 +141,20 @@ class Choreographer:
 
     @cached_property
     def _hits_s(self) -> FloatArray:
-        """Time (S,) in its clip of that moment of each of S segments which is put on the beat, in seconds."""
+        """Time (S,) in seconds, within its clip, of the moment of each of S segments that is put on a beat."""
         slow = [smoothed(speed, fps) for speed, fps in zip(self._speeds, self._fps, strict=True)]
         return accents_s(self.model.segments, self._fps, slow, self._arrivals, self._falls_s)
 
     @cached_property
     def _idle(self) -> FloatArray:
-        """Log odds (S,) against each segment because its dancer idles rather than dances (see
-        `app.choreography.idling.idling_odds`)."""
+        """Log odds (S,) against each of S segments whose dancer idles rather than dances (see
+        `app.choreography.idling.idling_odds`).
+        """
         return idling_odds(self.model.segments, self._speeds, self._fps)
 
     @cached_property
     def _step_s(self) -> float:
-        """Usual time of a step in the capture."""
+        """Usual time in seconds that a step takes in the captures."""
         found = []
         for clip, standing in zip(self.model.clips, self._stands, strict=True):
             found += steps_s(standing, float(clip.fps))
@@ -195,11 +196,12 @@ class Choreographer:
         first_s: float = 0.0,
         end_s: float | None = None,
     ) -> Dance:
-        """Return a dance to a piece. Equal arguments give bitwise equal motion.
+        """Generate a dance to a piece. Equal arguments give bitwise equal motion.
 
         Parameters
         ----------
         constraints : Constraints, optional
+            The user's corrections.
         first_s, end_s : float
             Time of the first frame and of the end in seconds; by default from the first tick to `REST_S` after the last
             step.
@@ -278,14 +280,15 @@ class Choreographer:
         return take_shares(self.hearing.percussion.drums, rhythm, grid.times_s, takes, lasting)
 
     def _standing(self, frames: Sequence[int]) -> FloatArray:
-        """Return the log odds of beginning or ending at frames of the segments' clips, by the number of standing
-        feet.
+        """Log odds (S,) that favour beginning or ending segments at the given frames of their clips, by how many feet
+        stand there.
         """
         return np.asarray(0.5 * STANDING * (self._stitcher.feet_standing(frames) - 2.0))
 
     def _timed(self, chosen: Sequence[tuple[int, int]], grid: AccentGrid, body: int, held: BoolArray) -> _Plan:
-        """Return the plan of the chosen (accent, segment) pairs: segments at their first times, then shifted so that
-        all arrivals of the body fall on beats; those in the mask ``held`` stay."""
+        """Plan the times of chosen segments, given as pairs (accent, segment): first with their accents on the grid,
+        then shifted so that all arrivals of the body fall on beats; those in the mask ``held`` stay.
+        """
         if not chosen:
             return _Plan((), None, np.zeros(0))
         candidates, segments = self.candidates, np.array([segment for _, segment in chosen])
@@ -385,7 +388,7 @@ class Choreographer:
 
 
 def _sized(clip: MotionClip, size: float) -> MotionClip:
-    """Trunk and arms turned more or less far from their mean pose."""
+    """Scale the rotations of trunk and arms about their mean pose by ``size``."""
     if size == 1.0:
         return clip
     rotations = clip.rotations.copy()

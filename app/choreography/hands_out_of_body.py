@@ -119,7 +119,7 @@ def _deepest_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArra
 
 
 def _away_m(point: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
-    """(F, 3) from the nearest place of a line to a point."""
+    """Vector (F, 3) from the nearest position on the line segment ``start``..``end`` to a point, in metres."""
     axis = end - start
     squared = np.maximum(np.einsum("fi,fi->f", axis, axis), 1e-9)
     at = np.clip(np.einsum("fi,fi->f", point - start, axis) / squared, 0.0, 1.0)

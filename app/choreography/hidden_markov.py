@@ -17,7 +17,7 @@ from app.choreography.rhythm import SYMBOLS
 def count(
     states: Sequence[IntArray], symbols_per_segment: Sequence[Sequence[IntArray]], n_states: int, *, smoothing: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return transition, emission and initial probabilities counted in state sequences.
+    """Count the transition, emission and initial probabilities of a hidden Markov model in state sequences.
 
     Parameters
     ----------

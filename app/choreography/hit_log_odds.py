@@ -21,14 +21,14 @@ SAME_S: Final = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class HeardHits:
-    """Hits of a piece as log odds of each segment.
+    """The H drum hits of a piece, with the log odds of each sounding during each of S segments.
 
     Attributes
     ----------
     times_s : (H,) float64
-        Ascending.
+        Ascending times of the hits in seconds.
     summed : (H + 1, S) float64
-        Cumulative log odds of all hits before each one, if they sounded during the segment.
+        Cumulative sums of the log odds of all earlier hits for each segment.
     """
 
     times_s: FloatArray
@@ -47,15 +47,16 @@ class HeardHits:
 
 @dataclass(frozen=True, eq=False)
 class SoundOdds:
-    """Log odds of a sound during each segment of a model, as the sum of two parts.
+    """Log odds of each of 47 sounds during each of S segments of a model, as the sum of two parts.
 
     Attributes
     ----------
     of_dancers : (S, 47) float64
         Mean over the segments of each clip: the sounds to which its dancer danced.
     of_motions : (S, 47) float64
-        Additional log odds of each motion.
+        Additional log odds of each segment's motion.
     drums : DancersDrums
+        Sounds to which each dancer was captured.
     """
 
     of_dancers: FloatArray
@@ -74,7 +75,7 @@ class SoundOdds:
 
 @dataclass(frozen=True, eq=False)
 class Hearing:
-    """Log odds of a sound during each segment of a model, relative to its frequency.
+    """Log odds with which sounds belong to the segments of a model, relative to how frequent the sounds are.
 
     Attributes
     ----------
@@ -87,7 +88,8 @@ class Hearing:
     melody: SoundOdds
 
     def hits(self, rhythm: Rhythm, melody: float, *, any_dancer: bool = True) -> HeardHits:
-        """Return the hits of a piece, weighted by strength, regardless of their place within a segment as in learning.
+        """Return the hits of a piece with their log odds for each segment, weighted by strength, regardless of their
+        position within a segment.
 
         Parameters
         ----------
@@ -108,7 +110,8 @@ class Hearing:
 
 
 def hearing(model: ChoreographyModel, trust: float = 1.0) -> Hearing:
-    """Return the sounds of a model's segments; a model without melodies uses the percussion that they replace.
+    """Compute the log odds of sounds for a model's segments; a model without melodies uses the percussion that they
+    replace.
 
     Parameters
     ----------
@@ -133,7 +136,7 @@ def _odds(
     known: Sequence[int],
     trust: float,
 ) -> SoundOdds:
-    """Return the log odds of each symbol during each segment.
+    """Return the log odds of each sound (``symbols``) during each segment.
 
     A basic motion of several dancers was danced to the drums of each; those of its own dancer have most weight. A
     symbol that was never heard gives no information, although smoothing alone would favour the motions with fewest

@@ -26,7 +26,7 @@ THIN_SHARE: Final = 0.8
 
 
 def idling_odds(segments: Sequence[MotionSegment], speeds: Sequence[FloatArray], rates: Sequence[float]) -> FloatArray:
-    """Return the log odds (S,) against each segment.
+    """Log odds (S,) against each of S segments in which the body idles or hardly moves.
 
     Parameters
     ----------

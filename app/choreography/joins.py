@@ -32,13 +32,16 @@ class Clouds:
     Parameters
     ----------
     places : sequence of (clip, frame)
+        Index of the clip and frame of each of N bodies.
 
     Attributes
     ----------
     flat : (N, P) complex128
-        Places on the floor as ``z + i x``, metres (of a body of 1.7 m), from their weighted middle.
+        Positions on the floor as ``z + i x``, in metres of a body of 1.7 m, relative to ``middle``.
     middle : (N,) complex128
+        Weighted middle of the points on the floor, as ``flat``.
     height : (N, P) float64
+        Heights of the P points in metres.
     """
 
     def __init__(self, clips: Sequence[MotionClip], places: Sequence[tuple[int, int]]) -> None:
@@ -87,7 +90,7 @@ def fading_difference(value: FloatArray, slope: FloatArray, times_s: FloatArray,
     value, slope : (...)
         Value at time 0, and its rate of change per second.
     times_s : (T,) float64
-        From 0 on.
+        Times in seconds, from 0 on.
 
     Returns
     -------

@@ -42,7 +42,7 @@ class Pair:
     Attributes
     ----------
     motion_name : str
-        Of the file, without folders.
+        Name of the motion file, without folders.
     offset_s : float or None
         Time of the motion at the music's first tick in seconds; None to find it.
     credits : str
@@ -87,7 +87,7 @@ class Analysis:
 
 
 def analyse(pair: Pair) -> Analysis:
-    """Return the cuts of a pair's motion, and the start of its music."""
+    """Cut a pair's motion into segments, and find the start of its music."""
     clip = stored(pair.motion)
     found, unfit = segment(clip), _unfit(pair)
     fit = replace(found, cuts=_fit(found.cuts, unfit))
@@ -113,7 +113,7 @@ def learn(
     name: str,
     progress: Callable[[float, str], None] = lambda fraction, label: None,
 ) -> ChoreographyModel:
-    """Return a model of basic motions and their probabilities.
+    """Learn a choreography from pairs of motion and music.
 
     Parameters
     ----------

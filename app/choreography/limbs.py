@@ -1,4 +1,4 @@
-"""Legs and arms of a motion with moved ends."""
+"""Moves the ends of legs and arms of a motion to given positions, and limits knees."""
 
 from __future__ import annotations
 
@@ -26,7 +26,9 @@ _ACROSS: Final = (1.0, 0.0, 0.0)
 
 
 def unbroken(clip: MotionClip) -> MotionClip:
-    """Return the motion without knees that bend backwards, or so far that the shank would go through the thigh."""
+    """Return the motion with knees limited, so that they neither bend backwards nor so far that the shank enters the
+    thigh.
+    """
     rotations = clip.rotations.copy()
     for side in SIDES:
         shank = rotations[:, SEGMENTS.index(f"{side}LowerLeg")]
@@ -56,13 +58,13 @@ def bend(
     Parameters
     ----------
     world : JointTransforms
-        Of the clip.
+        World transforms of the clip.
     limb : tuple of str
         Names of the segments: parent of the limb, its two parts, and its foot or hand.
     ankle : (F, 3) float64
-        The place.
+        Position that the ankle or wrist must reach.
     ahead : 3 floats
-        Direction of a straight limb's knee, relative to its upper part.
+        Direction in which the knee of a straight leg points, in the axes of the limb's upper part.
     rotations : (F, 16, 4) float64
         Array that receives the limb's new rotations.
     """

@@ -90,7 +90,9 @@ def _short(one: Damage, clip: MotionClip) -> bool:
 
 
 def _pairs(clip: MotionClip, jumps: Sequence[Damage]) -> list[Damage]:
-    """Return the spans between two jumps of a segment during which it is out of place."""
+    """Find pairs of jumps of one body part, of which the second undoes the first, and return the spans in between as
+    damage.
+    """
     found = []
     for at, part in enumerate(PARTS):
         back = -1
@@ -107,7 +109,9 @@ def _pairs(clip: MotionClip, jumps: Sequence[Damage]) -> list[Damage]:
 
 
 def _swapped(part: str, one: Damage, other: Damage) -> bool:
-    """Return whether a segment and that of the other side jump in both."""
+    """Return whether in both jumps the same part of the other side jumps too, as when left and right markers are
+    swapped.
+    """
     if not part.startswith(("left", "right")):
         return False
     opposite = part.replace("left", "right") if part.startswith("left") else part.replace("right", "left")
@@ -115,7 +119,7 @@ def _swapped(part: str, one: Damage, other: Damage) -> bool:
 
 
 def _undone(clip: MotionClip, at: int, one: Damage, other: Damage) -> bool:
-    """Return whether the second jump of a segment undoes the rotation of the first."""
+    """Return whether the second of two jumps turns the segment ``at`` back by about the rotation of the first."""
     turns = clip.rotations[:, at]
     steps = [quaternion.multiply(quaternion.conjugate(turns[jump.start]), turns[jump.stop]) for jump in (one, other)]
     left = float(angle(quaternion.multiply(steps[0], steps[1]), quaternion.IDENTITY))
@@ -153,7 +157,7 @@ class _Body:
         self._fade = round(FADE_S * float(clip.fps))
 
     def jumped(self, one: Damage) -> tuple[str, ...]:
-        """Return the parts that are not where the motion before and after damage leads."""
+        """Return the body parts that after a damaged span are not where the motion before and after it would lead."""
         found = []
         for part in one.parts:
             if part == "place":
@@ -168,7 +172,7 @@ class _Body:
         return tuple(found)
 
     def goes_on(self, one: Damage, jumped: Sequence[str]) -> bool:
-        """Return whether only the hips jump, and with little tilt."""
+        """Return whether only the hips jump, with little tilt, so that the motion can continue from the new place."""
         if not set(jumped) <= {"hips", "place"}:
             return False
         missing = quaternion.multiply(_led(self._turns[:, 0], one), quaternion.conjugate(self._turns[one.stop, 0]))
@@ -236,12 +240,14 @@ class _Body:
 
 
 def _steps(one: Damage, count: int) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Return the frames of the steps before and after damage, within a clip of a length."""
+    """Frames of the last step before damage and of the first step after it, limited to a clip of ``count`` frames."""
     return (max(0, one.start - 1), one.start), (one.stop, min(one.stop + 1, count - 1))
 
 
 def _led(turns: FloatArray, one: Damage) -> FloatArray:
-    """Return the expected rotation at the first sound frame by the mean of the motion before and after."""
+    """Rotation (4,) expected at the first sound frame after damage, from the mean rotation speed before and
+    after it.
+    """
     vectors = [
         quaternion.to_rotation_vector(quaternion.multiply(quaternion.conjugate(turns[start]), turns[stop]))
         for start, stop in _steps(one, len(turns))

@@ -75,7 +75,7 @@ class ChoreographyModel:
     emission : (K, 47) float64
         ``B[i, o]``: probability of percussion symbol o in state i, smoothed; rows sum to 1.
     initial : (K,) float64
-        Smoothed; sums to 1.
+        Probability of each state at the beginning, smoothed; sums to 1.
     """
 
     name: str

@@ -128,14 +128,14 @@ def encode_model(model: ChoreographyModel) -> bytes:
 
 
 def _rows(value: Any) -> str:
-    """JSON with each element of a list on a line."""
+    """Format a value as JSON with each element of a list on its own line."""
     if not isinstance(value, list):
         return msgspec.json.encode(value).decode("utf-8")
     return "[\n " + ",\n ".join(msgspec.json.encode(row).decode("utf-8") for row in value) + "\n]"
 
 
 def decode_model(content: bytes, file: str) -> ChoreographyModel:
-    """The model of a file's bytes, as `read_model`."""
+    """Parse the bytes of a ``.choreography`` file; parameters and errors as of `read_model`."""
     check = _Check(file)
     try:
         version = decode_json(content, _Version, file).choreography_version
@@ -178,7 +178,7 @@ def decode_model(content: bytes, file: str) -> ChoreographyModel:
 
 
 class _Check:
-    """Validator of a file's contents, whose errors name the place."""
+    """Validates the contents of a choreography file; its errors name the wrong field."""
 
     def __init__(self, file: str) -> None:
         self._file = file

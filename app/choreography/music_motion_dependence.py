@@ -101,7 +101,7 @@ def verdict(found: Pairing) -> Message:
 
 
 def _earliest(groups: IntArray, places: FloatArray) -> FloatArray:
-    """Return for each element (S,) the least place of its group."""
+    """For each of S elements the least place among the elements of its group (S,)."""
     least = np.full(groups.max(initial=0) + 1, np.inf)
     np.minimum.at(least, groups, places)
     return np.asarray(least[groups])
@@ -133,7 +133,7 @@ class _Test:
 
     @property
     def is_long_enough(self) -> bool:
-        """Return whether there are motions in each part, and several permutations of their music."""
+        """Return whether both parts contain enough motions, and their music allows several permutations."""
         used = len(self._learned) + len(self._held_out)
         return used >= LEAST and min(map(len, (*self._parts, self._held_out))) > 0
 
@@ -144,8 +144,9 @@ class _Test:
         return float(self._told(self._learned, self._held_out, sounds, (trust,))[0])
 
     def other_order(self, random: np.random.Generator) -> IntArray:
-        """Return for each of S motions the index (S,) of the motion whose music it gets, with sections of each source
-        in random order."""
+        """Permute the music of the motions at random by sections of each source: for each of S motions the index (S,)
+        of the motion whose music it gets.
+        """
         order = np.empty(len(self._states), np.int64)
         for clip in range(self._shape[0]):
             own = np.flatnonzero(self._clips == clip)
@@ -156,7 +157,9 @@ class _Test:
         return order
 
     def _told(self, learned: IntArray, asked: IntArray, sounds: FloatArray, trusts: tuple[float, ...]) -> FloatArray:
-        """Return the bits per motion by which sounds predict given motions, at each of T levels of trust (T,)."""
+        """Information in bits per motion that sounds give about the motions ``asked``, after learning from ``learned``,
+        at each of T levels of trust (T,).
+        """
         counts = np.zeros((*self._shape, len(SYMBOLS)))
         np.add.at(counts, (self._clips[learned], self._states[learned]), sounds[learned])
         of_all = counts.sum(axis=0) + 1.0 / len(SYMBOLS)

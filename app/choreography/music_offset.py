@@ -59,7 +59,7 @@ class MusicOffset:
 
 
 def find_offset(clip: MotionClip, rhythm: Rhythm) -> MusicOffset:
-    """Return the offset at which the beats of a motion best meet hits and beats of the music; 0 with confidence 0 if
+    """Find the offset at which the beats of a motion best match the hits and beats of the music; 0 with confidence 0 if
     there are none.
     """
     frames, strengths = motion_beats(clip)
@@ -84,7 +84,7 @@ def motion_beats(clip: MotionClip) -> tuple[IntArray, FloatArray]:
     Returns
     -------
     frames : (N,) int64
-        Ascending.
+        Frames of the minima, ascending.
     strengths : (N,) float64
         Prominence of each minimum relative to the greatest, 0..1.
     """
@@ -95,7 +95,7 @@ def motion_beats(clip: MotionClip) -> tuple[IntArray, FloatArray]:
 
 
 def summed_speed_m_s(clip: MotionClip) -> FloatArray:
-    """(F,) speed of all points of the body together."""
+    """Sum (F,) of the speeds of all points of the body, in m/s."""
     return np.asarray(np.linalg.norm(np.gradient(joint_points_m(clip), axis=0), axis=-1).sum(axis=-1) * float(clip.fps))
 
 
@@ -106,8 +106,9 @@ def speed_minima(speed: FloatArray, fps: float, smoothing_s: float) -> tuple[Int
 
 
 def _pulses(times_s: FloatArray, weights: FloatArray, length_s: float) -> FloatArray:
-    """Return a grid (N,) from 0 to ``length_s`` in steps of `GRID_S` with a bump of each weight at its time, less its
-    mean."""
+    """Sample a pulse train on a grid (N,) from 0 to ``length_s`` in steps of `GRID_S`: a bump of the given weight at
+    each time, minus the mean.
+    """
     pulses = np.zeros(round(length_s / GRID_S) + 1)
     np.add.at(pulses, np.clip(np.round(times_s / GRID_S).astype(np.int64), 0, len(pulses) - 1), weights)
     bumps = gaussian_filter1d(pulses, TOLERANCE_S / np.sqrt(2.0) / GRID_S, mode="constant")

@@ -41,7 +41,9 @@ def groups_of_copies(model: ChoreographyModel) -> IntArray:
 
 
 def _groups(found: FloatArray, clips: IntArray) -> IntArray:
-    """Return the group (S,) of each of S motions with D features (S, D), in the order of their clips."""
+    """Group S motions by their features (S, D): the group (S,) of each, equal for copies of each other; ``clips`` are
+    the clips of the motions.
+    """
     count = len(found)
     # A point has three coordinates.
     most = COPIES * np.sqrt(found.shape[1] / 3.0)

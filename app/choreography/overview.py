@@ -21,9 +21,9 @@ class BasicMotion:
     Attributes
     ----------
     segments : int
-        Number of its segments.
+        Number of segments with this state.
     mean_s : float
-        Their mean length, seconds.
+        Mean length of these segments in seconds.
     sources : tuple of (int, int)
         Indices of sources with their numbers of segments, most segments first.
     poses : (3, 21, 2) float64

@@ -21,8 +21,9 @@ def prominent_peaks(values: FloatArray, least: float) -> tuple[IntArray, FloatAr
     Parameters
     ----------
     values : (F,) float64
+        The curve.
     least : float
-        Prominence of a peak at least.
+        Least prominence of a peak.
     """
     steps = np.flatnonzero(np.diff(values))
     if len(steps) < 2:
@@ -43,7 +44,9 @@ def prominent_peaks(values: FloatArray, least: float) -> tuple[IntArray, FloatAr
 
 
 def _lowest_sides(heights: Iterable[float], valleys: Iterable[float]) -> list[float]:
-    """Return the lowest value before each peak back to the last higher one; ``valleys`` are those before each."""
+    """For each peak the lowest value between it and the last higher peak before it; ``valleys`` are the lowest values
+    between consecutive peaks.
+    """
     lowest: list[float] = []
     higher: list[tuple[float, float]] = []
     for height, valley in zip(heights, valleys, strict=True):

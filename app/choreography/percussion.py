@@ -49,7 +49,9 @@ def piece_beats(score: Score) -> tuple[FloatArray, IntArray, IntArray]:
     Returns
     -------
     beats_s : (N,) float64
+        Time of each felt beat in seconds.
     bar_beats, divisions : (N,) int64
+        Index of each beat in its bar, and the number of parts that the metre divides it into.
     """
     end = score.sounding_end_tick
     first = 0 if score.pickup_ticks else 1

@@ -35,7 +35,7 @@ class ReturningPlaces:
     earlier : (G, B) int64
         For each place, the place at the same position of each bar; -1 if there is none.
     worths : (G, B) float64
-        Similarity of its bar to each earlier one relative to the mean of the piece: 1 for a recurrence, -1 for the
+        Similarity of the place's bar to each earlier bar, relative to the mean of the piece: 1 if it recurs, -1 for the
         opposite, 0 for bars that are not earlier.
     """
 
@@ -45,7 +45,9 @@ class ReturningPlaces:
 
 
 def returns_of_bars(rhythm: Rhythm) -> FloatArray:
-    """Return the values of `ReturningPlaces.worths` for each pair of B bars (B, B); bars are between downbeats."""
+    """Matrix (B, B) of the values of `ReturningPlaces.worths` for all pairs of B bars; a bar lasts from one downbeat to
+    the next.
+    """
     alike = _along_passages(likeness_of_bars(rhythm))
     bars = len(alike)
     later = np.tril(np.ones((bars, bars), bool), -APART_BARS)

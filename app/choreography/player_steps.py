@@ -87,14 +87,14 @@ class _Row:
 
 
 def danced_feet(dance: Dance, rhythm: Rhythm, seed: int, scale: float) -> DancedFeet:
-    """Return the movements of the feet of a player with a dance.
+    """Convert the steps of a dance to movements of the feet of a player who dances in place.
 
     Parameters
     ----------
     seed : int
         Seed of the variation, which selects heels or toes.
     scale : float
-        Length of the player's legs over an adult's.
+        Length of the player's legs relative to an adult's.
     """
     places_s, strong = _places(rhythm)
     if len(places_s) < 2 or not dance.steps:
@@ -166,7 +166,7 @@ def _touchdowns(dance: Dance) -> list[_Touchdown]:
 
 
 def _seen_m(stand: FootPlant, middle_m: FloatArray, back: FloatArray) -> FloatArray:
-    """Return the distance (2,) to the left and in front of the body at which a foot stands."""
+    """Position (2,) of a planted foot relative to the body, in metres to the left and forward."""
     frame = min((stand.start + stand.stop) // 2, len(middle_m) - 1)
     seen = quaternion.rotate(back[frame], np.array(stand.place_m) - middle_m[frame])
     return seen[[0, 2]]
@@ -205,15 +205,16 @@ def _stepped(
 
 
 def _nearest(time_s: float, places_s: FloatArray, strong: BoolArray) -> int:
-    """Return the index of the place of the beat that suits a landing best; places between beats count as farther
-    away."""
+    """Index of the place (beat or half beat) that suits the time of a landing best; places between beats count as
+    farther away.
+    """
     off_s = np.abs(places_s - time_s)
     beat_s = float(np.median(np.diff(places_s[strong])))
     return int((off_s + np.where(strong, 0.0, BETWEEN * beat_s)).argmin())
 
 
 def _is_late(time_s: float, place: int, places_s: FloatArray) -> bool:
-    """Return whether a touchdown may as well be at the next place."""
+    """Return whether a landing is so long after its place that the next place would suit it equally well."""
     if place + 1 == len(places_s):
         return False
     return bool(places_s[place + 1] - time_s < LATE * (places_s[place + 1] - places_s[place]))

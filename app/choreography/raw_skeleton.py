@@ -41,7 +41,7 @@ class RawSkeleton:
     found : JointMapping
         Bones found without corrections.
     places : ndarray, shape (J, 3)
-        Joints, Y up, in the file's unit.
+        Position of each joint, Y up, in the file's unit.
     lines : ndarray, shape (L, 2, 3)
         Lines from each bone's parent to the bone, and to the ends of the last ones.
     figures : tuple of str
@@ -71,7 +71,7 @@ class BodyError(FileError):
 
 
 def zero_pose(bvh: BvhClip, file: str) -> Figure:
-    """Return the zero pose in the file's unit, since its size does not matter."""
+    """Return the figure of the file's zero pose, in the file's unit."""
     still = np.zeros((len(bvh.names), 4))
     still[:, 3] = 1.0
     return Figure(file, "bvh", bvh.names, bvh.parents, np.asarray(bvh.offsets_cm, np.float64), still, ())
@@ -80,12 +80,12 @@ def zero_pose(bvh: BvhClip, file: str) -> Figure:
 def raw_skeleton(
     bvh: BvhClip, file: str, found: JointMapping, places: FloatArray, rotations: FloatArray
 ) -> RawSkeleton:
-    """Return a skeleton in one frame.
+    """Build the skeleton of one frame for showing it to the user.
 
     Parameters
     ----------
     places, rotations : ndarray, shapes (J, 3) and (J, 4)
-        In the world, Y up.
+        World positions and rotations of the joints, Y up.
     """
     lines = [(places[parent], places[joint]) for joint, parent in enumerate(bvh.parents) if parent >= 0]
     lines += [

@@ -154,7 +154,7 @@ def read_motion(
 
 
 def _of_figure(bvh: BvhClip, file: Path, fps: Fraction | None, joints: Mapping[str, str] | None) -> ReadMotion:
-    """The motion of a file's figure, within the limits."""
+    """Read the motion of one skeleton in a file, and check it against the size limits."""
     rate = fps or bvh.fps
     require_rate(rate, str(file))
     seconds = (len(bvh.rotations_xyzw) - 1) / float(rate)
@@ -185,7 +185,7 @@ def guesses(motion: ReadMotion) -> tuple[Message, ...]:
 def motion_of(
     bvh: BvhClip, file: str, fps: Fraction | None = None, joints: Mapping[str, str] | None = None
 ) -> ReadMotion:
-    """Motion of a clip; ``file`` is for messages. See `read_motion`."""
+    """Read the motion of a clip; ``file`` is its name for messages, other parameters as of `read_motion`."""
     lengths = (bvh.offsets_cm, bvh.root_translation_cm, *bvh.end_sites_cm.values(), *bvh.translations_cm.values())
     if any((np.abs(one) > FARTHEST_CM).any() for one in lengths):
         raise FileError("motion.far", file=file)
@@ -231,7 +231,7 @@ def _places_factor(positions: FloatArray, bones: Mapping[str, int]) -> float:
     Parameters
     ----------
     positions : ndarray, shape (F, J, 3)
-        Y up.
+        World positions of J joints, Y up.
     """
     hips, feet = positions[:, bones["hips"]], positions[:, [bones[name] for name in FEET]]
     leg = [bones[f"left{name}"] for name in ("UpperLeg", "LowerLeg", "Foot")]
@@ -259,7 +259,7 @@ def _with_places(bvh: BvhClip, hips: int, factor: float) -> BvhClip:
 
 
 def _offsets(positions: FloatArray, rotations: FloatArray) -> FloatArray:
-    """Return the mean place (16, 3) of each segment's joint on the parent segment."""
+    """Mean position (16, 3) of each segment's joint relative to its parent segment, in the parent's axes."""
     offsets = np.zeros((len(SEGMENTS), 3))
     for at, name in enumerate(SEGMENTS[1:], start=1):
         above = SEGMENTS.index(PARENT_OF[name])
@@ -269,8 +269,9 @@ def _offsets(positions: FloatArray, rotations: FloatArray) -> FloatArray:
 
 
 def _end(name: str, ways: FloatArray) -> FloatArray:
-    """Return the farthest tip (3,) of a last segment among the points ``ways`` (N, 3) in the T-pose, for the crown,
-    hand or foot."""
+    """Vector (3,) to the farthest of the points ``ways`` (N, 3) attached to a last segment (head, hand or foot), in the
+    T-pose.
+    """
     along = {"head": (0.0, 1.0, 0.0), "leftHand": (1.0, 0.0, 0.0), "rightHand": (-1.0, 0.0, 0.0)}
     reach = ways @ np.array(along.get(name, (0.0, 0.0, 1.0)))
     # A head reaches up over what sticks out of it (eyes); the others as far as the farthest.
@@ -278,7 +279,9 @@ def _end(name: str, ways: FloatArray) -> FloatArray:
 
 
 def _apart(clip: MotionClip, seen: FloatArray) -> float:
-    """Return the greatest distance of a joint from its place in the file relative to the hips (F, 16, 3)."""
+    """Greatest distance in metres of a joint of the clip from its position in the file, given relative to the hips as
+    ``seen`` (F, 16, 3).
+    """
     joints = clip.world().positions_m[:, 1:]
     return float(np.linalg.norm(joints - joints[:, :1] - seen, axis=-1).max())
 
@@ -322,7 +325,7 @@ def _lengthened(ends: FloatArray, height: float) -> FloatArray:
 
 
 def _floor(positions: FloatArray, rotations: FloatArray, ends: FloatArray) -> float:
-    """Height of the lower foot's lower point in the lowest frames."""
+    """Height of the floor: that of the lowest point of the lower foot in the lowest frames."""
     heights = []
     for name in ENDS[3:]:
         at = SEGMENTS.index(name)

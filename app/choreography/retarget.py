@@ -53,7 +53,7 @@ KNEE_AHEAD: Final = 0.02
 
 
 def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0) -> Motion:
-    """Return the motion of a character.
+    """Transfer a motion to a character.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
     Returns
     -------
     Motion
-        Without morphs and controls; no instrument.
+        Motion of the character's body, without morphs, controls and instrument.
     """
     skeleton, frames = character.skeleton, len(clip)
     source = clip.world()
@@ -104,7 +104,7 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
 
 
 def _socket_height_m(skeleton: Skeleton) -> float:
-    """Height of the hip joints in the T-pose."""
+    """Height in metres of the hip joints above the floor in the T-pose."""
     rest = rest_positions(skeleton)
     return float(np.mean([rest[skeleton.index(f"{side}UpperLeg"), 1] for side in SIDES]))
 
@@ -278,7 +278,7 @@ def _clip_ankle_height_m(shape: BodyShape, side: Side) -> float:
 
 
 def _sole_m(skeleton: Skeleton, side: Side, foot: FloatArray, ankle_m: FloatArray) -> FloatArray:
-    """(F,) height of the lowest point of a sole: heel, ball or tip."""
+    """Height (F,) in metres of the lowest point of a sole: heel, ball or tip."""
     way, height_m = sole_way_m(skeleton, side)
     sole = [np.array([part * way[0], -height_m, part * way[2]]) for part in (-HEEL_PART, 1.0, 1.0 + TIP_PART)]
     lowest: FloatArray = np.min([ankle_m[:, 1] + quaternion.rotate(foot, point)[:, 1] for point in sole], axis=0)

@@ -20,23 +20,23 @@ class Rhythm:
     Attributes
     ----------
     beats_s : (N,) float64
-        Ascending; felt beats from the first tick to behind the last hit or note.
+        Ascending times of the felt beats, from the first tick to after the last hit or note.
     bar_beats : (N,) int
         Place of each beat in its bar from 0 (the downbeat).
     hits_s : (H,) float64
-        Ascending.
+        Ascending times of the hits.
     symbols : (H,) int
-        0..46, see `SYMBOLS`.
+        Sound of each hit, 0..46, see `SYMBOLS`.
     strengths : (H,) float64
         0..1, the velocity of each hit.
     derived : bool
-        The piece has no percussion: the symbols were derived from melody, bass and accents.
+        Whether the piece has no percussion, so that the symbols were derived from melody, bass and accents.
     divisions : (N,) int, optional
         Division of each beat by the metre: 3 for a dotted quarter of six eighths; 2 by default.
     melody : Rhythm, optional
         Hits for melody, bass and accents in addition to percussion.
     written : (N,) bool, optional
-        Whether each beat is one of the piece; others are felt between these, see `felt_at`.
+        Whether each beat is one of the piece itself; dancers may feel others in between, see `felt_at`.
     """
 
     beats_s: FloatArray
@@ -60,7 +60,7 @@ def are_alike(one: Rhythm | None, other: Rhythm | None) -> bool:
 
 
 def delayed(rhythm: Rhythm, beats: float) -> Rhythm:
-    """Return the rhythm for a voice of a canon that enters some beats later, at the tempo there."""
+    """Shift a rhythm by a number of beats at its own tempo, for a dancer who enters later in a canon."""
     if len(rhythm.beats_s) < 2:
         return rhythm
     count = np.arange(len(rhythm.beats_s), dtype=np.float64)
@@ -95,7 +95,7 @@ def own_beat_s(gaps_s: FloatArray) -> float:
     Parameters
     ----------
     gaps_s : (N,) float64
-        N is 1 at least.
+        Times between footfalls in seconds, at least one.
     """
     quarter = len(gaps_s) // 4
     return float(np.mean(np.sort(gaps_s)[quarter : len(gaps_s) - quarter]))

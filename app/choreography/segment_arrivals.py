@@ -26,7 +26,7 @@ def accents_s(
     arrivals: Sequence[IntArray],
     falls_s: Sequence[FloatArray],
 ) -> FloatArray:
-    """Return the time (S,) in its clip of each segment's moment that is put on the beat.
+    """Time (S,) in its clip of the moment of each of S segments that is put on the beat.
 
     It is an arrival with a footfall; else an arrival; else the slowest moment from the accent on. Among several the
     slowest is used.
@@ -56,7 +56,9 @@ def meets_of(
     falls_s: Sequence[FloatArray],
     accents: FloatArray,
 ) -> SegmentMeets:
-    """Arrivals and footfalls of segments, from their accents; parameters as of `accents_s`."""
+    """Collect the arrivals and footfalls within segments, relative to the segments' accents; parameters as of
+    `accents_s`.
+    """
     own, at_accent = [], np.zeros(len(segments))
     for number, (one, accent_s) in enumerate(zip(segments, accents.tolist(), strict=True)):
         events = []

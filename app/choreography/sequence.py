@@ -44,13 +44,13 @@ class Weights:
     Attributes
     ----------
     join_per_m : float
-        Of the distance at a join.
+        Cost of the distance at a join, per metre.
     speed : float
         Cost of a motion at a limit of `SPEEDS`; quadratic between.
     off_beat : float
-        Of an accent between two beats.
+        Cost of an accent between two beats.
     model : float
-        Of the model's log odds.
+        Weight of the model's log odds of transitions and sounds.
     heard : float
         Weight of the log odds of hits in addition to ``model``.
     chance : float
@@ -105,7 +105,7 @@ class SegmentCandidates:
     states : (S,) int
         The basic motion (state of the hidden Markov model) of each segment.
     before_s, after_s : (S,) float64
-        From start to accent and from accent to end, as captured.
+        Seconds from start to accent and from accent to end, as captured.
     joins_m : (S, S) float64
         Distance in metres between the end of one and the start of another.
     log_transition : (S, S) float64
@@ -129,10 +129,11 @@ class Constraints:
     Attributes
     ----------
     pinned : mapping of int to int
-        State by place of the grid, which must have an accent of this state.
+        State that must have its accent at a place of the grid, by place.
     segments : mapping of int to int
-        Segment by place.
+        Segment that must have its accent at a place, by place.
     forbidden : frozenset of (place, state)
+        States that must not have their accent at a place.
     """
 
     pinned: Mapping[int, int] = field(default_factory=dict)
@@ -154,23 +155,25 @@ def choose(
     returns: ReturningPlaces | None = None,
     takes: TakeShares | None = None,
 ) -> list[tuple[int, int]]:
-    """Return the best segments for a piece.
+    """Find the best sequence of segments for a piece.
 
     Parameters
     ----------
     heard : HeardHits
         Log odds of hits by segment of the candidates.
     constraints : Constraints, optional
+        The user's corrections.
     usual, initial, final : (S,) float64, optional
-        Log odds of each segment in general, as the first, and as the last.
+        Log odds of each segment anywhere, as the first, and as the last.
     returns : ReturningPlaces, optional
+        Places at which earlier music recurs.
     takes : TakeShares, optional
         Share of each take; by drums only if omitted.
 
     Returns
     -------
     list of (place, segment)
-        Places ascending. Empty without places or segments.
+        Ascending places with the segment whose accent is there; empty without places or segments.
     """
     weights, constraints = weights or Weights(), constraints or Constraints()
     count, segments = len(grid.times_s), len(candidates.states)
@@ -209,7 +212,7 @@ def choose(
 
 
 def _varied(returns: ReturningPlaces, random: np.random.Generator) -> ReturningPlaces:
-    """Return the recurrences without randomly chosen bars, which are danced anew."""
+    """Leave out randomly chosen bars from the recurrences, so that they get a new dance."""
     anew = random.random(returns.worths.shape[1] + 1) < ANEW
     return replace(
         returns, worths=np.where(anew[returns.bars][:, None], np.minimum(returns.worths, 0.0), returns.worths)
@@ -345,7 +348,7 @@ class _Search:
         return bisect_right(self._grid.beats, self._grid.beats[place] + MOST_BEATS + 1e-6) - 1
 
     def reaches(self, place: int, later: int) -> bool:
-        """Return whether an accent at a place can be followed by one from ``later`` on."""
+        """Return whether the accent after the one at ``place`` may be at ``later`` or beyond."""
         gaps_s = self._grid.times_s[later : self.latest(place) + 1] - self._grid.times_s[place]
         return any(self._moves.possible(gap_s) for gap_s in gaps_s)
 
@@ -385,7 +388,7 @@ class _Search:
         return cost
 
     def _skips(self, earlier: int, place: int) -> bool:
-        """Return whether a move between two places omits one that must have an accent."""
+        """Return whether a move from one place to another passes over a place at which the user requires an accent."""
         return bisect_right(self._constrained, earlier) < bisect_left(self._constrained, place)
 
     def _is_constrained(self, place: int) -> bool:

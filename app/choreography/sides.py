@@ -93,7 +93,7 @@ def called_after_the_other_side(joints: Mapping[str, int], names: Sequence[str])
     Parameters
     ----------
     names : sequence of str
-        Of all bones of the file.
+        Names of all bones of the file.
     """
     found = []
     for part in ("UpperArm", "UpperLeg"):
@@ -104,7 +104,7 @@ def called_after_the_other_side(joints: Mapping[str, int], names: Sequence[str])
 
 
 def _says_left(name: str, other: str) -> bool:
-    """Return whether a name is that of a left bone, and the other that of its right counterpart."""
+    """Return whether ``name`` is that of a left bone and ``other`` that of its right counterpart."""
     name, other = name.lower(), other.lower()
     return any(
         name[:at] + right + name[at + len(left) :] == other

@@ -69,7 +69,7 @@ class FootPlant:
 
 
 def stands(clip: MotionClip, contacts: BoolArray, moved_m: FloatArray | None = None) -> tuple[FootPlant, ...]:
-    """Return the stands of the feet.
+    """Find the spans in which feet stand still.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def stands(clip: MotionClip, contacts: BoolArray, moved_m: FloatArray | None = N
 
 
 def foot_speeds_m_s(clip: MotionClip) -> FloatArray:
-    """(F, 2) speeds of the tips of the feet."""
+    """Speeds (F, 2) in m/s of the tips of the left and the right foot."""
     return np.asarray(np.linalg.norm(np.gradient(tips_m(clip), axis=0), axis=-1) * float(clip.fps))
 
 
@@ -110,7 +110,7 @@ def steps_s(standing: Sequence[FootPlant], fps: float) -> list[float]:
 
 
 def _apart(standing: list[FootPlant], fps: float) -> list[FootPlant]:
-    """Return the ascending stands of a foot with time between them for moving.
+    """Shorten consecutive plants of a foot so that there is time between them for moving.
 
     A foot that lands at the same place continues to stand there.
     """
@@ -136,12 +136,13 @@ def _apart(standing: list[FootPlant], fps: float) -> list[FootPlant]:
 def planted(
     clip: MotionClip, standing: tuple[FootPlant, ...], weight: float = 0.0, shown: FloatArray | None = None
 ) -> MotionClip:
-    """Return the motion with feet in place during stands; between two stands the corrections are blended.
+    """Solve the legs again so that feet do not move while they are planted; between two plants the corrections are
+    blended.
 
     Parameters
     ----------
     weight : float
-        -1 to 1: the hips of a heavy dancer are lower with the same steps, those of a light one higher.
+        Weight of the dancer, -1 to 1: heavy dancers have lower hips with the same steps, light ones higher.
     shown : (F, 2) float64, optional
         Frame of the motion used for each foot in each frame; by default the same.
     """
@@ -185,7 +186,7 @@ def _feet_at(tips: FloatArray, world: JointTransforms, shown: FloatArray) -> tup
 
 
 def _tip_height_m(clip: MotionClip, foot: int) -> float:
-    """Height of a tip over the floor in the T-pose."""
+    """Height in metres of a foot's tip above the floor in the T-pose."""
     side = SIDES[foot]
     names = ("hips", f"{side}UpperLeg", f"{side}LowerLeg", f"{side}Foot")
     height = sum(clip.shape.offsets_m[SEGMENTS.index(name), 1] for name in names)
@@ -223,13 +224,13 @@ def _still(tip_m: FloatArray, fps: float) -> list[tuple[int, int]]:
 
 
 def _middle(places_m: FloatArray) -> FloatArray:
-    """(3,) median of places (N, 3), of each coordinate."""
+    """Median (3,) of positions (N, 3), by coordinate."""
     ordered = np.sort(places_m, axis=0)
     return np.asarray(0.5 * (ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]))
 
 
 def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> FloatArray:
-    """Return the displacement (F, 3) from a tip to its required place."""
+    """Displacement (F, 3) that moves a foot's tip to the position where it must stand, blended between plants."""
     result = np.zeros_like(tip_m)
     for stand in standing:
         result[stand.start : stand.stop] = stand.place_m - tip_m[stand.start : stand.stop]
@@ -319,6 +320,6 @@ def _ankle_to_hip_m(
 
 
 def _spread(values: FloatArray, fps: float) -> FloatArray:
-    """Return values (F,) that rise and fall smoothly, at least the given ones."""
+    """Smooth upper envelope (F,) of values (F,): it rises and falls slowly and is never below them."""
     wide = 2 * round(2.5 * SINK_S * fps) + 1
     return np.asarray(gaussian_filter1d(maximum_filter1d(values, wide, mode="nearest"), SINK_S * fps, mode="nearest"))

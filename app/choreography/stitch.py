@@ -48,11 +48,11 @@ class Frames:
     segments : (N,) int64
         Segments of the model in the order of dancing.
     which : (F,) int64
-        Index in that order for each frame; ascending.
+        For each frame the index in ``segments``, ascending.
     source_s : (F,) float64
-        Time in the clip of that segment.
+        Time in seconds in the clip of that segment.
     speeds : (F,) float64
-        Speed of that time: 1 as captured, 0 at rest.
+        Speed at which the clip passes: 1 as captured, 0 at rest.
     """
 
     segments: IntArray
@@ -96,14 +96,14 @@ class Stitcher:
         return one.clip == other.clip and one.end == other.start
 
     def still(self, count: int, body: int, fps: Fraction) -> MotionClip:
-        """Return the first pose of the model for a number of frames, with the body of one of the clips."""
+        """Return a clip that holds the first pose of the model, with the body of one of its clips."""
         first = self._model.segments[0]
         hips, rotations = self._clips[first.clip].at(np.full(count, float(first.start)))
         scale = self._heights_m[body] / self._heights_m[first.clip]
         return MotionClip(self._model.clips[body].shape, fps, hips * _UP * scale, rotations)
 
     def stitched(self, frames: Frames, body: int, fps: Fraction) -> tuple[MotionClip, BoolArray, tuple[int, ...]]:
-        """Return the concatenated segments.
+        """Concatenate the captured segments shown by ``frames`` to one motion.
 
         Parameters
         ----------
@@ -113,6 +113,7 @@ class Stitcher:
         Returns
         -------
         clip : MotionClip
+            The motion, facing the audience at the dancer's place.
         contacts : (F, 2) bool
             Whether the left and the right foot stand in the capture.
         seams : tuple of int
@@ -220,7 +221,7 @@ class _Output:
         return self._carried if frame < self._fades_until else 0
 
     def append(self, start: int, hips: FloatArray, rotations: FloatArray, carried: int) -> None:
-        """Add frames, except the last one, which is the continuation.
+        """Add the frames of a run, except the last one, which is only the start of the next blend.
 
         The place of the hips and the rotations of the first ``carried`` segments are blended from the previous motion;
         0 for no blend.
@@ -264,13 +265,15 @@ class _Output:
 
 
 def _faces(rotations: FloatArray) -> complex:
-    """Return the mean facing of the hips in frames (F, 16, 4); its length is short if they turn around."""
+    """Mean direction of the hips over frames (F, 16, 4) as a complex number; its length is small if they
+    turn around.
+    """
     return complex(np.exp(1j * quaternion.twist_angle(rotations[:, 0], _UP)).mean())
 
 
 def _steered(turn: float, moved: complex, out: _Output, frame: int, ahead: complex) -> tuple[float, complex]:
-    """Return rotation and move corrected slightly towards the place (judged by the recent mean) and the audience
-    (judged by the coming direction).
+    """Correct rotation and move of the next segment slightly, to bring the dancer back towards the usual place (from
+    the recent mean position) and towards the audience (from the coming direction ``ahead``).
     """
     hips = out.lately(frame)
     if hips is None:

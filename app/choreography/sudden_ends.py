@@ -55,7 +55,7 @@ class UsualAccelerations:
     Attributes
     ----------
     feet, hands : (2,) float64
-        Of ankle and toe; of wrist and fingertip.
+        Values for ankle and toe, and for wrist and fingertip.
     """
 
     feet: FloatArray
@@ -110,8 +110,8 @@ def _calm(
     planted: BoolArray,
     rotations: FloatArray,
 ) -> bool:
-    """Write the rotations of a limb with a sudden end, and return whether any are changed; ``planted`` are the frames
-    with a fixed tip.
+    """Smooth a limb whose end moves too suddenly, in place in ``rotations``, and return whether anything changed;
+    ``planted`` are the frames in which the end must not move.
     """
     fps = float(clip.fps)
     most = MOST * usual * height_m(clip) / fps**2
@@ -144,7 +144,9 @@ def _calm(
 
 
 def _suddenness(points: FloatArray, most: FloatArray) -> float:
-    """Largest second difference of paths (N, 2, 3) of a joint and its tip, in those that are allowed."""
+    """Largest acceleration (second difference) of the paths (N, 2, 3) of a joint and its tip, relative to the allowed
+    ones.
+    """
     return float((np.linalg.norm(np.diff(points, 2, axis=0), axis=-1) / most).max(initial=0.0))
 
 
@@ -188,7 +190,7 @@ def _bent(path: FloatArray, most: float, held: BoolArray) -> FloatArray:
 
 
 def _points_m(clip: MotionClip, world: JointTransforms, name: str) -> FloatArray:
-    """Return the joint of a hand or foot and its end (F, 2, 3)."""
+    """World positions (F, 2, 3) of the joint of a hand or foot and of its end."""
     at = 1 + SEGMENTS.index(name)
     joint = world.positions_m[:, at]
     tip = joint + quaternion.rotate(world.rotations[:, at], clip.shape.ends_m[ENDS.index(name)])
@@ -196,7 +198,7 @@ def _points_m(clip: MotionClip, world: JointTransforms, name: str) -> FloatArray
 
 
 def _accelerations(points_m: FloatArray, clip: MotionClip) -> FloatArray:
-    """(F - 2, 2) accelerations of two points over the body's height."""
+    """Accelerations (F - 2, 2) of two points, relative to the body's height, in 1/s^2."""
     change = np.linalg.norm(np.diff(points_m, 2, axis=0), axis=-1)
     return np.asarray(change * float(clip.fps) ** 2 / height_m(clip))
 

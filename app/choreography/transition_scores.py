@@ -34,15 +34,16 @@ _Beats: TypeAlias = tuple[tuple[int, float], ...]
 
 @dataclass(frozen=True, eq=False)
 class SegmentMeets:
-    """Arrivals of the body and footfalls in segments, in addition to the one on the grid.
+    """Further moments of S segments that may meet beats: arrivals of the body and footfalls, besides the accent itself.
 
     Attributes
     ----------
     times_s : (S, E) float64
-        Time from the segment's accent; NaN for missing ones.
+        Time of each moment in seconds after the segment's accent; NaN pads shorter rows.
     worths : (S, E) float64
+        Value of each moment if it is on a beat.
     accents : (S,) float64
-        Worth of the accent itself as an arrival.
+        Value of the accent itself as an arrival.
     """
 
     times_s: FloatArray
@@ -51,7 +52,7 @@ class SegmentMeets:
 
 
 def no_meets(segments: int) -> SegmentMeets:
-    """Return arrivals without any besides the accents."""
+    """Return a table for segments without further arrivals and footfalls."""
     return SegmentMeets(np.zeros((segments, 0)), np.zeros((segments, 0)), np.zeros(segments))
 
 
@@ -62,8 +63,9 @@ class MoveTable:
     Attributes
     ----------
     scores : (S, K) float32
+        Score of the move from each predecessor.
     starts : (S, K) int
-        Ascending in each row.
+        Indices of the predecessors, ascending in each row.
     of_start, of_end : (S, K) int
         Flat indices in tables (`SHARES`, S) of the predecessor and of the segment at their meeting point.
     taken : (S, K) float32
@@ -87,7 +89,7 @@ class MoveTable:
         Parameters
         ----------
         before : (S,) float32
-            Score of each start.
+            Score of the best path up to each segment as predecessor.
         heard : (SHARES, S) float32, optional
             Log odds of hits until the change of segments. The total log odds of hits, which are equal for all
             predecessors, are not included.
@@ -110,7 +112,7 @@ class MoveCosts:
     base : (S, S) float64
         Cost of each move at any speed.
     before_s, after_s : (S,) float64
-        From start to accent and from accent to end, as captured.
+        Seconds from start to accent and from accent to end, as captured.
     speed : float
         Cost of a motion at a limit of `SPEEDS`; quadratic between.
     usual : (S,) float64
@@ -128,7 +130,7 @@ class MoveCosts:
 
 
 class SegmentMoves:
-    """Tables of moves over a grid; times are rounded to 1/50."""
+    """Tables of the scores of moves between segments for all distances of accents in a grid, made on first use."""
 
     def __init__(self, grid: AccentGrid, costs: MoveCosts) -> None:
         self._grid, self._costs = grid, costs
@@ -155,8 +157,9 @@ class SegmentMoves:
         return self._tables[full]
 
     def table_from(self, start: int, earlier: int, place: int) -> MoveTable:
-        """Return the possible moves from segment ``start`` to every other, shape (S, 1); ``earlier`` is the segment
-        before, ``place`` the accent."""
+        """Return the moves from the single segment ``start`` to every segment, shape (S, 1), between the accents
+        ``earlier`` and ``place``.
+        """
         return self._made(np.full((len(self._base), 1), start, np.intp), *self._key(earlier, place))
 
     def _key(self, earlier: int, place: int) -> tuple[int, _Beats]:

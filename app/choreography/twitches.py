@@ -49,7 +49,8 @@ FLOOR_PERCENT: Final = 40
 
 
 def twitches(clip: MotionClip, found: Iterable[tuple[int, int, int]], tolerance: float) -> set[tuple[int, int, int]]:
-    """Return the spans (start, stop, part) between sound frames.
+    """Find the spans (start, stop, index of the body part) between sound frames in which a hand, a foot or the whole
+    body twitches.
 
     Parameters
     ----------
@@ -92,7 +93,9 @@ def _leg_m(clip: MotionClip) -> float:
 
 
 def _end_m(clip: MotionClip, world: JointTransforms, name: str, reach: float = 1.0) -> FloatArray:
-    """Return the end (F, 3) of a segment; with a reach of 0 the point at its height below the joint."""
+    """World position (F, 3) of the end of a segment; with a ``reach`` of 0, the point at the end's height directly
+    below the joint.
+    """
     at = 1 + SEGMENTS.index(name)
     way = clip.shape.ends_m[ENDS.index(name)] * (reach, 1.0, reach)
     return np.asarray(world.positions_m[:, at] + quaternion.rotate(world.rotations[:, at], way))

@@ -53,7 +53,7 @@ class TimeMap:
     Attributes
     ----------
     times_s : (N,) float64
-        In the piece, ascending.
+        Ascending times in the piece in seconds.
     along_s : (N,) float64
         Position along the captured motions in seconds, ascending.
     held : (N,) bool, optional
@@ -101,16 +101,16 @@ def map_with_arrivals(
     *,
     with_falls: bool = False,
 ) -> TimeMap:
-    """Return the map that puts arrivals on beats, preferably those with footfalls, within the limits of speed.
+    """Build the time map that puts arrivals on beats, preferably those with footfalls, within the limits of speed.
 
     Parameters
     ----------
     plain : TimeMap
         Map with a knot at each segment's place; its first and last knot are the ends of the dance.
     arrivals : (A,) float64
-        Along the motions, ascending.
+        Positions of the arrivals along the motions in seconds, ascending.
     footfalls : (N,) float64, optional
-        Likewise.
+        Positions of the footfalls along the motions in seconds, ascending.
     with_falls : bool
         Put footfalls on beats too where no body arrives.
     """
@@ -141,7 +141,7 @@ def map_with_arrivals(
 
 @dataclass(frozen=True)
 class _Item:
-    """A moment of the motions, and its possible times with values."""
+    """A moment along the motions, with the times in the piece at which it may be shown, and the value of each."""
 
     along_s: float
     options: tuple[tuple[float, float], ...]
@@ -163,7 +163,9 @@ def _to_meet(plain: TimeMap, moments: FloatArray, grid: AccentGrid, on_beat: flo
 
 
 def _met(items: Sequence[_Item]) -> list[tuple[float, float]]:
-    """Return pairs of time and moment, both ascending, with the greatest total value, by dynamic programming."""
+    """Choose a time for each moment, both ascending, with the greatest total value, by dynamic programming; returns
+    pairs of time and moment.
+    """
     limit = float(np.log(SPEEDS[1]))
     times = [np.array([time_s for time_s, _ in item.options]) for item in items]
     best: list[FloatArray] = []

@@ -34,16 +34,15 @@ NEARLY_ALL = 99
 
 
 def reported_least_m(distances_m: FloatArray) -> float:
-    """Lower bound for the value `Spread.of` reports, from lower bounds of the distances (F,): the value at its
-    percentile.
-    """
+    """Lower bound in metres for the percentile that `Spread.of` reports, from lower bounds of the distances (F,)."""
     rank = (len(distances_m) - 1) * NEARLY_ALL // 100
     return float(np.partition(distances_m, rank)[rank])
 
 
 class Spread(msgspec.Struct, frozen=True):
-    """Distribution of a distance in millimetres over ``frames`` frames: maximum, 99th percentile, and the bound it must
-    meet. Without frames there is no value and no violation."""
+    """Distribution of a contact's error over ``frames`` frames, in millimetres: maximum, 99th percentile, and the bound
+    for the percentile. Without frames there is no value and no violation.
+    """
 
     max_mm: float
     p99_mm: float
@@ -84,7 +83,7 @@ def contact_name(contact: Contact | ContactFit) -> str:
 
 
 def in_place(control: Control, values: FloatArray, targets: FloatArray) -> BoolArray:
-    """Return a mask of the values of a control (F,) that are close enough to their targets (F,)."""
+    """Mask (F,) of the frames in which a control's value (F,) is close enough to its target (F,)."""
     off = np.abs(values - targets)
     if control.kind == "slide" and control.travel_m:
         return off * control.travel_m <= SLIDE_M

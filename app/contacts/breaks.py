@@ -29,13 +29,15 @@ class Break:
     Attributes
     ----------
     kind : str
+        Kind of contact, such as of the lips, a hand, a finger or a foot.
     part : str
         Side of a hand or foot, or touching part of a hand; empty for the lips.
     control : str
         Control that is touched, or that the hand moves along and that stops short; otherwise empty.
     start_s, end_s : float
+        Start and end of the span in seconds.
     gap_m : float
-        Largest distance in the span.
+        Largest distance in the span, in metres.
     """
 
     kind: Kind
@@ -69,6 +71,7 @@ def contact_problems(
     Parameters
     ----------
     breaks : iterable of Break
+        Spans with broken contacts, in any order.
     grips : sequence of FingeringEvent
         Fingerings of the player's plan.
     known : iterable of Problem
@@ -109,7 +112,7 @@ def _united(spans_s: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def joined(breaks: Iterable[Break]) -> list[Break]:
-    """Merge those breaks of one contact that follow each other closely."""
+    """Merge breaks of the same contact that follow each other closely."""
     result: list[Break] = []
     for item in sorted(breaks, key=lambda item: (*item.contact, item.start_s)):
         last = result[-1] if result else None

@@ -17,11 +17,12 @@ from instrument_maps.model import Control
 
 
 class ControlMeasure(msgspec.Struct, frozen=True):
-    """Accuracy of a control: number of notes with the control in place at the checked frame, and frames at which it
-    left too early.
+    """Accuracy of a control's motion: number of notes at whose onset it is in place, and number of frames in which it
+    left its place too early.
 
-    ``stopped_short`` and ``held_stopped_short`` count notes and frames at which the control stays before a place that
-    is out of reach, which counts neither as right nor as wrong; ``most_short_mm`` is the largest distance.
+    ``stopped_short`` and ``held_stopped_short`` count the notes and frames in which the control stops before a position
+    that the hand cannot reach; these count neither as right nor as wrong. ``most_short_mm`` is the largest missing
+    distance.
     """
 
     judged: int
@@ -36,14 +37,14 @@ class ControlMeasure(msgspec.Struct, frozen=True):
 
 
 def notes_of(notes: Sequence[FingeringEvent], first_s: float, last_s: float) -> list[FingeringEvent]:
-    """The notes that sound in a span, and the next one, for which a control may leave the last note's place."""
+    """Notes that sound in a span of seconds, and the next one, for which a control may already leave its position."""
     later = [note for note in notes if note.end_s > first_s]
     inside = sum(note.start_s <= last_s for note in later)
     return later[: inside + 1]
 
 
 class NoteFrames:
-    """Frames with the notes that sound in them.
+    """Assigns the frames of a motion to the notes that sound in them.
 
     Parameters
     ----------
@@ -71,8 +72,7 @@ class NoteFrames:
         return self._inside(*self._bounds(starts_s, ends_s))
 
     def targets(self, control: Control) -> FloatArray:
-        """Return the value (N,) that each note requests of a control; the control's rest value where a note does not
-        use it."""
+        """Value (N,) of a control that each of N notes requires; its rest value for notes that do not use it."""
         known = self._targets.get(control.name)
         if known is None:
             asked = [note.controls.get(control.name, control.rest_value) for note in self.notes]
@@ -97,13 +97,14 @@ class NoteFrames:
         return _indices(starts, stops), np.repeat(np.arange(len(starts)), np.maximum(stops - starts, 0))
 
     def asked(self, requested: Sequence[bool] | BoolArray) -> BoolArray:
-        """Mask of the frames of notes for which ``requested`` (N,) is true."""
+        """Mask (F,) of the frames of those notes for which ``requested`` (N,) is true."""
         starts, stops = self._own
         chosen = np.asarray(requested, dtype=np.bool_)
         return self._inside(starts[chosen], stops[chosen])
 
     def kept(self, station: int, worked: IndexArray, controls: Sequence[Control]) -> BoolArray:
-        """Mask of the frames of notes played at one of a finger's stations, until it may leave for the next note.
+        """Mask (F,) of the frames in which a finger must stay at one of its stations (positions at keys): those of
+        notes played there, until the finger may leave for the next note.
 
         Parameters
         ----------
@@ -125,7 +126,7 @@ class NoteFrames:
         return self._inside(starts[here], np.minimum(stops[here], until))
 
     def targets_at_frames(self, control: Control) -> FloatArray:
-        """Value of a control (F,) required at each frame; NaN without a note."""
+        """Value (F,) of a control that the sounding note requires at each frame; NaN where no note sounds."""
         result = np.full(len(self._times_s), np.nan)
         starts, stops = self._own
         result[_indices(starts, stops)] = np.repeat(self.targets(control), np.maximum(stops - starts, 0))
@@ -139,7 +140,9 @@ class NoteFrames:
         Parameters
         ----------
         control : Control
+            The control to check.
         values : (F,) float64
+            Value of the control at each frame.
         fps : float
             Frame rate; frames are consecutive.
         out_of_reach : set of str
@@ -182,7 +185,8 @@ class NoteFrames:
         )
 
     def _leaves_s(self, control: Control, targets: FloatArray) -> FloatArray:
-        """Earliest times (N,) at which a control may leave its places: the ends of notes, or shortly before.
+        """Earliest time (N,) in seconds at which a control may leave its position for each note: at the note's end, or
+        shortly before.
 
         If its share of the note is too short for the map's speed, it may take the time it needs (the plan reports such
         notes); if the share allows an unhurried move, that may be used, and of a hurried slide a note's tail too.
@@ -208,7 +212,9 @@ class NoteFrames:
 
     @cached_property
     def _own(self) -> tuple[IndexArray, IndexArray]:
-        """First frame (N,) of each note, and the frame after its last one, at the latest that of the next onset."""
+        """First frame (N,) of each note, and the frame after its last one (N,), which is not later than the
+        next onset.
+        """
         following_s = np.append(self._starts_s[1:], math.inf)
         return self._bounds(self._starts_s, np.minimum(self._ends_s, following_s[: len(self.notes)]))
 
@@ -217,7 +223,7 @@ class NoteFrames:
         return np.searchsorted(self._times_s, starts_s - 1e-9), np.searchsorted(self._times_s, ends_s - 1e-9)
 
     def _inside(self, starts: IndexArray, stops: IndexArray) -> BoolArray:
-        """Mask (F,) of frames inside any of the spans."""
+        """Mask (F,) of the frames in any of the spans [start, stop) of frame indices."""
         count = len(self._times_s) + 1
         some = stops > starts
         changes = np.bincount(starts[some], minlength=count) - np.bincount(stops[some], minlength=count)
@@ -234,8 +240,9 @@ def _indices(starts: IndexArray, stops: IndexArray) -> IndexArray:
 
 
 def _stops_short(control: Control, values: FloatArray, targets: FloatArray, unreached: BoolArray) -> BoolArray:
-    """Return the frames (F,) in which a control moved by a whole hand stops before its target because the note is out
-    of the arm's reach (``unreached``)."""
+    """Mask (F,) of the frames in which a control moved by a whole hand stops before its target, in frames of notes out
+    of the arm's reach (``unreached``).
+    """
     if not control.finger.endswith(".hand"):
         return np.zeros(len(values), dtype=np.bool_)
     near: BoolArray = np.abs(values - control.rest_value) < np.abs(targets - control.rest_value)

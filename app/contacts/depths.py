@@ -1,4 +1,4 @@
-"""Penetration depths of hands and fingers in the closed bodies that represent an instrument.
+"""Penetration depths of hands and fingers in an instrument, which is represented by closed bodies.
 
 The deepest vertex of every frame is found by branch and bound. A block of frames is bounded by its middle frame: a
 distance changes by no more than the movement of the vertex, which is bounded by the movement of joints and parts.
@@ -53,6 +53,7 @@ class HandDepths:
     hand : Skin
         Skin of hand and fingers.
     bodies : sequence of Proxy
+        Closed bodies that represent the instrument.
 
     Attributes
     ----------
@@ -130,7 +131,8 @@ class HandDepths:
 
 @dataclass(frozen=True, eq=False)
 class _Pairs:
-    """Candidates for the deepest vertices in blocks, with nearby nodes.
+    """Candidates of the search for the deepest vertices: S pairs of a block of frames and a vertex, expanded to N pairs
+    with nearby nodes of the instrument.
 
     Attributes
     ----------
@@ -165,7 +167,7 @@ class _Pairs:
         return found
 
     def split(self, parts: int) -> _Pairs:
-        """The pairs after splitting every block into parts."""
+        """Split every block of frames into ``parts`` shorter blocks, and repeat the pairs for each of them."""
         blocks, spots = ((values[:, None] * parts + np.arange(parts)).ravel() for values in (self.blocks, self.spots))
         return _Pairs(blocks, np.repeat(self.items, parts), spots, np.repeat(self.nodes, parts))
 
@@ -179,7 +181,9 @@ class _Search:
     Parameters
     ----------
     groups : _Groups
+        Groups of vertices of the hand.
     field : DistanceField
+        Signed distances from the instrument's bodies.
     poses : VertexPoses
         Poses in the frame of the base node.
     world_from_joint : (F, 3, J, 4) float32
@@ -214,7 +218,9 @@ class _Search:
         return len(self._grouped) + len(self._single) > 0
 
     def begin(self, size: int, depths_m: SingleArray) -> None:
-        """Find the groups near the bounding boxes of the nodes' bodies; parameters as in `judge_roughly`."""
+        """Collect the candidates: groups of vertices near the bounding boxes of the nodes' bodies. Parameters as in
+        `judge_roughly`.
+        """
         self._moved = self._parts.moves(size)
         blocks, groups = np.mgrid[: len(depths_m), : len(self._groups.middles)].reshape(2, -1)
         spots, nodes = np.mgrid[: len(blocks), : len(self._world_from_node)].reshape(2, -1)
@@ -224,8 +230,8 @@ class _Search:
         self._grouped = pairs[-least_m > pairs.of_blocks(depths_m.min(axis=1))]
 
     def judge_roughly(self, size: int, depths_m: SingleArray) -> None:
-        """Keep the pairs of a group of vertices and a body that may be deep by the bodies' distance grids, for
-        `judge_exactly`; the frames are taken in blocks.
+        """Reduce the candidates to those that may be deepest, by the bodies' approximate distance grids and blocks of
+        frames.
 
         Parameters
         ----------
@@ -247,7 +253,9 @@ class _Search:
         self._single, self._singly = single[near], placed[near]
 
     def judge_exactly(self, depths_m: SingleArray) -> None:
-        """Evaluate the remaining candidates exactly; parameters as in `judge_roughly`."""
+        """Compute the exact depths of the remaining candidates, and raise ``depths_m``; parameters as in
+        `judge_roughly`.
+        """
         pairs, places_m, moves_m = self._single, self._singly.places_m, self._singly.moves_m
         if self._moved.size == 1:
             places_m, moves_m = self._exactly_m(pairs), np.zeros_like(moves_m)
@@ -256,7 +264,7 @@ class _Search:
         self._single = pairs[moves_m - distances_m > pairs.of_blocks(depths_m.min(axis=1))]
 
     def _exactly_m(self, pairs: _Pairs) -> SingleArray:
-        """Positions (3, N) of vertices at single frames in their nodes' frames, computed directly."""
+        """Exact positions (3, N) of the candidates' vertices at single frames, in the frames of their nodes."""
         places_m = np.empty((3, len(pairs)), dtype=np.float32)
         blocks, vertices = pairs.blocks[pairs.spots], pairs.items[pairs.spots]
         for node in np.unique(pairs.nodes).tolist():
@@ -293,7 +301,7 @@ class _Search:
 
 
 def _raise(depths_m: SingleArray, pairs: _Pairs, found_m: SingleArray) -> None:
-    """Raise the lower bounds (B, size) of the frames of B blocks to the depths found (N,) for N pairs."""
+    """Raise the known depths (B, size) of the frames of B blocks to the depths (N,) found for N pairs, in place."""
     rows = np.flatnonzero(found_m > 0.0)
     deepest_m = np.zeros(len(depths_m), dtype=np.float32)
     np.maximum.at(deepest_m, pairs.blocks[pairs.spots[rows]], found_m[rows])
@@ -345,7 +353,9 @@ def _groups(places_m: bytes, strongest: bytes) -> _Groups:
 
 
 def _split(rows: IndexArray, positions_m: FloatArray) -> list[IndexArray]:
-    """Halve a group of vertices along its longest side until every group has at most `GROUP`; returns their rows."""
+    """Halve a group of vertices along its longest side until every group has at most `GROUP` vertices; returns the rows
+    of each group.
+    """
     if len(rows) <= GROUP:
         return [rows]
     extent = np.ptp(positions_m[rows], axis=0)

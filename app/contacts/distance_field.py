@@ -36,7 +36,7 @@ _CELL_MIDDLES_M = (
 
 
 class DistanceField:
-    """Distances to the union of the bodies of each node, in the node's frame.
+    """Signed distances to the bodies of each node, in the node's frame; the bodies of one node count as their union.
 
     Parameters
     ----------
@@ -94,6 +94,7 @@ class DistanceField:
         points_m : (N, 3) float32
             Points in the frames of ``nodes``.
         nodes : (N,) int
+            Number of the node for each point.
         clear_m, depth_m : (N,) float32, optional
             Limits that reduce the work: points farther outside than ``clear_m``, and points less deep than ``depth_m``,
             need no better value.
@@ -120,8 +121,8 @@ class DistanceField:
         return about_m, error_m
 
     def beyond_m(self, points_m: SingleArray, nodes: IndexArray) -> SingleArray:
-        """Return the distance (N,), or less, of points (N, 3) in the frames of nodes (N,) from their bounding boxes;
-        minus infinity inside a box.
+        """Distance (N,), or a lower bound of it, of points (N, 3) in the frames of ``nodes`` (N,) from the nodes'
+        bounding boxes; minus infinity inside a box.
         """
         low_m, high_m = self._low_m.astype(np.float32)[nodes], self._high_m.astype(np.float32)[nodes]
         outside_m = np.maximum(np.maximum(low_m - points_m, points_m - high_m), np.float32(0.0))
@@ -142,8 +143,8 @@ class DistanceField:
         return result
 
     def _inside(self, scaled: AnyFloatArray, nodes: IndexArray, parts: int) -> AnyFloatArray:
-        """Fractional grid indices (3, N) in parts of a brick; places outside a grid are clipped to its edge, where
-        nothing is near.
+        """Convert points to fractional grid indices (3, N), counted in ``parts`` per brick; positions outside a grid
+        are clipped to its edge, where no body is near.
         """
         scaled = np.ascontiguousarray(np.maximum(scaled, 0.0))
         # Compared before they are whole numbers, which hold less.
@@ -151,7 +152,9 @@ class DistanceField:
         return scaled
 
     def _by_cells(self, inside: SingleArray, nodes: IndexArray) -> tuple[SingleArray, SingleArray]:
-        """Distances for places (3, N) in cell units from the centres of cells; see `about_m`."""
+        """Approximate distances, and their largest errors, for positions (3, N) in cell units, from the distances of
+        cell centres; see `about_m`.
+        """
         cells = inside.astype(np.int32)
         places = cells // BRICK_CELLS
         x, y, z = cells - places * BRICK_CELLS
@@ -208,8 +211,8 @@ class DistanceField:
         return corners_m
 
     def _from_middles_m(self, corners_m: FloatArray, nodes: IndexArray) -> tuple[FloatArray, IndexArray, IndexArray]:
-        """Distances of the centres of bricks (N,), given by lowest corners (N, 3), from the bodies of their nodes (N,):
-        the distances, the bodies, and the first index for each brick (N,).
+        """Distances of the centres of bricks, given by their lowest corners (N, 3), from the bodies of their nodes
+        (N,): the distances, the index of each body, and the index (N,) of each brick's first entry in both.
         """
         counts = self._owned[nodes]
         brick, firsts = np.repeat(np.arange(len(nodes)), counts), np.cumsum(counts) - counts
@@ -249,7 +252,9 @@ class DistanceField:
 
 
 def _off_middle(inside: SingleArray, numbers: npt.NDArray[np.int32], cells: int) -> SingleArray:
-    """Distance (N,) in metres of places (3, N), in cell units, from the centres of their cubes of cells."""
+    """Distance (N,) in metres between positions (3, N), in cell units, and the centres of the cubes of ``cells`` cells
+    that contain them.
+    """
     x, y, z = inside - numbers * np.float32(cells) - np.float32(0.5 * cells)
     off_m: SingleArray = np.sqrt(x * x + y * y + z * z) * np.float32(CELL_M)
     return off_m

@@ -20,7 +20,7 @@ MOVES_M = 0.001
 
 @dataclass(frozen=True, eq=False)
 class SkinnedVertices:
-    """Vertices of a skin with the joints that hold them.
+    """V vertices of a skin, each with the K joints that carry it, in arrays for fast computation.
 
     Attributes
     ----------
@@ -29,6 +29,7 @@ class SkinnedVertices:
     carriers : (V, K) int
         Rows of ``joints``, strongest first.
     weights : (V, K) float32
+        Weight of each carrying joint.
     places_m : (K, 3, V) float32
         Positions in the frame of each joint.
     arms_m : (V, K) float32
@@ -101,7 +102,9 @@ class VertexPoses:
     Parameters
     ----------
     hand : SkinnedVertices
+        Vertices of the hand.
     node_from_joint : (3, 4, F, J) float32
+        Transforms of J joints in the node's frame, over F frames.
     morphs : dict of str to (F,) float32
         Morph weights.
     """
@@ -150,17 +153,18 @@ class VertexPoses:
 
 @dataclass(frozen=True, eq=False)
 class Moves:
-    """Movement of joints relative to the middle frame of each block.
+    """Bounds on the movement of J joints within each of B blocks of frames, relative to the block's middle frame.
 
     Attributes
     ----------
     hand : SkinnedVertices
+        Vertices carried by the joints.
     chords : (B, J) float32
         Bound on the movement of a point at distance 1 from a joint by its rotation.
     shifts_m : (B, J) float32
         Movement of the joints themselves.
     greatest, changes : dict of str to (B,) float32
-        Largest morph weights, and their changes.
+        Largest morph weight in each block, and largest change of it.
     """
 
     hand: SkinnedVertices
@@ -170,7 +174,7 @@ class Moves:
     changes: Mapping[str, SingleArray]
 
     def most_m(self, blocks: IndexArray, vertices: IndexArray) -> SingleArray:
-        """Largest movement of vertices (N,) in blocks (N,)."""
+        """Upper bound (N,) in metres on the movement of vertices (N,) within blocks (N,)."""
         hand = self.hand
         result, first = np.zeros(len(blocks), dtype=np.float32), blocks * len(hand.joints)
         chords, shifts_m = self.chords.reshape(-1), self.shifts_m.reshape(-1)
@@ -190,8 +194,9 @@ class Moves:
 
 
 def steadiest(world_from_node: Sequence[FloatArray], world_from_joint: SingleArray) -> int:
-    """Index of the node (each (F, 4, 4) over F frames) relative to which the mean of J joints (F, 3, J, 4) moves
-    least."""
+    """Index of the node relative to which a hand moves least, measured by the mean position of its J joints (F, 3, J,
+    4) over F frames; each node is given by transforms (F, 4, 4).
+    """
     middle_m = world_from_joint[..., 3].mean(axis=2, dtype=np.float64)
     ways_m = []
     for here in world_from_node:
@@ -201,8 +206,9 @@ def steadiest(world_from_node: Sequence[FloatArray], world_from_joint: SingleArr
 
 
 def moving_parts_m(world_from_node: Sequence[FloatArray], base: int, point_m: SingleArray) -> SingleArray:
-    """Return coordinates (F, M) of a point of the node ``base`` in the frames of those nodes (each (F, 4, 4)) that move
-    relative to it there; three columns each."""
+    """Coordinates (F, M) of a point of the node ``base`` in the frames of those nodes that move relative to ``base``,
+    three columns for each such node; nodes are given by transforms (F, 4, 4).
+    """
     world_m = world_from_node[base][:, :3] @ np.append(point_m, 1.0)
     moving = [np.empty((0, len(world_m)), dtype=np.float32)]
     for node, here in enumerate(world_from_node):
@@ -237,7 +243,7 @@ class Parts:
         self._reaches_m = reaches_m.astype(np.float32)
 
     def moves(self, size: int) -> PartMoves:
-        """Return the movement of nodes relative to the middle frames of blocks of a size."""
+        """Bound the movement of the nodes within blocks of ``size`` frames, relative to each block's middle frame."""
         nodes, frames = self._node_from_base.shape[2:]
         placed = self._node_from_base.reshape(3, 4, nodes, frames // size, size)
         middle = placed[..., size // 2]
@@ -252,7 +258,7 @@ class Parts:
 
 @dataclass(frozen=True, eq=False)
 class PartMoves:
-    """Movement of nodes relative to the middle frame of each block.
+    """Bounds on the movement of N nodes within each of B blocks of frames, relative to the block's middle frame.
 
     Attributes
     ----------
@@ -299,6 +305,7 @@ class NodePoints:
     Attributes
     ----------
     places_m : (3, N) float32
+        Positions in metres.
     shifts_m, turns_m : (N,) float32
         Largest change of the distance from the node's bodies: by shifts, and by the node's rotation.
     beyond_m : (N,) float32
@@ -319,13 +326,17 @@ class NodePoints:
         return self.shifts_m + self.turns_m
 
     def least_m(self, middle_m: SingleArray) -> SingleArray:
-        """Lower bounds (N,) of distances over the whole block, from lower bounds in its middle."""
+        """Lower bounds (N,) of the points' distances from the bodies over a whole block, given lower bounds in its
+        middle frame.
+        """
         least_m: SingleArray = np.maximum(middle_m - self.turns_m, self.beyond_m) - self.shifts_m
         return least_m
 
 
 def _chords(changes: SingleArray) -> SingleArray:
-    """Bound on the movement of a point at distance 1 from the origin by changes (3, 3 or more, ...) of a rotation."""
+    """Bound on the movement of a point at distance 1 from the origin, given the ``changes`` (3, 3 or more, ...) of a
+    rotation matrix.
+    """
     # A turn by an angle moves it by the chord, 2 sin(angle / 2), at most.
     square = np.zeros(changes.shape[2:], dtype=np.float32)
     for row in changes:

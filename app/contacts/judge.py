@@ -30,8 +30,11 @@ class ContactJudge:
     Parameters
     ----------
     curves : PerformanceCurves
+        Curves from which the motion was computed.
     character : Character
+        The player's character.
     model : InstrumentModel
+        Model of the player's instrument.
     """
 
     def __init__(self, curves: PerformanceCurves, character: Character, model: InstrumentModel) -> None:
@@ -50,8 +53,8 @@ class ContactJudge:
         self._joints = sorted({*landmark_joints(self._character, self._marks), *self._wrists.values()})
 
     def breaks(self, motion: Motion) -> tuple[Break, ...]:
-        """The contacts broken in some frames, unordered. The frames checked are fixed in the performance, independent
-        of the span.
+        """Find the contacts broken in some frames, unordered. The frames to check are fixed for the whole performance,
+        so results do not depend on the span.
         """
         rate = float(motion.fps)
         step = max(1, round(rate / JUDGED_PER_S))

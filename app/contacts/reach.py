@@ -35,7 +35,7 @@ Place = tuple[tuple[str, float], ...]
 
 
 class Holding(NamedTuple):
-    """A player's body that holds an instrument: character, grip and table of motion."""
+    """Inputs for posing a player's body with an instrument: character, grip and the table of body motion."""
 
     player_id: str
     character: Character
@@ -51,9 +51,9 @@ class Reached:
     Attributes
     ----------
     asked : tuple
-        All inputs of the result: player, instrument, and controls and fingers of every place.
+        All inputs of the result: player, instrument, and the controls and fingers of each distinct fingering.
     gaps_m : tuple of float
-        Missing distance for each place, in the same order.
+        Distance in metres by which a hand misses its grip, for each distinct fingering in the same order.
     problems : tuple of Problem
         A problem for every note whose fingering is out of a hand's reach.
     """
@@ -80,21 +80,23 @@ def hand_reach(
     fingerings: tuple[FingeringEvent, ...],
     holding: Callable[[], Holding],
 ) -> Reached:
-    """Return the reach of the hands, and the notes out of reach.
+    """Check whether the hands reach every fingering of a plan.
 
-    Checks all places used in the plan for the player standing or sitting still. If the places equal those of
-    ``before``, nothing is posed again.
+    Checks each distinct fingering with the player standing or sitting still. If they equal those of ``before``, its
+    result is used again.
 
     Parameters
     ----------
     before : Reached or None
+        Earlier result, if there is one.
     player : object
-        Inputs of ``holding``, for comparison.
+        All inputs of ``holding``, compared with those of ``before``.
     instrument : InstrumentMap
         Instrument fitted to the player's body.
     fingerings : tuple of FingeringEvent
+        Fingerings of the plan.
     holding : callable
-        Returns the posed body; called only if needed.
+        Function that returns the body with its grip; called only if needed.
     """
     carried = carried_controls(instrument)
     if not carried:

@@ -8,7 +8,7 @@ from app.arrays import IndexArray, SingleArray
 
 
 def order_by_similarity(places_m: SingleArray, block: int, least: int) -> IndexArray:
-    """Sort frames so that some points are at similar places throughout a block.
+    """Sort frames so that a set of points has similar positions in all frames of a block.
 
     Frames are repeatedly halved by the coordinate that differs most among them.
 

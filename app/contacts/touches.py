@@ -26,7 +26,7 @@ LIPS, UPPER_LIP = "lips.contact", "lips.upper"
 
 @dataclass(frozen=True, eq=False)
 class Traces:
-    """Positions of all touching and touched points.
+    """Positions over F frames of the body's landmarks and of the instrument's nodes, from which contacts are checked.
 
     Attributes
     ----------
@@ -132,10 +132,13 @@ class TouchJudge:
     Parameters
     ----------
     instrument : InstrumentMap
+        Instrument with the contacts to check.
     traces : Traces
+        Positions of body and instrument.
     values : dict of str to (F,)
         Values of the controls, measured or generated.
     notes : NoteFrames
+        Notes that sound in the frames.
     closing : (F,) bool
         Frames in which a hand closes the bell or moves to it, where contacts of its palm do not apply.
     """
@@ -154,12 +157,12 @@ class TouchJudge:
 
     @cached_property
     def _stations(self) -> Mapping[str, IndexArray]:
-        """For each finger the station of the hand in each note (N,)."""
+        """For each finger the index of its station (position at a key) in each note (N,)."""
         fingered = ((note.controls, note.fingers) for note in self._notes.notes)
         return stations_of_notes(self._instrument, fingered)
 
     def gap_m(self, index: int) -> FloatArray:
-        """Return the error (F,) of a contact of the map."""
+        """Error (F,) in metres of the contact with this index in the map."""
         contact, targets = self._instrument.contacts[index], None
         if contact.control is not None:
             control = self._instrument.control(contact.control)
@@ -168,8 +171,8 @@ class TouchJudge:
         return _gap_m(contact, self._instrument, self._traces, targets)
 
     def asked(self, index: int) -> BoolArray:
-        """Frames (F,) at which a contact is required: its control is in the note's position and the finger may not have
-        left yet.
+        """Mask (F,) of the frames in which the contact with this index is required: its control is in the position for
+        the note, and the finger may not have left yet.
         """
         instrument, notes = self._instrument, self._notes
         contact, frames, place = instrument.contacts[index], notes.sounding, self._only_at[index]
@@ -192,8 +195,9 @@ class TouchJudge:
         return frames
 
     def hovering_m(self) -> dict[str, FloatArray]:
-        """Return the distance (F,) of each idle finger from its nearest station, or from the line between two stations,
-        by finger, metres."""
+        """For each finger, by name, the distance (F,) in metres while idle from its nearest station, or from the line
+        between two stations.
+        """
         found = {}
         contacts, traces = self._instrument.contacts, self._traces
         for finger, places in stations(self._instrument).items():
@@ -240,7 +244,7 @@ def world_from_nodes(
 
 
 def _to_way_m(place_m: FloatArray, a_m: FloatArray, b_m: FloatArray) -> FloatArray:
-    """Distance (F,) of a position (F, 3) from the segment between two others."""
+    """Distance (F,) in metres of a position (F, 3) from the line segment between ``a_m`` and ``b_m`` (F, 3)."""
     way, off = b_m - a_m, place_m - a_m
     length2 = np.maximum(np.einsum("fi,fi->f", way, way), 1e-12)
     share = np.clip(np.einsum("fi,fi->f", off, way) / length2, 0.0, 1.0)

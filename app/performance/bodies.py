@@ -66,7 +66,9 @@ def model_of(instrument: InstrumentMap) -> InstrumentModel:
 
 
 def _as_usual(instrument: InstrumentMap) -> InstrumentMap:
-    """Return the bundled map of an instrument that differs from it only in how it is carried, else the same map."""
+    """Return the bundled map of an instrument if the given map differs from it only in how the instrument is carried;
+    else the given map.
+    """
     usual = bundled_maps().get(instrument.id, instrument)
     fields = (name for name in InstrumentMap.__struct_fields__ if name != "hold")
     return usual if all(getattr(usual, name) is getattr(instrument, name) for name in fields) else instrument
@@ -95,7 +97,7 @@ def _suited(character: Character, instrument: InstrumentMap, body: Body) -> Fitt
 def hold_of(player: Player, instrument: InstrumentMap, progress: Progress = no_progress) -> GripPose:
     """Return the grip of a player's body on a fitted instrument; cached for each pair.
 
-    Map of the fitted instrument, as returned by `suited_to`.
+    ``instrument`` is the map of the fitted instrument, as returned by `suited_to`.
     """
     return _HOLDS.helped(_hold, progress, character_of(player), model_of(instrument), instrument, body_of(player))
 
@@ -117,14 +119,16 @@ def _hold(
 
 
 def is_strained(character: Character, instrument: InstrumentMap) -> bool:
-    """Return whether a person bends its wrists much further on an instrument, as it carries it, than the finished body
-    whose hands it has."""
+    """Return whether a character made from another body's data bends its wrists much further with an instrument than
+    that body does; False for other characters.
+    """
     return character.hands_of is not None and _STRAINED.step(_strained, character, character.hands_of, instrument)
 
 
 def strained_on(character: Character, person: Person) -> tuple[str, ...]:
-    """Return the ids of the bundled instruments that a person cannot play in a natural posture: the body would be
-    strained, or no hold of it is known."""
+    """Return the ids of the bundled instruments that a person cannot play in a natural posture: wrists would bend too
+    far, or no grip is known for the body.
+    """
     found = []
     for instrument in bundled_maps().values():
         shares = person.carriages.get(instrument.id)
@@ -164,8 +168,9 @@ def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[Flo
 
 @contextlib.contextmanager
 def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[None]:
-    """Convert failures with a user's own character or instrument, whose shape may be unusable, into problems of the
-    player. For bundled ones the exception is raised, since it is a bug.
+    """Context manager for computing a grip: failures with a user's own character or instrument, whose shape may be
+    unusable, become MapError, a problem of the player. For bundled ones the exception is raised unchanged, since it is
+    a bug.
 
     Raises
     ------
@@ -191,7 +196,7 @@ def is_held(player: Player, instrument: InstrumentMap) -> bool:
 def hold_now(player: Player, instrument: InstrumentMap, progress: Progress = no_progress) -> None:
     """Compute the grip of a player on a library instrument, so that `is_held` is true afterwards.
 
-    Faults of a character or model are ignored here, since they are reported when these are used.
+    Errors in a character or model are ignored here, since they are reported when it is used.
     """
     with contextlib.suppress(UsageError, FileError, MapError):
         hold_of(player, suited_to(player, instrument).instrument, progress)

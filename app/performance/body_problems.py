@@ -25,7 +25,7 @@ class BodyProblems(NamedTuple):
     Attributes
     ----------
     lacking : tuple of Message
-        Missing features, which affect the whole performance.
+        Messages about features that the body lacks for the instrument, for the whole performance.
     unreached : tuple of Problem
         Notes out of reach.
     unseen : Message or None

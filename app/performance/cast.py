@@ -70,12 +70,15 @@ class Performer:
 
     @cached_property
     def dressed(self) -> Character:
-        """Return the character in the player's outfit; one of another file is dressed as it is there."""
+        """Return the character in the outfit chosen for the player; a character from the user's own file keeps the
+        clothes of its file.
+        """
         return self.character if self.character.own is not None else dressed_character(self.player)
 
 
 def attempt(players: Iterable[P], make: Callable[[P], T], stop_requested: StopRequested = lambda: False) -> Attempt[T]:
-    """Make something for every player or dancer; one that raises an `AppError` is excluded with its message.
+    """Call ``make`` for every player or dancer; one for which it raises an `AppError` is left out, with its message as
+    the reason.
 
     Raises
     ------

@@ -29,9 +29,11 @@ class Pose:
     Attributes
     ----------
     rotations : (J, 4) float32
+        Rotation of each of J joints relative to its parent, xyzw.
     hips_m : (3,) float32
+        Position of the hips in metres.
     morphs, controls : dict of str to float
-        Missing morphs are 0.
+        Weights of morphs by name, missing ones 0, and values 0..1 of the instrument's controls.
     instrument_position_m, instrument_rotation : (3,) and (4,) float32
     """
 
@@ -63,7 +65,7 @@ Posed: TypeAlias = Callable[[str, float, Pose], Pose]
 class Chunk:
     """Consecutive frames of one player's computed motion; joints that do not move are stored once.
 
-    ``values`` (F, M + C) are morphs, then controls.
+    ``values`` (F, M + C) has for each of F frames the weights of M morphs, then the values of C controls.
     """
 
     still: SingleArray
@@ -184,7 +186,9 @@ class FrameGrid:
         return self.fps == other.fps and self.start_s == other.start_s
 
     def touched(self, spans_s: FloatArray) -> list[bool]:
-        """For every chunk, whether one of the spans (N, 2) overlaps it, including the padding frames it depends on."""
+        """Return for every chunk whether one of the spans (N, 2) in seconds overlaps it or the additional frames around
+        it that its computation needs.
+        """
         rate = self.fps.numerator / self.fps.denominator
         pad = padding_frames(self.fps) + 2
         result = np.zeros(self.chunks + 1, np.int64)

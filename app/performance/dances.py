@@ -43,7 +43,7 @@ class Dancing(Protocol):
         """Return the K spans (K, 2) in seconds in which the motion differs from that of another dance."""
 
     def standing(self, fps: Fraction, first: int, count: int) -> BoolArray:
-        """Mask (count, 2) of the frames in which the left and right foot stand."""
+        """Mask (count, 2) of the frames in which the left and the right foot stand on the floor."""
 
     def starts_s(self, fps: Fraction) -> tuple[float, ...]:
         """Seconds at which each basic motion of the dance begins."""
@@ -53,10 +53,12 @@ class MakerOfDances(Protocol):
     """Functions of the module that implements dances, which the core may not import."""
 
     def dancing_of(self, performance: Performance, dancer: Dancer) -> Dancing:
-        """A dancer's dance. Raises AppError if something is missing."""
+        """Return the dance of a dancer. Raises AppError if its character or choreography is missing."""
 
     def layer_of(self, performance: Performance, player: Player) -> BodyLayer | None:
-        """Dance of a player while playing; None: none."""
+        """Return the dance that a player performs while playing, as a layer of body motion; None without a
+        choreography.
+        """
 
     def layer_is_made(self, performance: Performance, player: Player) -> bool:
         """Return whether a player's dance layer is available without computing it."""
@@ -68,7 +70,7 @@ def maker_of_dances() -> MakerOfDances | None:
 
 
 def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
-    """A dancer's dance. Raises AppError if something is missing."""
+    """Return the dance of a dancer. Raises AppError if its character or choreography is missing."""
     maker = maker_of_dances()
     if maker is None:
         raise AppError("project.no_dances", dancer=dancer.name)
@@ -76,13 +78,15 @@ def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
 
 
 def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
-    """Dance of a player while playing; None: none. Generating it may take seconds."""
+    """Return the dance that a player performs while playing, as a layer of body motion; None without a choreography.
+    Generating it may take seconds.
+    """
     maker = maker_of_dances()
     return None if maker is None else maker.layer_of(performance, player)
 
 
 def danced_feet(performance: Performance, player: Player) -> DancedFeet:
-    """Foot movements of a dancing player, without those replaced by the animator's."""
+    """Foot movements of a dancing player, without those that the animator replaced by hand."""
     layer = layer_of(performance, player) if player.parameters.choreography else None
     return DancedFeet.none() if layer is None else layer.feet.giving_way(performance.plan(player).gestures)
 

@@ -283,7 +283,7 @@ class Performance:
         self.planned, self.begun, self._before = True, None, None
 
     def prepare_within(self, cpu_s: float) -> bool:
-        """Make all plans if this takes less of the calling thread's time; returns whether they are made.
+        """Make all plans if that is estimated to take less than ``cpu_s``; returns whether they are made.
 
         Parameters
         ----------
@@ -362,8 +362,8 @@ class Performance:
 
     @property
     def unplanned_notes(self) -> int:
-        """Return an estimate of the number of notes to be planned; players unaffected by an edit count nothing, and
-        edits that move no breath or cue count little.
+        """Estimate the number of notes still to be planned; players unaffected by an edit count nothing, and edits that
+        move no breath or cue count little.
         """
         if self.planned:
             return 0
@@ -426,7 +426,7 @@ class Performance:
         progress: Progress = lambda share: None,
         players: Iterable[Player] | None = None,
     ) -> None:
-        """Compute the missing grips of players.
+        """Compute the missing grips of players on their instruments.
 
         Parameters
         ----------
@@ -453,7 +453,9 @@ class Performance:
             hold_now(player, self.instrument(player), reported)
 
     def held(self, player: Player) -> InstrumentMap:
-        """The instrument map fitted to the player's body in size and contacts. Raises AppError."""
+        """Return the instrument map fitted to the player's body in size and contacts. Raises AppError if the instrument
+        or the character is missing or damaged.
+        """
         return suited_to(player, self.instrument(player)).instrument
 
 

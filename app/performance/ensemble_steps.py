@@ -25,7 +25,9 @@ LIGHT = 8
 
 
 def work_of(part: MonophonicPart, before: MonophonicPart | None) -> int:
-    """Cost of planning a part after an edit, in notes."""
+    """Estimated cost, in notes, of planning a part again after an edit that changed it from ``before`` (None: a new
+    part).
+    """
     if part is before:
         return 0
     if before is None or part.notes is not before.notes or part.instrument_map is not before.instrument_map:
@@ -49,7 +51,9 @@ def _actings(
     styles: Mapping[str, Style],
     habits: Mapping[str, Habit],
 ) -> tuple[tuple[str, Acting], ...]:
-    """Return a player's acting in other styles, by style; unknown styles are left out."""
+    """Return a player's amounts of acting in each style that a correction selects for a span, as (style, acting);
+    unknown styles are left out.
+    """
     named = sorted({item.style for item in corrections if isinstance(item, PlayStyle) and item.style in styles})
     shown = (msgspec.structs.replace(own_parameters, style=style) for style in named)
     acted = (with_style(other, musician_id, section_intensity, styles, habits) for other in shown)
@@ -76,7 +80,9 @@ def _kept(value: tuple[object, ...]) -> tuple[object, ...]:
 
 
 def with_parts(plan: PlayerPlan, parts: tuple[tuple[object, ...], ...]) -> PlayerPlan:
-    """Return the plan with other events while the instrument is put aside."""
+    """Return the plan with the fields named in `ASIDE` replaced by ``parts``: events without those while the instrument
+    is put aside.
+    """
     return msgspec.structs.replace(plan, **dict(zip(ASIDE, parts, strict=True)))
 
 

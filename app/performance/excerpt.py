@@ -36,6 +36,7 @@ class PerformanceExcerpt(Performance):
     whole : Performance
         The whole performance, whose planning has begun: shared results are taken from it.
     around_s : float
+        Time in seconds around which notes are planned.
     """
 
     def __init__(self, whole: Performance, around_s: float) -> None:

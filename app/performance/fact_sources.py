@@ -38,7 +38,9 @@ def breath_source(event: BreathEvent) -> FactSource:
 
 
 def tempo_source(score: Score) -> FactSource:
-    """Return the source of the tempo; a score with 120 throughout may have none."""
+    """Source of the tempo: ``"sound"`` for a MIDI file; for a score ``"score"``, or ``"guess"`` if it has 120 beats per
+    minute throughout, the default of programs.
+    """
     if all(part.source != "score" for part in score.parts):
         return "sound"
     return "guess" if [bpm for _, bpm in score.tempo_map.bpm] == [USUAL] else "score"
@@ -79,7 +81,7 @@ def note_sources(
 
 
 def _marked(same: bool) -> FactSource:
-    """Source of a mark: the score if it has the same, else by hand."""
+    """Return ``"score"`` as the source of a mark if the score has the same mark, else ``"hand"``."""
     return "score" if same else "hand"
 
 
@@ -94,8 +96,9 @@ def _dynamic(index: int, written: WrittenMarks, read: WrittenMarks) -> FactSourc
 
 
 def _slur(index: int, notes: Sequence[Note], written: WrittenMarks, read: WrittenMarks) -> FactSource:
-    """Return the source of the fact that note ``index`` is slurred to: ``"score"``, ``"sound"`` (the recording),
-    ``"guess"``, or a mark by hand."""
+    """Return the source of the slur to note ``index``: ``"score"``, ``"sound"`` (the recording), ``"guess"``, or a mark
+    by hand.
+    """
     if not index:
         return "score" if written.is_score else "sound"
     before = index - 1

@@ -69,8 +69,8 @@ class LiveMotion:
         return self._shown.performance
 
     def show_first(self, performance: Performance, player_ids: Sequence[str]) -> None:
-        """Show some players of a performance while the others are still being planned: in addition to those shown this
-        way before, and replacing another performance.
+        """Show some players of a new performance while its other players are still being planned. Repeated calls add
+        players; the first call replaces the performance shown before.
         """
 
         def begun(player: Player, old: LiveTrack | None, grid: FrameGrid) -> LiveTrack:
@@ -352,7 +352,9 @@ class LiveMotion:
 
     @property
     def seen(self) -> int:
-        """Counter that changes when `work` has computed poses around the requested time."""
+        """Counter that increases when `work` has computed poses around the requested time, so that the view must be
+        redrawn.
+        """
         return self._seen
 
     @property
@@ -362,7 +364,7 @@ class LiveMotion:
 
     @property
     def is_seen(self) -> bool:
-        """True if everything visible is computed."""
+        """True if all chunks in the visible span are computed."""
         shown = self._shown
         places = self._in_sight(shown.grid)
         return shown.is_whole and all(
@@ -439,7 +441,7 @@ class LiveMotion:
         return playing
 
     def _prove(self, shown: ShownTracks, track: LiveTrack) -> None:
-        """Find the chunks of the previous performance that are still valid."""
+        """Find out which chunks computed for the performance before an edit are still valid, and keep them."""
         curves = self._playing(shown, track)
         if curves is None:
             track.unproven, track.outdated, track.basis = {}, {}, None
@@ -462,7 +464,9 @@ class LiveMotion:
             self._name_problems(track)
 
     def _missing(self, shown: ShownTracks) -> Iterator[tuple[str, int]]:
-        """Yield players and chunks to compute, most urgent first: visible ones, then by distance in time."""
+        """Yield the missing chunks as (player id, chunk index), most urgent first: visible ones, then by distance in
+        time.
+        """
         grid, player_ids = shown.grid, self._requested[2]
         asked = [player_id for player_id in player_ids if player_id in shown.tracks]
         everyone = asked + [player_id for player_id in shown.tracks if player_id not in asked]

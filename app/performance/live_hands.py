@@ -50,8 +50,8 @@ class Hands:
 
 @dataclass(frozen=True)
 class _Grip:
-    """A fingering with its control values, the values for a held note where they differ, and the station of each
-    working finger.
+    """A fingering as control values, with other values for a held note where they differ, and the station (position at
+    its key) of each working finger.
     """
 
     fingering: Fingering
@@ -61,7 +61,9 @@ class _Grip:
 
 
 def _due_s(control: Control) -> float:
-    """Return the seconds after which a control corrects a held note, or is released."""
+    """Seconds after an onset at which a control is corrected for a held note, or released if it only helps
+    the attack.
+    """
     return control.held_min_s or control.attack_s or 0.0
 
 
@@ -105,7 +107,7 @@ class LiveHands:
 
     @property
     def carries(self) -> bool:
-        """True if some control moves a hand along."""
+        """True if the instrument has a control that moves a hand along, such as a slide."""
         return bool(self._carrying)
 
     def play(self, now_s: float, pitch: int, loudness: float) -> None:
@@ -130,7 +132,9 @@ class LiveHands:
         self._silent_s = min(self._silent_s, now_s)
 
     def advance(self, now_s: float) -> None:
-        """Perform what is due: correct a held note, release in a silence, return to rest."""
+        """Perform all actions whose time has come: correct the tuning of a held note, release the fingering in a
+        silence, return the hands to rest.
+        """
         grip = self._grip
         if grip is not None and now_s >= self._silent_s + LET_GO_S:
             self._let_go(self._silent_s + LET_GO_S)
@@ -149,7 +153,7 @@ class LiveHands:
                 del self._free_s[name]
 
     def at(self, now_s: float) -> Hands:
-        """The hands now, and on the way to their goals."""
+        """Sample the hands at a time (first frame) and on the way to their goals (further frames)."""
         self.advance(now_s)
         controls = {}
         for name, reach in self._reaches.items():
@@ -197,7 +201,7 @@ class LiveHands:
         return {name: min(value, self._farthest.get(name, 1.0)) for name, value in values.items()}
 
     def _take(self, now_s: float, grip: _Grip) -> None:
-        """Change to a grip: fingers move with their keys."""
+        """Change to another fingering: start the moves of its controls, and of the fingers with their keys."""
         self._grip = grip
         goes = [name for name, station in grip.at_work.items() if self._fingers[name].goal != station]
         least_s = LEAST_TRAVEL_S if goes else 0.0

@@ -92,8 +92,8 @@ class LiveHelp:
 
 
 def _waits_s(values: FloatArray, here: float, length_s: float) -> float:
-    """Return the least seconds of a hand's way that needs ``values`` of help, evenly spaced, so that a change of help
-    from ``here`` to the last value within ``length_s`` is never late.
+    """Least time in seconds that a hand's move must take so that the body's help keeps up with it. ``values`` are the
+    help needed at equal steps of the move; the help can change from ``here`` to the last value within ``length_s``.
     """
     gone = np.linspace(0.0, 1.0, len(values))[1:]
     shares = np.clip((values[1:] - here) / (values[-1] - here), 0.0, 1.0)

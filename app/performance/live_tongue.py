@@ -22,7 +22,7 @@ PUSH_UP_S: Final = 0.25 * PUSH_UNTIL_S
 
 
 class _Stroke:
-    """A value that rises immediately and falls again."""
+    """State of one part of the tongue: a value that jumps up at a stroke and falls again."""
 
     def __init__(self, up_s: float, down_s: float) -> None:
         self._up_s, self._down_s = up_s, down_s

@@ -132,7 +132,9 @@ class LiveTrack:
         return index in self.chunks or index in self.unproven or index in self.outdated
 
     def reaches(self, grid: FrameGrid, index: int) -> bool:
-        """Return whether a chunk may be shown: of an excerpt's motion only the middle."""
+        """Return whether a chunk may be shown; while an excerpt is in use only the middle of its span may, since its
+        ends differ from the full performance.
+        """
         if self.excerpt is None:
             return True
         (first, frames), (start_s, end_s) = grid.span(index), self.excerpt.shown_s
@@ -201,7 +203,9 @@ def played_before(shown: ShownTracks, player: Player) -> set[str]:
 
 
 def looks_same(player: Player, before: Player | Dancer) -> bool:
-    """Return whether a player's visible properties, apart from the plan, are unchanged."""
+    """Return whether a player looks the same as before an edit: all visible properties, apart from the plan, are
+    unchanged.
+    """
     if player is before:
         return True
     if not isinstance(before, Player):

@@ -42,7 +42,7 @@ def velocities_of(part: Part) -> Velocities:
 
 
 def unaccented(part: Part) -> Velocities:
-    """Velocities without the increase by the score's accents, which are no dynamics."""
+    """Velocities of a part, reduced where the score has accents, since an accent is no change of dynamics."""
     found = velocities_of(part)
     stressed = {mark.note_id: share for mark in part.marks if (share := ACCENT_SHARES.get(mark.kind)) is not None}
     if part.source != "score" or not stressed:
@@ -117,7 +117,7 @@ def controller_input(part: Part) -> ControllerInput | None:
 
 
 def speaking_curve(part: Part) -> ControllerCurve | None:
-    """Controller with a part's dynamics; None if there is none."""
+    """Return the controller curve that carries the dynamics of a part; None if there is none."""
     span = _span(part)
     if span is None:
         return None

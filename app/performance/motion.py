@@ -87,7 +87,9 @@ def _alone(
 
 @lru_cache(maxsize=64)
 def _same(felt_beats: FeltBeats) -> FeltBeats:
-    """Return one shared object for equal lists of felt beats, so that caches keyed by identity hit."""
+    """Return one shared object for equal lists of felt beats, so that caches which compare inputs by identity find
+    them.
+    """
     return felt_beats
 
 
@@ -133,7 +135,9 @@ def generated_channel(performance: Performance, player_id: str, channel: str) ->
 
 
 def generated_anew(before: PlayerPlan, after: PlayerPlan) -> bool:
-    """Return whether a channel's generated values may have changed."""
+    """Return whether any event from which animation channels are generated was planned again between two plans, so that
+    the channels' generated values may differ.
+    """
     if before is after:
         return False
     same = before.player_id == after.player_id and before.time_frame == after.time_frame

@@ -23,7 +23,7 @@ _MOST: Final = 8
 
 
 def shares(count: int, cores: int) -> list[range]:
-    """Divide frames into equal parts, one for each usable core."""
+    """Divide ``count`` frames into ranges of equal length, one for each usable core."""
     parts = max(1, min(cores, count // _WORTH_FRAMES, _MOST)) if cores > 1 and can_fork() else 1
     ends = [count * number // parts for number in range(parts + 1)]
     return [range(first, last) for first, last in pairwise(ends)]

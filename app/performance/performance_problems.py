@@ -39,7 +39,7 @@ LEAST_PER_S: Final = 2.0
 
 
 class _Looked(NamedTuple):
-    """Frames to check: every n-th at a rate."""
+    """Choice of frames to check for broken contacts: a frame rate, and every n-th frame at that rate."""
 
     fps: Fraction
     every: int

@@ -70,7 +70,7 @@ def bars_span(performance: Performance, fps: Fraction, bars: BarRange, lead_in_b
 
 
 def led_into_s(performance: Performance, tick: float, beats: float) -> float:
-    """Return the time in seconds that lies a number of felt beats before a tick."""
+    """Time in seconds at which a lead-in of ``beats`` felt beats before a tick begins."""
     return performance.piece.clock.seconds(tick - beats * performance.project.metre_map.felt_ticks_at(tick))
 
 

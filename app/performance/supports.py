@@ -1,4 +1,4 @@
-"""Straps and chairs of a project's musicians: what their instruments' maps and their postures ask for."""
+"""Straps and chairs of a project's musicians, as required by their instruments' maps and by their postures."""
 
 from __future__ import annotations
 
@@ -47,14 +47,14 @@ class HeldInstrument:
 
 
 def supports_of(character: Character, held: Sequence[HeldInstrument]) -> Supports | None:
-    """Straps and chair of a musician; None where there is nothing. The same object for the same musician.
+    """Return the straps and the chair of a musician; None if none are needed. Equal musicians share one object.
 
     Parameters
     ----------
     character : Character
         The musician's body.
     held : sequence of HeldInstrument
-        Everything the musician plays, in its order; the posture is that of the first.
+        All instruments of the musician in order; the posture is that for the first.
     """
     maps = tuple(one.instrument for one in held)
     grips = tuple(one.grip for one in held)
@@ -107,8 +107,9 @@ def worn(instrument: InstrumentMap, posture: PostureName) -> tuple[Support, ...]
 
 
 def still_joints(character: Character, instrument: InstrumentMap, body: Body, posture: PostureName) -> FloatArray:
-    """Return ``world_from_joint`` (J, 3, 4) of all J joints of a player who keeps still, arms as in the T-pose, in the
-    player's frame."""
+    """Transforms ``world_from_joint`` (J, 3, 4) of all J joints of a player who keeps still, with the arms as in the
+    T-pose, in the player's frame.
+    """
     skeleton, hold = character.skeleton, instrument.hold
     shape = carrying(body, hold.possible(posture), hold.carriage(posture))
     place, still = stance(skeleton, shape), BodyMotion.still(shape)
@@ -123,8 +124,7 @@ def still_joints(character: Character, instrument: InstrumentMap, body: Body, po
 
 
 def joints_of(character: Character, motion: Motion) -> FloatArray:
-    """Return the transforms ``world_from_joint`` (F, J, 3, 4) of J joints in the F frames of a motion, in the player's
-    frame."""
+    """Transforms ``world_from_joint`` (F, J, 3, 4) of J joints in the F frames of a motion, in the player's frame."""
     turns = quaternion.normalize(motion.rotations)
     return forward(character.skeleton, turns, motion.hips_m.astype(np.float64)).matrices()
 

@@ -35,8 +35,9 @@ _LAYERS: IdentityCache[BodyLayer] = IdentityCache(64)
 
 
 def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
-    """Return a player's dance layer; None if none is selected, it is invisible, or it cannot be read. Cached for
-    players with the same body and dance; making it may take seconds.
+    """Return the dance that a player performs while playing, as a layer of body motion; None if none is selected, its
+    amount is 0, or its file cannot be read. Cached for players with the same body and dance; making it may take
+    seconds.
     """
     inputs = _inputs(performance, player)
     return None if inputs is None else _LAYERS.step(_layer, *inputs)
@@ -63,7 +64,7 @@ def _layer(
 
 
 def _inputs(performance: Performance, player: Player) -> _Inputs | None:
-    """Return the inputs of a layer, each the same object while equal."""
+    """Collect the inputs of a player's dance layer; equal ones are returned as the same object, for caching."""
     parameters = player.parameters
     if not parameters.choreography or parameters.dance_amount == 0.0:
         return None

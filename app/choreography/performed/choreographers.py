@@ -21,7 +21,9 @@ second.
 
 
 def choreographer_of(choreography: str) -> Choreographer:
-    """Return a choreography by name or path, reading it again if its file has changed. Raises FileError."""
+    """Return the choreography with this name or path, ready for generating; its file is read again if it has changed.
+    Raises FileError.
+    """
     path = choreography_path(choreography)
     refuse_others(path)
     try:

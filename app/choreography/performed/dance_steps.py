@@ -48,11 +48,11 @@ class DanceSteps:
     ticks : tuple of int
         Tick of each step in the music at which its corrections are stored.
     spans : tuple of (int, int)
-        Ticks from each step's start to its end, including its place.
+        Start and end tick of each step; the span contains the step's tick.
     places : tuple of int
         Ticks of all possible places of an accent, ascending.
     pinned : tuple of tuple of DanceCorrection
-        Pins at each step's place.
+        Corrections that pin each step.
     choreographer : Choreographer or None
         Choreography; None if there is an error.
     error : Message or None
@@ -158,8 +158,9 @@ def _figures(choreographer: Choreographer) -> FloatArray:
 
 
 def examples(model: ChoreographyModel, drawn: FloatArray) -> tuple[int | None, ...]:
-    """Return for each basic motion its most typical segment, the one nearest to the mean of all its segments; None for
-    a motion without any."""
+    """Return for each basic motion the index of its most typical segment, whose pose in ``drawn`` is nearest to the
+    mean of all its segments; None for a motion without segments.
+    """
     found: list[int | None] = []
     for state in range(model.states):
         own = segments_of(model, state)

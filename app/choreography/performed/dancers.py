@@ -63,11 +63,11 @@ class GeneratedDance:
     Parameters
     ----------
     dancer : Dancer
-        The seed is the dancer's and the project's together.
+        The dancer, with a seed combined of the dancer's and the project's.
     rhythm : Rhythm
         Rhythm for the dancer.
     tempo_map : TempoMap
-        Of the piece: when the corrections' ticks are.
+        Tempo map of the piece, which gives the times of the corrections.
     """
 
     def __init__(
@@ -190,7 +190,7 @@ class GeneratedDance:
 
 
 class _Made(NamedTuple):
-    """A dance generated at a frame rate, with the motion of its dancer's character."""
+    """A dance generated at one frame rate, with the resulting motion of the dancer's character."""
 
     fps: Fraction
     dance: Dance
@@ -213,7 +213,7 @@ def manner_of(dancer: Dancer, sources: int) -> Manner:
 
 
 def dancing_of(performance: Performance, dancer: Dancer) -> GeneratedDance:
-    """A dancer's dance; made ready, not generated yet.
+    """Prepare the dance of a dancer, without generating it yet.
 
     Raises
     ------
@@ -260,7 +260,7 @@ def assignments_of(
 ) -> Constraints:
     """Return corrections as constraints at the nearest places of a grid; of several for a place the last applies.
 
-    ``states`` is the number of basic motions if given: others need not be forbidden.
+    ``states`` is the number of basic motions, if known: bans of any other motion are ignored.
     """
     if not len(grid.times_s):
         return Constraints()
@@ -338,7 +338,7 @@ def place_of(tick: int, grid: AccentGrid, tempo_map: TempoMap) -> int:
 
 
 def _places(item: ForbidState, grid: AccentGrid, tempo_map: TempoMap) -> range:
-    """The places of a grid in a span of ticks."""
+    """Indices of the places of a grid within the span of ticks of a correction."""
     start_s, end_s = (tempo_map.seconds(float(tick)) for tick in (item.start_tick, item.end_tick))
     first, stop = np.searchsorted(grid.times_s, (start_s - 1e-6, end_s - 1e-6))
     return range(int(first), int(stop))

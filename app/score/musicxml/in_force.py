@@ -28,8 +28,8 @@ _State = dict[str, Direction]
 
 
 def restored(measures: Sequence[Measure], order: Sequence[tuple[Time, int]]) -> list[tuple[int, Direction]]:
-    """Directions, each with the tick, that must be repeated where playing jumps back because they are in force there
-    again; none that is in force anyway.
+    """Directions to repeat where playing jumps to another measure: those in force there in print that differ from those
+    in force before the jump, each with its tick.
 
     Parameters
     ----------

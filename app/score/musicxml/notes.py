@@ -194,7 +194,9 @@ def _attributes(one: Element, bar: Bar, state: _State, place: Place) -> None:
 
 
 def _metre(time: Element, place: Place) -> tuple[int, int] | None:
-    """Parse a time signature as (numerator, denominator); denominator 0 if it is unmetred."""
+    """Parse a time signature as (numerator, denominator): (0, 0) if it is unmetred, None if no single fraction
+    expresses it.
+    """
     if time.find("senza-misura") is not None:
         return 0, 0
     whole, finest = Fraction(0), 1

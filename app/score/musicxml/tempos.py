@@ -149,7 +149,9 @@ def _changes(events: Sequence[TempoEvent], end_tick: int, quarter: int) -> list[
 
 
 def _joined(held: Sequence[Held]) -> list[Held]:
-    """Merge overlapping fermata spans, and order them."""
+    """Order fermata spans and remove overlaps: of two that begin together the longer counts, and one that begins within
+    another is dropped.
+    """
     found: list[Held] = []
     for one in sorted(held):
         if found and one.tick < found[-1].end_tick:
