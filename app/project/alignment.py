@@ -1,8 +1,8 @@
-"""Aligns the notes of two versions of a line by pitch and time.
+"""Matching of the notes of two versions of a part by pitch and time.
 
 Between the versions notes may be added, removed, moved or changed, bars inserted or cut, or everything transposed. Most
-notes recur exactly at one of a few time shifts. Dynamic programming (Viterbi) finds the shift in force at each place;
-the notes in between are matched by dynamic programming over both lines (Needleman and Wunsch, 1970).
+notes recur exactly at one of a few time shifts. Dynamic programming (Viterbi) finds the shift that is valid at each
+note; the notes in between are matched by dynamic programming over both versions (Needleman and Wunsch, 1970).
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _MOST_CELLS = 5_000_000
 
 @dataclass(frozen=True, eq=False)
 class AlignmentPart:
-    """Notes of a line as arrays of equal length in order of onset and pitch; times in quarters."""
+    """Notes of a part as arrays of equal length, ordered by onset and pitch; times in quarters."""
 
     onsets: FloatArray
     lengths: FloatArray
@@ -67,12 +67,12 @@ class AlignmentPart:
 
 
 def align(old: AlignmentPart, new: AlignmentPart) -> IntArray:
-    """Return the pairs of matching notes, as indices (old, new).
+    """Match the notes of two versions of a part.
 
     Returns
     -------
     int64, shape (pairs, 2)
-        Old and new index; both columns ascend strictly.
+        Index of the old and index of the new note of each pair; both columns ascend strictly.
     """
     if not len(old) or not len(new):
         return np.empty((0, 2), np.int64)
@@ -90,14 +90,14 @@ def align(old: AlignmentPart, new: AlignmentPart) -> IntArray:
 
 
 def pair_costs(old: AlignmentPart, new: AlignmentPart, shifts: Sequence[float], transposition: int) -> FloatArray:
-    """Cost of matching an old note with a new one; shape (old, new).
+    """Return the costs (old, new) of matching each old note with each new one.
 
     Parameters
     ----------
     shifts : sequence of float
-        Allowed shifts in quarters of the new line after the old one; the best one counts.
+        Allowed time shifts from old to new notes in quarters; the cheapest one is used.
     transposition : int
-        Semitones by which the new line is higher.
+        Semitones by which the new notes are higher.
     """
     moved = new.onsets[None, :] - old.onsets[:, None]
     away = np.min([np.abs(moved - shift) for shift in shifts], axis=0)
@@ -137,7 +137,9 @@ def cheapest(costs: FloatArray) -> list[tuple[int, int]]:
 
 
 def _distances(old: AlignmentPart, new: AlignmentPart) -> tuple[FloatArray, int]:
-    """Time shifts (new - old, quarters) at which many notes recur, and the transposition."""
+    """Return the time shifts (N,) from old to new notes, in quarters, at which many notes recur, and the transposition
+    in semitones.
+    """
     found, _ = _partners(old, new, 0.0, 0)
     if np.count_nonzero(found >= 0) >= 0.98 * max(len(old), len(new)):
         return np.zeros(1), 0
@@ -166,8 +168,11 @@ def _distances(old: AlignmentPart, new: AlignmentPart) -> tuple[FloatArray, int]
 def _partners(
     old: AlignmentPart, new: AlignmentPart, distance: float, transposition: int
 ) -> tuple[IntArray, FloatArray]:
-    """Return for each old note (N,) the index of the new note nearest to its shifted place (-1: none), and the distance
-    in quarter notes."""
+    """Return for each old note (N,) the index of the new note of equal pitch nearest to its shifted time (-1 for none),
+    and its distance in quarter notes.
+
+    Pitches are compared after the transposition, times after a shift by ``distance``.
+    """
     width = float(max(old.onsets[-1] + abs(distance), new.onsets[-1]) + 2.0)
     order = np.lexsort((new.onsets, new.pitches))
     keys = new.pitches[order] * 4.0 * width + new.onsets[order]
@@ -182,8 +187,9 @@ def _partners(
 def _anchors(
     old: AlignmentPart, new: AlignmentPart, distances: FloatArray, transposition: int
 ) -> list[tuple[int, int]]:
-    """Return pairs of notes (old index, new index), ascending, that match at a shift which holds over a stretch of the
-    line."""
+    """Return the pairs of notes (old index, new index), ascending, that match at a time shift which is valid for a
+    longer stretch of notes.
+    """
     partners, away = zip(*(_partners(old, new, distance, transposition) for distance in distances), strict=True)
     found = np.array(partners)
     costs = np.where(found >= 0, 0.2 * np.array(away) / SAME_QUARTERS, 1.0)
@@ -203,7 +209,9 @@ def _anchors(
 
 
 def _held(costs: FloatArray, changes: FloatArray) -> IntArray:
-    """For every column the row of the cheapest path; changing from row a to b costs ``changes[a, b]``."""
+    """Return for every column the row of the cheapest path through a cost matrix; going from row a to row b costs
+    ``changes[a, b]``.
+    """
     states, count = costs.shape
     if states == 1:
         return np.zeros(count, np.int64)
@@ -223,7 +231,9 @@ def _held(costs: FloatArray, changes: FloatArray) -> IntArray:
 
 
 def _ascending(pairs: list[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Longest subset of pairs whose second index also ascends (patience sorting)."""
+    """Return the longest subset of pairs, ordered by the first index, whose second index also ascends (patience
+    sorting).
+    """
     tops: list[int] = []
     last: list[int] = []
     before: list[int] = []
@@ -246,7 +256,9 @@ def _ascending(pairs: list[tuple[int, int]]) -> list[tuple[int, int]]:
 def _gaps(
     anchors: list[tuple[int, int]], old_count: int, new_count: int
 ) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
-    """Stretches between the anchors in which both lines have notes, as (start, end) in each line."""
+    """Yield the gaps between matched pairs in which both versions have notes, as (start, end) indices in the old and in
+    the new version.
+    """
     ends = [*anchors, (old_count, new_count)]
     first, new_first = 0, 0
     for end, new_end in ends:

@@ -26,7 +26,9 @@ _PLACE = re.compile(r"(?:^|(?<=:))@(-?\d+)$", re.ASCII)
 
 
 def note_of(correction: Correction) -> str | None:
-    """Note of a correction; None for one that belongs to a place or to an event without a note."""
+    """Return the id of the note that a correction belongs to; None if it belongs to a tick or to an event without a
+    note.
+    """
     note_id: str | None = getattr(correction, "note_id", None)
     if note_id is not None:
         return None if _PLACE.search(note_id) else note_id
@@ -35,7 +37,7 @@ def note_of(correction: Correction) -> str | None:
 
 
 def notes_of(correction: Correction) -> tuple[str, ...]:
-    """Ids of the notes to which a correction belongs: for a slur those at both ends."""
+    """Return the ids of all notes that a correction belongs to: for a slur those at both ends."""
     last: str | None = getattr(correction, "last_note_id", None)
     return tuple(note for note in (note_of(correction), last) if note is not None)
 
@@ -52,7 +54,7 @@ def moved_correction(
     place : callable, optional
         Function from old to new ticks.
     scale : Fraction
-        Of lengths in ticks.
+        Factor for lengths in ticks.
     """
     changes: dict[str, Any] = {}
     for field in correction.__struct_fields__:
@@ -80,7 +82,9 @@ def moved_correction(
 def _moved_keys(
     keys: tuple[CurveKey, ...], place: Callable[[int], int] | None, scale: Fraction
 ) -> tuple[CurveKey, ...]:
-    """Return the keys of a curve at the ticks that ``place`` gives, in ascending order without losing any."""
+    """Return the keys of a curve moved to the ticks given by ``place``, in ascending order; keys that would coincide
+    move apart by one tick.
+    """
     result: list[CurveKey] = []
     for key in keys:
         tick = key.tick if place is None else place(key.tick)
@@ -102,7 +106,7 @@ def correction_span(correction: Correction | DanceCorrection) -> int:
 
 
 def _renamed(text: str, note_ids: Mapping[str, str], place: Callable[[int], int] | None) -> str:
-    """Return a note id, or an event id that ends with a note or place, after the change."""
+    """Return a note id, or an event id that ends with a note or tick, after notes were renamed and ticks moved."""
     note = _NOTE.search(text)
     if note is not None:
         return text[: note.start()] + note_ids.get(note.group(), note.group())

@@ -47,11 +47,11 @@ class AutosaveResult:
     Attributes
     ----------
     path : Path or None
-        Path of the file; None if a newer autosave exists already.
+        Path of the autosave; None if a newer one exists already.
     held : frozenset of Path
-        All files that contain this work, of any generation.
+        All files that hold a current or earlier state of this work.
     warning : Message or None
-        Warning if it was not saved at the usual place.
+        Warning if it was not saved next to the project's file.
     without : Message or None
         Message about content that was left out because it cannot be saved.
     project : Project or None
@@ -66,7 +66,7 @@ class AutosaveResult:
 
 
 class _OwnPlace:
-    """Prevents a delayed save from replacing a newer one in the state folder."""
+    """Serialises writes to the state folder, so that a delayed autosave does not replace a newer one."""
 
     def __init__(self) -> None:
         self.lock = threading.Lock()
@@ -118,7 +118,7 @@ class Writing:
             return replace(written, without=Message("autosave.without", without))
 
     def _saved(self) -> Project | None:
-        """The project as its file has it now; None if there is no file or it cannot be read."""
+        """Return the project as now stored in its own file; None if there is no file or it cannot be read."""
         try:
             return None if self.document is None else load(self.document)
         except FileError:
@@ -154,7 +154,7 @@ class Writing:
         return self._written(self.presence.own_path, warning)
 
     def _usual(self) -> Path | None:
-        """Path next to the project's file, if this editor may use it."""
+        """Return the path of the autosave next to the project's file; None if this editor may not use it."""
         document, presence = self.document, self.presence
         if document is None or not self.asks_usual or is_open_elsewhere(document, presence.folder, presence.token):
             return None
@@ -202,7 +202,7 @@ class Autosave:
         self._begin("", None)
 
     def _begin(self, base: str, former: Autosaved | None) -> None:
-        """Start tracking another project; state of the previous one is dropped."""
+        """Start tracking another project, and discard the state of the previous one."""
         self._project: Project | None = None
         self._written: Project | None = None
         self._former: Project | None = None
@@ -228,19 +228,19 @@ class Autosave:
 
     @property
     def due_s(self) -> float | None:
-        """Return the time when the next autosave is due; None if everything is saved or being saved."""
+        """Return the time in seconds at which the next autosave is due; None if everything is saved or being saved."""
         if self._changed_s is None or len(self._pending) >= MOST_PENDING:
             return None
         # One that does not come back is not waited for.
         return max([self._changed_s + self.delay_s, *(taken_s + PATIENCE_S for taken_s in self._pending.values())])
 
     def has(self, project: Project) -> bool:
-        """Return whether this state of the project is saved."""
+        """Return whether a state of the project is saved, in its file or an autosave."""
         return project is self._written
 
     @property
     def has_work(self) -> bool:
-        """Return whether there is unsaved work, autosaved or not."""
+        """Return whether the project has changes that are not in its file."""
         return self._project is not None or bool(self._held)
 
     def is_current(self, writing: Writing) -> bool:
@@ -314,7 +314,7 @@ class Autosave:
             self._changed_s = now_s
 
     def written(self, writing: Writing, written: AutosaveResult) -> None:
-        """Record that unsaved work was saved. Raises FileError if the record cannot be written."""
+        """Record that an autosave was written. Raises FileError if the record of open files cannot be written."""
         path = written.path
         if path is None:
             return
@@ -333,7 +333,7 @@ class Autosave:
         self._report(path)
 
     def closed(self) -> None:
-        """The editor ends in an orderly way: nothing is left to recover."""
+        """End orderly: delete this editor's autosaves, since nothing is left to recover."""
         self._drop()
         self.presence.leave()
 

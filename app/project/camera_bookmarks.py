@@ -30,13 +30,13 @@ class CameraBookmark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     view : str
         One of `VIEWS`; close-ups follow their performer.
     player_id : str
-        Id of the followed player or dancer; empty: none. If the performer no longer exists, the camera is fixed.
+        Id of the followed player or dancer; empty for none. If the performer no longer exists, the camera is fixed.
     target_m : (float, float, float)
-        Point in the middle of the picture when the camera was kept.
+        Point in the middle of the picture when the camera was stored.
     yaw_rad, pitch_rad : float
-        From the audience towards +X, and from level upwards.
+        Angle from the audience's direction towards +X, and angle above the horizontal.
     distance_m : float
-        From the target.
+        Distance from the target.
     fov_deg : float
         Vertical angle of view.
     shift_m : (float, float, float)
@@ -55,7 +55,7 @@ class CameraBookmark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def camera_faults(cameras: Sequence[CameraBookmark]) -> Iterator[Fault]:
-    """Yield place and description of every error in a piece's camera bookmarks."""
+    """Yield key path and description of every error in a piece's camera bookmarks."""
     if len(cameras) > MOST_CAMERAS:
         yield "cameras", f"at most {MOST_CAMERAS}"
     yield from unique("cameras", (camera.name.casefold() for camera in cameras), "name")

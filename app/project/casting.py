@@ -45,8 +45,9 @@ LONG_ARMS = 0.9
 
 
 class StagePosition(msgspec.Struct, frozen=True):
-    """Place of a player: metres from the middle of the stage, the audience towards +Z, and the turn from +Z towards +X
-    in radians."""
+    """Place of a player: x and z in metres from the middle of the stage, with the audience towards +Z, and the rotation
+    from +Z towards +X in radians.
+    """
 
     x_m: float
     z_m: float
@@ -87,11 +88,7 @@ class Footprint(msgspec.Struct, frozen=True):
 
 
 def stage_seats(footprints: Sequence[Footprint]) -> tuple[StagePosition, ...]:
-    """Places for an ensemble in its order: an arc for a few players, rows as in a band for many.
-
-    Neighbours are spaced by the extent of their instruments. In rows players sit by section in the usual order; a
-    section too large for a row continues in another row behind.
-    """
+    """Return the places for an ensemble in the given order: an arc for a few players, rows as in a band for many."""
     if len(footprints) <= MOST_IN_ARC:
         return stage_arc(len(footprints), _spacing(footprints))
     order = sorted(range(len(footprints)), key=lambda index: (footprints[index].row, footprints[index].place))
@@ -127,18 +124,20 @@ def conductor_place(stages: Sequence[StagePosition]) -> ConductorPlace:
 
 
 def usual_posture(count: int) -> Posture:
-    """Usual posture for an ensemble of this size: standing in an arc, seated in rows."""
+    """Return the usual posture for a number of players: standing in an arc, or seated in rows."""
     return "standing" if count <= MOST_IN_ARC else "seated"
 
 
 def _spacing(row: Sequence[Footprint]) -> float:
-    """Distances between neighbours, from the audience's left: each has the next at the left hand."""
+    """Return the distances in metres between neighbours in a row from the audience's left; each player's neighbour is
+    at the left hand.
+    """
     needed = [max(one.left_m, ELBOW_M) + max(other.right_m, ELBOW_M) + CLEAR_M for one, other in pairwise(row)]
     return max([SPACING_M, *needed])
 
 
 def stage_arc(count: int, spacing_m: float = SPACING_M) -> tuple[StagePosition, ...]:
-    """Places of a few players on an arc open to the audience, in score order from the audience's left (-X).
+    """Return the places of a few players on an arc open to the audience, in score order from the audience's left (-X).
 
     Neighbours are ``spacing_m`` apart. Each faces the middle of the opening, half way between the colleague opposite
     and the audience.
@@ -151,13 +150,15 @@ def stage_arc(count: int, spacing_m: float = SPACING_M) -> tuple[StagePosition, 
 
 
 def _row(count: int, step: float, radius: float) -> tuple[StagePosition, ...]:
-    """Places of ``count`` players on an arc around the conductor, ``step`` radians apart, ``radius`` in metres."""
+    """Return the places of ``count`` players on an arc around the conductor, ``step`` radians apart, at ``radius``
+    metres.
+    """
     angles = [(index - (count - 1) / 2.0) * step for index in range(count)]
     return tuple(StagePosition(radius * math.sin(angle), -radius * math.cos(angle), -angle / 2.0) for angle in angles)
 
 
 def amplitude(seed: int, player_id: str) -> float:
-    """Amplitude of a player's motion, a random value near the natural one."""
+    """Return the amplitude of a player's motion, a random value near the usual one."""
     return round(NATURAL_AMPLITUDE + AMPLITUDE_SPREAD * (2.0 * chance("amplitude", seed, player_id) - 1.0), 3)
 
 
@@ -174,9 +175,9 @@ def choose_characters(
     Parameters
     ----------
     travels_m : sequence of float
-        Distance a hand must travel on each player's instrument.
+        Distance in metres that a hand must travel on each player's instrument.
     arms_m : mapping of str to float
-        Arm length of every available character; at least one.
+        Arm length in metres of every available character, by id; at least one.
     left_out : sequence of collection of str, optional
         Characters too small for each player's instrument.
 

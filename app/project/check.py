@@ -45,7 +45,7 @@ _MORPHS = frozenset(ARKIT_MORPHS)
 
 
 def faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
-    """Yield all faults of a project one by one; callers may stop at the first.
+    """Yield key path and description of every fault of a project; callers may stop at the first.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def require_sound(project: Project, before: Project | None = None) -> None:
 
 
 def _read_faults(project: Project, before: Project | None) -> Iterator[Fault]:
-    """Faults of the MIDI file's contents, in the order of the score."""
+    """Yield the faults in the stored notes of the MIDI file, in the order of the score."""
     known = {} if before is None else before.read_notes
     for part_id, notes in project.read_notes.items():
         if known.get(part_id) is notes:
@@ -164,7 +164,7 @@ def _recorded_faults(recorded: PlayerTakes, place: str) -> Iterator[Fault]:
 
 
 def take_faults(take: Take, place: str) -> Iterator[Fault]:
-    """Yield place and description of every error in a take; ``place`` is the take's own."""
+    """Yield key path and description of every fault in a take; ``place`` is the take's own key path."""
     if not _TAKE.fullmatch(take.id):
         yield f"{place}.id", 'must be like "take:1"'
     yield from text_faults(f"{place}.name", take.name)
@@ -232,7 +232,9 @@ def _setting_faults(project: Project) -> Iterator[Fault]:
 
 
 def expression_faults(expression: Expression, place: str) -> Iterator[Fault]:
-    """Faults of an expression added by the animator."""
+    """Yield key path and description of every fault in an expression added by the animator; ``place`` is its own key
+    path.
+    """
     yield from id_faults(f"{place}.name", expression.name)
     yield from text_faults(f"{place}.description", expression.description)
     for morph, weight in expression.weights.items():
@@ -246,7 +248,7 @@ def expression_faults(expression: Expression, place: str) -> Iterator[Fault]:
 
 
 def track_faults(track: AudioTrack | VideoTrack) -> Iterator[Fault]:
-    """Faults in path, offset and confidence of a track."""
+    """Yield the faults in path, offset and confidence of a recording or video."""
     if not track.path:
         yield "path", "must be the path of a file"
     yield from path_faults("path", track.path)
@@ -256,7 +258,7 @@ def track_faults(track: AudioTrack | VideoTrack) -> Iterator[Fault]:
 
 
 def audio_faults(audio: AudioTrack) -> Iterator[Fault]:
-    """Yield place and description of every error in a recording and its alignment."""
+    """Yield key path and description of every fault in a recording and its alignment."""
     yield from track_faults(audio)
     for index, pin in enumerate(audio.pins):
         yield from faults_of_bounds(f"pins[{index}].tick", pin.tick, (0, limits.LAST_TICK))

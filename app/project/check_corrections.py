@@ -26,8 +26,8 @@ _TICKS: Final = (-limits.LAST_TICK, limits.LAST_TICK)
 
 
 def project_correction_faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
-    """Faults of all players' corrections, with player, bar and correction; skips corrections shared with `before`,
-    which is known to be valid.
+    """Yield the faults of all players' corrections, each described with player, bar and correction. Corrections shared
+    with ``before``, which is known to be valid, are skipped.
     """
     known = {player.id: player for player in project.players}
     for player_id, corrections in project.corrections.items():
@@ -44,7 +44,7 @@ def project_correction_faults(project: Project, before: Project | None = None) -
 
 
 def correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
-    """Yield place and description of every error in a correction; ``place`` is the correction's own."""
+    """Yield key path and description of every fault in a correction; ``place`` is the correction's own key path."""
     if isinstance(correction, AdditiveCurve):
         yield from id_faults(f"{place}.name", correction.name, least=0)
         yield from curve_faults(correction, place)
@@ -56,7 +56,7 @@ def correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
 
 
 def _mark_faults(correction: OfMark) -> Iterator[Fault]:
-    """Faults in a mark's anchors and text, by its kind."""
+    """Yield the faults in anchors and text of a corrected mark, by its kind."""
     anchor = MARK_KINDS[correction.kind].anchor
     at_tick = anchor in ("place", "span")
     needed = {"note_id": not at_tick, "last_note_id": anchor == "notes", "start_tick": at_tick}
@@ -80,7 +80,7 @@ def _mark_faults(correction: OfMark) -> Iterator[Fault]:
 
 
 def _place(project: Project, correction: Correction, place: str) -> str:
-    """Bar of a fault, and kind and name of its correction, for a message."""
+    """Return the bar of a fault, and kind and name of its correction, as text for a message."""
     name, score = _name(correction), project.score
     named = f"{correction.tag} {name!r}" if name else correction.tag
     tick = _tick(project, correction, place)
@@ -90,7 +90,7 @@ def _place(project: Project, correction: Correction, place: str) -> str:
 
 
 def _name(correction: Correction) -> str:
-    """Display name of a correction: the user's title, or its subject; empty for corrections of a note."""
+    """Return the display name of a correction: the user's title, or its subject; empty for corrections of a note."""
     if isinstance(correction, OfMark):
         return correction.kind
     fields = ("title", "channel", "target", "style", "gesture", "expression")
@@ -99,7 +99,7 @@ def _name(correction: Correction) -> str:
 
 
 def _tick(project: Project, correction: Correction, place: str) -> int | None:
-    """Tick of the faulty key, or else of the correction's start; None if it has no place in the score."""
+    """Return the tick of the faulty key, or else of the correction's start; None if it has no place in the score."""
     if isinstance(correction, AdditiveCurve):
         found = _KEY.search(place)
         index = 0 if found is None else int(found[1])
@@ -114,7 +114,7 @@ def _tick(project: Project, correction: Correction, place: str) -> int | None:
 
 
 def _plain_faults(place: str, value: Any) -> Iterator[Fault]:
-    """Faults of a value of whatever kind a correction has: texts and numbers of a sane size."""
+    """Yield the faults of a value of any type within a correction: texts and numbers outside generous limits."""
     if isinstance(value, str):
         yield from text_faults(place, value, limits.MOST_ID)
     elif isinstance(value, int | float):

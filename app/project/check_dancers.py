@@ -22,7 +22,7 @@ from app.project.value_checks import (
 
 
 def dancer_faults(project: Project) -> Iterator[Fault]:
-    """Yield the place and description of every error in a project's dancers."""
+    """Yield key path and description of every fault in a project's dancers."""
     dancers, players = project.dancers, project.players
     if len(dancers) > limits.MOST_DANCERS:
         yield "dancers", f"at most {limits.MOST_DANCERS}"

@@ -13,7 +13,7 @@ from app.score.model import MOST_VOICES
 
 
 def import_faults(imported: ImportDecisions) -> Iterator[Fault]:
-    """Yield place and description of every error in stored import decisions."""
+    """Yield key path and description of every fault in stored import decisions."""
     if imported.encoding is not None and not is_encoding(imported.encoding):
         yield "encoding", "must be the name of a text encoding"
     if len(imported.rows) > MOST_ROWS:

@@ -61,8 +61,9 @@ def score_faults(score: Score, before: Score | None) -> Iterator[Fault]:
 
 
 def _note_id_faults(parts: Sequence[Part], before: Sequence[Part]) -> Iterator[Fault]:
-    """Yield an error for every note id that occurs twice in the piece; parts found in ``before`` were checked
-    already."""
+    """Yield a fault for every note id that occurs twice in the piece; parts found in ``before`` were checked
+    already.
+    """
     old = {part.id: part for part in before}
     if all(
         part.id in old and len(part.note_ids) == len(part.notes) and part.note_ids <= old[part.id].note_ids

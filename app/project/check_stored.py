@@ -34,8 +34,9 @@ _SETTINGS: Final = (
 
 
 class _Group(NamedTuple):
-    """Stored values of one type that are encoded together to be checked: a list indexed by place in the project, or a
-    single value."""
+    """Stored values of one type that are encoded together to be checked: a list whose index is part of the key path, or
+    a single value.
+    """
 
     place: str
     values: Sequence[Any]
@@ -44,7 +45,7 @@ class _Group(NamedTuple):
 
 
 def stored_faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
-    """Values that would not be restored from a file.
+    """Yield key path and description of every value that would not be restored from a file.
 
     Parameters
     ----------
@@ -111,7 +112,7 @@ def _groups(project: Project) -> Iterator[_Group]:
 
 
 def _as_stored(value: Any) -> Any:
-    """The value with paths in stored form; file names may be bytes that are not valid text."""
+    """Return a value with its paths in stored form, since file names may be bytes that are not valid text."""
     if isinstance(value, AudioTrack | VideoTrack):
         return msgspec.structs.replace(value, path=stored(value.path))
     if isinstance(value, Dancer):
@@ -124,7 +125,7 @@ def _as_stored(value: Any) -> Any:
 
 
 def _not_text(value: Any, place: str) -> Iterator[str]:
-    """Yield the places of texts in a stored value that are not valid Unicode."""
+    """Yield the key paths of texts in a stored value that are not valid Unicode."""
     if isinstance(value, str):
         if not is_text(value):
             yield place

@@ -16,7 +16,7 @@ _NAME: Final = re.compile(r"[a-z0-9][a-z0-9_-]{0,59}", re.ASCII)
 
 @cache
 def bundled_choreographies() -> tuple[str, ...]:
-    """Names of the choreographies that come with the program, sorted."""
+    """Return the names of the bundled choreographies, sorted."""
     folder = _folder()
     if not os.path.isdir(folder):
         return ()
@@ -24,8 +24,8 @@ def bundled_choreographies() -> tuple[str, ...]:
 
 
 def is_bundled_name(choreography: str) -> bool:
-    """Return whether a text can be the name of a bundled choreography of any version, not a path: it has neither
-    separator nor suffix.
+    """Return whether a text can be the name of a bundled choreography, also of another version, and not a path: it has
+    neither separator nor suffix.
     """
     return _NAME.fullmatch(choreography) is not None
 

@@ -12,12 +12,12 @@ class _Correction(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_f
 
 
 class PinState(_Correction, frozen=True, tag="pin_state"):
-    """Require a basic motion at a tick.
+    """Correction that requires a basic motion at a tick.
 
     Attributes
     ----------
     state : int
-        Index of the choreography's basic motion.
+        Index of the basic motion in the choreography.
     """
 
     tick: int
@@ -33,12 +33,12 @@ class ForbidState(_Correction, frozen=True, tag="forbid_state"):
 
 
 class UseSegment(_Correction, frozen=True, tag="use_segment"):
-    """Require a segment of the learned motion at a tick, and with it its basic motion.
+    """Correction that requires a segment of the motion capture at a tick, and with it its basic motion.
 
     Attributes
     ----------
     segment : int
-        Index of the choreography's segment.
+        Index of the segment in the choreography.
     """
 
     tick: int

@@ -30,12 +30,14 @@ _COVERED = 0.9
 
 
 def is_read(project: Project, part: Part) -> bool:
-    """Return whether a part is of the MIDI file, not made in the editor."""
+    """Return whether a part was read from the MIDI file, not made in the editor."""
     return part.id in project.read_notes or not part.id.startswith(MADE_PART)
 
 
 def held_by_file(project: Project, part: Part) -> tuple[Note, ...]:
-    """Notes of a part as in the file; notes that were not in the file, or are unknown, unchanged."""
+    """Return the notes of a part as they are in the MIDI file. Notes that the file lacks, or whose version there is
+    unknown, are returned as in the project.
+    """
     read = project.read_notes.get(part.id)
     if not read:
         return part.notes
@@ -44,12 +46,12 @@ def held_by_file(project: Project, part: Part) -> tuple[Note, ...]:
 
 
 def derived_decisions(project: Project, contents: PieceContents, choices: Sequence[MapChoice]) -> ImportDecisions:
-    """The import decisions implied by a project's parts.
+    """Return the import decisions that explain a project's parts.
 
     Parameters
     ----------
     contents : PieceContents
-        Current contents of its file, which show how tracks were split.
+        Present contents of the project's MIDI file, which show how tracks were split.
     """
     groups: dict[Place, list[Part]] = {}
     for part in project.score.parts:
@@ -84,8 +86,8 @@ def derived_decisions(project: Project, contents: PieceContents, choices: Sequen
 
 
 def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: PieceContents) -> dict[Place, list[int]]:
-    """Channels from which most notes of each group's parts were read, identified by note ids if the file is largely
-    unchanged.
+    """Return the channels from which most notes of each group of parts were read, identified by note ids if the file is
+    largely unchanged.
     """
     old, new = project.score.ticks_per_quarter, contents.tempo_map.ticks_per_quarter
     owners = {
@@ -118,7 +120,7 @@ def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: P
 
 
 def _marks(project: Project, parts: Sequence[Part]) -> Iterator[TrackMark]:
-    """Marks that identify the tracks of a group's parts, as far as the parts contain them."""
+    """Yield marks that identify the tracks of a group of parts, as far as the parts still show them."""
     first = parts[0]
     held = [note for part in parts for note in held_by_file(project, part)]
     # Players in unison have the same notes.
@@ -147,7 +149,7 @@ def _row(
     choices: Sequence[MapChoice],
     unchanged: bool,
 ) -> RowDecision:
-    """Return the import decision by which these channels of a file would become the given parts."""
+    """Return the import decision by which the given channels of a file become the given parts."""
     first, *_ = parts
     by_id = {choice.map_id: choice for choice in choices}
     own = by_id.get(first.map_id)
@@ -188,7 +190,7 @@ def _alike(project: Project, old: Sequence[Part], new: Sequence[Part], quarter: 
 
 
 def _same_lengths(one: Part, other: Part, one_quarter: int, other_quarter: int) -> float:
-    """Share of notes with equal length, if two parts have the same number of notes; 0..1."""
+    """Return the share 0..1 of notes with equal length in two parts; 0 if these have different numbers of notes."""
     if len(one.notes) != len(other.notes) or not one.notes:
         return 0.0
     lengths = zip(one.notes, other.notes, strict=True)
@@ -197,7 +199,7 @@ def _same_lengths(one: Part, other: Part, one_quarter: int, other_quarter: int) 
 
 
 def _left_out(project: Project, channels: Sequence[TrackChannel], silent: Sequence[int]) -> Iterator[int]:
-    """Channels without a part that the project lists as unplayed."""
+    """Yield the channels without a part that the project lists as unplayed."""
     unplayed = list(project.score.unplayed)
     for index in silent:
         name, count = stream_name(channels[index]), len(channels[index].pitches)

@@ -79,18 +79,20 @@ def doubled_parts(parts: Sequence[Part], maps: Mapping[str, InstrumentMap], cloc
 
 
 def common_postures(instruments: Sequence[InstrumentMap]) -> tuple[Posture, ...]:
-    """Postures in which all given instruments can be played."""
+    """Return the postures in which all given instruments can be played."""
     postures: tuple[Posture, ...] = ("standing", "seated")
     return tuple(one for one in postures if all(one in instrument.hold.postures for instrument in instruments))
 
 
 def together_s(played: Sequence[Sequence[Note]], notes: Sequence[Note], clock: TempoMap) -> float:
-    """Return the seconds in which the notes sound at the same time as already played ones."""
+    """Return for how many seconds ``notes`` sound at the same time as notes of the parts ``played`` already."""
     return _overlap_s(_spans(chain.from_iterable(played)), _spans(notes), clock)
 
 
 def _overlap_s(one: Sequence[tuple[int, int]], other: Sequence[tuple[int, int]], clock: TempoMap) -> float:
-    """Overlap in seconds of two lists of ordered, separate spans."""
+    """Return the overlap in seconds of two lists of (start, end) in ticks; the spans of a list are ordered and
+    separate.
+    """
     common: list[tuple[int, int]] = []
     mine = theirs = 0
     while mine < len(one) and theirs < len(other):
@@ -109,12 +111,12 @@ def _overlap_s(one: Sequence[tuple[int, int]], other: Sequence[tuple[int, int]],
 
 
 def _spans(notes: Iterable[Note]) -> list[tuple[int, int]]:
-    """Spans of ticks in which notes sound, ascending; overlapping ones become one."""
+    """Return the spans (start, end) of ticks in which notes sound, ascending; overlapping ones are merged."""
     return _joined((note.onset_tick, note.end_tick) for note in notes)
 
 
 def _joined(spans: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Spans sorted and merged, so that they neither overlap nor touch."""
+    """Return the spans sorted and merged, so that they neither overlap nor touch."""
     joined: list[tuple[int, int]] = []
     for start, end in sorted(spans):
         if joined and start <= joined[-1][1]:

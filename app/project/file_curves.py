@@ -1,4 +1,4 @@
-"""Merges controllers when a part's file is read again: edits stay where the file is unchanged."""
+"""Merging of controllers when a part's file is read again: edits stay where the file is unchanged."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def merged_curves(
     file: Sequence[ControllerCurve],
     place: Callable[[int], int],
 ) -> MergedCurves:
-    """Three-way merge of each controller: the project's if the file did not change it, else the file's.
+    """Merge each controller of three versions: the project's is used if the file did not change it, else the file's.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def merged_curves(
 
 
 def moved_curve(curve: ControllerCurve, place: Callable[[int], int]) -> ControllerCurve:
-    """Move a curve with its music; if points coincide, the last one counts."""
+    """Return a curve with its ticks converted by ``place``; of points that then coincide, the last one is used."""
     points = {max(place(tick), 0): value for tick, value in zip(curve.ticks, curve.values, strict=True)}
     return ControllerCurve(curve.kind, tuple(points), tuple(points.values()))
 

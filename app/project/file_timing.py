@@ -1,4 +1,4 @@
-"""Merges tempo and metres when a file is read again: edits stay where the file is unchanged."""
+"""Merging of tempo and metres when a file is read again: edits stay where the file is unchanged."""
 
 from __future__ import annotations
 
@@ -46,7 +46,8 @@ def with_timing(score: Score, timing: ReadTiming) -> Score:
 
 
 def merged_timing(project: Project, file: Score, place: Placing, scale: Fraction, unchanged: bool) -> MergedTiming:
-    """Three-way merge of tempo and metres: the project's if the file did not change them, else the file's.
+    """Merge tempo and metres of three versions: the project's are used if the file did not change them, else the
+    file's.
 
     Parameters
     ----------
@@ -90,8 +91,9 @@ def _moved_tempo(tempo_map: TempoMap, place: Placing, scale: Fraction) -> TempoM
 
 
 def _moved_metres(metres: tuple[Metre, ...], pickup_ticks: int, place: Placing) -> tuple[tuple[Metre, ...], int]:
-    """Return the metres at their new places, and the length of the pickup, if the metre after it still begins at its
-    end."""
+    """Return the metres and the length of the pickup after ticks are converted by ``place``. The pickup is kept if the
+    metre after it still begins at its end.
+    """
     moved = {}
     for metre in metres:
         tick = max(place(metre.tick), 0) if metre.tick else 0

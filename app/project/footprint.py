@@ -1,4 +1,4 @@
-"""Space of an instrument on the stage and place of its section, from its map and the vocabulary."""
+"""Space that an instrument needs on the stage, and place of its section, from its map and the vocabulary."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ _FOOTPRINTS: IdentityCache[Footprint] = IdentityCache(128)
 
 
 def footprint(instrument: InstrumentMap | None) -> Footprint:
-    """The space that a player of an instrument needs; without a map, that of a body."""
+    """Return the space that a player of an instrument needs; without a map, that of a body."""
     if instrument is None:
         return Footprint(row=len(vocabulary().seating))
     return _FOOTPRINTS.step(_footprint, instrument)
 
 
 def together(footprints: Iterable[Footprint]) -> Footprint:
-    """The space of a musician who plays several instruments in turn, in the section of the first."""
+    """Return the space of a musician who plays several instruments in turn, at the place of the first one's section."""
     first, *others = footprints
     if not others:
         return first
@@ -62,7 +62,7 @@ def _footprint(instrument: InstrumentMap) -> Footprint:
 
 
 def _turn(carriage: Carriage) -> FloatArray:
-    """Rotation (4,) of an instrument as usually carried: yaw, then pitch, then roll."""
+    """Return the rotation (4,) of an instrument in its usual carriage: yaw, then pitch, then roll."""
     yaw, pitch, roll = (
         np.radians(angles[1]) for angles in (carriage.yaw_left_deg, carriage.pitch_down_deg, carriage.roll_left_deg)
     )
@@ -73,8 +73,9 @@ def _turn(carriage: Carriage) -> FloatArray:
 
 
 def _ends(instrument: InstrumentMap) -> FloatArray:
-    """Return the corners (N, 3) of the model's bodies in the root's frame, metres; for parts that a hand moves, in both
-    end positions."""
+    """Return the corners (N, 3) of boxes around an instrument's collision bodies in its frame, metres; for parts that a
+    hand moves, at both ends of their travel.
+    """
     travels = {
         control.node: np.array(control.motion.axis) * control.travel_m
         for control in instrument.controls
@@ -90,8 +91,9 @@ def _ends(instrument: InstrumentMap) -> FloatArray:
 
 
 def _bodies(instrument: InstrumentMap) -> Iterator[tuple[FloatArray, str]]:
-    """Yield the eight corners (8, 3) of a box around every body of the instrument, in metres, with the name of its
-    node."""
+    """Yield the eight corners (8, 3) of a box around every collision body of an instrument, in metres, and the name of
+    its node.
+    """
     corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
     for body in instrument.proxy:
         if isinstance(body, Box):

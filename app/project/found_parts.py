@@ -1,4 +1,4 @@
-"""Matches the parts and notes of a re-read MIDI file with those of the project.
+"""Matching of the parts and notes of a re-read MIDI file with those of the project.
 
 A matched note keeps its id; if both the project and the file changed it, the file's version is used.
 """
@@ -26,14 +26,14 @@ from app.score.model import Note, Part, Score, transposed
 
 @dataclass(frozen=True)
 class PartMatch:
-    """A part matched again in the file.
+    """A part of the project that was found again in the re-read file.
 
     Attributes
     ----------
     part_id : str
         Id of the part, which it keeps.
     kept, added, removed : int
-        Notes.
+        Numbers of notes that were kept, added and removed.
     by_hand : int
         Number of notes whose change by hand is kept.
     """
@@ -56,9 +56,9 @@ class Conflict:
     read : Note
         The note in the file when last read.
     by_hand : Note or None
-        The user's version; None: deleted.
+        The user's version; None if deleted.
     file : Note or None
-        The note in the file now; None: deleted.
+        The note in the file now; None if deleted.
     """
 
     part_id: str
@@ -75,7 +75,7 @@ class FoundParts:
     Attributes
     ----------
     parts : tuple of Part
-        With the ids of the project.
+        Parts as they will be in the project, with its ids.
     former : tuple of (Part or None)
         Previous version of each part; None if it is new or kept.
     others : tuple of Part
@@ -85,7 +85,7 @@ class FoundParts:
     added : tuple of str
         Ids of new notes.
     still : bool
-        No note has moved.
+        Whether no note has moved.
     kept : frozenset of str
         Ids of parts that stay unchanged whatever the file has (`app.project.kept_parts`).
     """
@@ -108,7 +108,7 @@ class FoundParts:
 
     @property
     def pairs_of_ticks(self) -> list[tuple[int, int]]:
-        """Previous and new ticks of matched notes in all parts; empty if nothing moved."""
+        """Return all pairs of previous and new tick of matched notes in all parts; empty if nothing moved."""
         if self.still:
             return []
         return [pair for id, own in self.places.items() if id not in self.kept for pair in own]
@@ -120,7 +120,9 @@ def found_again(project: Project, score: Score, places_now: Mapping[Place, Place
     Parameters
     ----------
     places_now : mapping of Place to Place
-        New place of each recognised track, by its previous place.
+        Present place of each recognised track, by its previous one.
+    scale : Fraction
+        Ticks of the file per tick of the project.
     """
     old = project.score
     hints = [places_now.get(part.place) if is_read(project, part) else None for part in old.parts]
@@ -212,12 +214,14 @@ def _found_part(
 def _same_notes(
     places: Sequence[int], was: Sequence[Note], now: Sequence[Note], scale: Fraction
 ) -> list[tuple[int, int]] | None:
-    """The pairs of notes of a line that is unchanged or shifted as a whole; None otherwise.
+    """Return the pairs of indices of notes in a part that is unchanged or shifted as a whole; None if it is not.
 
     Parameters
     ----------
     places : sequence of int
-        Indices of those previous notes that were in the file.
+        Indices in ``was`` of those notes that were in the file.
+    was, now : sequence of Note
+        Notes of the part in the project and in the file.
     """
     if len(places) != len(now):
         return None
@@ -234,8 +238,8 @@ def _same_notes(
 
 
 def _as_read(score: Score, old: Score, former_of: Mapping[int, int]) -> Score:
-    """The score with matched parts transposed as before, and with their previous instrument map if no other was
-    chosen.
+    """Return the score with matched parts transposed as in the project; they keep their instrument map if the file
+    still names the same instrument.
     """
     parts = list(score.parts)
     for new, former in former_of.items():
@@ -266,7 +270,7 @@ def _merged(
     *,
     as_a_whole: bool,
 ) -> _Merged:
-    """Three-way merge of each note: the user's version if the file did not change it, else the file's.
+    """Merge each note of three versions: the user's is used if the file did not change it, else the file's.
 
     Parameters
     ----------
@@ -279,7 +283,7 @@ def _merged(
     pairs : sequence of (int, int)
         Indices of matching notes in ``was`` and in the part.
     as_a_whole : bool
-        Whether the line is unchanged or shifted as a whole, so that no single note moved.
+        Whether the part is unchanged or shifted as a whole, so that no single note moved.
     """
     here = {note.id: note for note in before.notes}
     distances = [part.notes[new].onset_tick - round(was[one].onset_tick * scale) for one, new in pairs]
@@ -328,8 +332,7 @@ def _renamed(part: Part, part_id: str, note_ids: Sequence[str]) -> Part:
 def _drawn(
     before: Part, kept: frozenset[str], place: Callable[[int], int], scale: Fraction, part: Part
 ) -> tuple[Note, ...]:
-    """Return the user's own notes that the re-read file lacks: those that still fit between its notes, at their new
-    ticks."""
+    """Return notes that the user added to a part, at their new ticks, as far as they fit between the file's notes."""
     ends = np.maximum.accumulate(np.array([0, *(note.end_tick for note in part.notes)]))
     onsets = [note.onset_tick for note in part.notes]
     result = []

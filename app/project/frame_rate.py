@@ -46,7 +46,7 @@ def is_storable_rate(rate: Fraction) -> bool:
 
 
 def exact_number(text: str) -> Fraction:
-    """An exact number from ``1.5`` or ``3/2``. Raises ValueError, ZeroDivisionError."""
+    """Convert a text such as ``1.5`` or ``3/2`` to an exact number. Raises ValueError, ZeroDivisionError."""
     plain = _plain(text)
     if "e" in plain.casefold():
         raise ValueError(text)  # 1e999999999 would take hours
@@ -60,7 +60,7 @@ def frame_rate(text: str) -> Fraction:
 
 
 def pulled_down(rate: Fraction) -> Fraction:
-    """The exact rate for a decimal short form: 23.98, 23.976, 29.97 or 59.94."""
+    """Return the exact rate for a decimal short form (23.98, 23.976, 29.97 or 59.94), others unchanged."""
     for nominal in PULLED_DOWN:
         exact = Fraction(nominal * 1000, 1001)
         # The usual short forms keep two or three decimals.
@@ -78,5 +78,5 @@ def frame_rate_text(rate: Fraction) -> str:
 
 
 def _plain(text: str) -> str:
-    """Normalise full-width digits and signs, as typed by Japanese input methods."""
+    """Return a text with full-width digits and signs, as typed by Japanese input methods, replaced by ASCII."""
     return unicodedata.normalize("NFKC", text).strip()

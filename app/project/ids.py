@@ -1,11 +1,11 @@
 """Ids of notes, parts, players, dancers and takes that do not come from a file.
 
 Ids from a MIDI file are ``"track:number"`` (notes) and ``"track.channel.voice"`` (parts and their players), all digits.
-Other ids begin with a word, so that they never coincide with those: notes added in the editor are ``"n:1"`` and so on,
-their parts ``"part:1"``; additions of a re-read file are ``"f:1"`` and ``"file:1"``. Each new number is above all
-numbers in the project, including corrections without a note, so that such a correction can never apply to another note.
-Notes of a take are ``"t:1000001"`` and so on, made of the numbers of the take and of the played note (`take_note_id`);
-they stay the same when the take is cut or cleaned again.
+Other ids begin with a word, so that they never coincide with ids from a file: notes added in the editor are ``"n:1"``
+and so on, their parts ``"part:1"``; additions of a re-read file are ``"f:1"`` and ``"file:1"``. Each new number is
+above all numbers in the project, including corrections without a note, so that such a correction can never apply to
+another note. Notes of a take are ``"t:1000001"`` and so on, made of the numbers of the take and of the played note
+(`take_note_id`); they stay the same when the take is cut or cleaned again.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def fresh_dancer_ids(project: Project, count: int = 1) -> tuple[str, ...]:
 
 
 def _performers(project: Project) -> Iterator[str]:
-    """Ids of players and dancers, unique among both."""
+    """Yield the ids of players and dancers, unique among both."""
     yield from (player.id for player in project.players)
     yield from (dancer.id for dancer in project.dancers)
 
@@ -80,7 +80,7 @@ def fresh_take_ids(project: Project, count: int = 1) -> tuple[str, ...]:
 
 
 def take_note_id(take_number: int, index: int) -> str:
-    """The id of a take's note, by its index among the played notes."""
+    """Return the id of a take's note, by its index among the played notes."""
     return f"{TAKE_NOTE}{take_number * MOST_TAKE_NOTES + index + 1}"
 
 
@@ -100,7 +100,7 @@ def _number(id: str, prefix: str) -> int:
 
 
 def _named(correction: Correction, prefix: str) -> int:
-    """The highest number of an added note that occurs in any field of a correction."""
+    """Return the highest number of a note id with a prefix that occurs in any field of a correction."""
     found = (
         _NUMBERED.search(value)
         for value in (getattr(correction, field) for field in correction.__struct_fields__)

@@ -23,7 +23,7 @@ class IgnoredProblem(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     message_id, note_id : str
         Message id and note id; ``note_id`` is empty if the problem has no note.
     body_part : str
-        Side or touch in the message's arguments.
+        Side of the body or touching part that the message names.
     tick : int
         Start of a problem without a note; 0 for others.
     """
@@ -35,7 +35,7 @@ class IgnoredProblem(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def ignored_problem(problem: Problem, clock: TempoMap) -> IgnoredProblem:
-    """The stored form of a problem to be ignored."""
+    """Return the stored form of a problem that is to be ignored."""
     named = [str(problem.message.arguments[name]) for name in PARTS if name in problem.message.arguments]
     tick = 0 if problem.note_id is not None else round(clock.ticks(problem.start_s))
     body_part = " ".join(named)[:200]
@@ -43,7 +43,7 @@ def ignored_problem(problem: Problem, clock: TempoMap) -> IgnoredProblem:
 
 
 def moved_ignored(ignored: IgnoredProblem, place: Callable[[int], int]) -> IgnoredProblem:
-    """An ignored problem after its music was moved; ``place`` maps old ticks to new ones."""
+    """Return an ignored problem after its music was moved; ``place`` converts old ticks to new ones."""
     return ignored if ignored.note_id else msgspec.structs.replace(ignored, tick=place(ignored.tick))
 
 

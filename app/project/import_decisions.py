@@ -29,7 +29,7 @@ class TrackMark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     track, channel, change : int
-        As in `TrackChannel`, when the file was read last.
+        See `TrackChannel`; values when the file was last read.
     name, instrument_name, program, reported
         Data from which the instrument was chosen.
     called : str
@@ -50,7 +50,7 @@ class TrackMark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def place(self) -> Place:
-        """Track, channel and instrument index of the channel."""
+        """Track, channel and instrument index of the channel, by which it is identified in a file."""
         return self.track, self.channel, self.change
 
 
@@ -60,19 +60,19 @@ class RowDecision(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     tracks : tuple of TrackMark
-        Several tracks are merged into one part; the first one leads.
+        Tracks; several are merged into one part, which is named after the first.
     requested : bool
-        False: the tracks are left out.
+        Whether the tracks get a player; otherwise they are left out.
     map_id, name, split, written
-        As in `app.score.parts.PartAssignment`.
+        See `app.score.parts.PartAssignment`.
     character_id : str or None
-        Id of the character; None: chosen automatically.
+        Id of the character; None to choose automatically.
     solos : bool
-        As in `PartAssignment`; False for imports of earlier versions, which ignored such words.
+        See `PartAssignment`; False for imports of earlier versions, which did not interpret "solo" and similar words.
     clean : bool
-        As in `PartAssignment`; imports of earlier versions cleaned nothing, and do not when read again.
+        See `PartAssignment`; False for imports of earlier versions.
     voice_maps : tuple of (str or None)
-        As in `PartAssignment`.
+        See `PartAssignment`.
     """
 
     tracks: tuple[TrackMark, ...]
@@ -93,9 +93,9 @@ class ImportDecisions(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     encoding : str or None
-        Encoding of the file's texts; None: guessed for each text.
+        Encoding of the file's texts; None to guess it for each text.
     rows : tuple of RowDecision
-        In the order of the parts.
+        Decisions in the order of the parts.
     """
 
     encoding: str | None = None
@@ -111,14 +111,14 @@ class ReadTiming(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def mark_of(channel: TrackChannel, quarter: int, decided: TrackMark | None = None) -> TrackMark:
-    """Mark that identifies a channel.
+    """Return a mark by which a channel can be found again in another version of its file.
 
     Parameters
     ----------
     quarter : int
         Ticks per quarter.
     decided : TrackMark, optional
-        Earlier mark, with the data from which the instrument was chosen.
+        Earlier mark, with the names and program from which the instrument was chosen.
     """
     source = channel if decided is None else decided
     return TrackMark(
@@ -135,7 +135,8 @@ def mark_of(channel: TrackChannel, quarter: int, decided: TrackMark | None = Non
 
 
 def melody_of(channel: TrackChannel, quarter: int) -> tuple[int, ...]:
-    """Return hashes that represent the intervals of a stream's notes, by which its melody is found again in a changed
-    file; ``quarter`` is ticks per quarter note."""
+    """Return hashes of the intervals between a channel's notes, by which its melody is found again in a changed file;
+    ``quarter`` is ticks per quarter note.
+    """
     notes = sorted(zip(channel.onset_ticks, channel.pitches, strict=True))
     return sketch(turns([onset for onset, _ in notes], [pitch for _, pitch in notes], quarter))

@@ -1,4 +1,6 @@
-"""Creates a project from the tracks of a MIDI file, with the user's choice of players, instruments and characters."""
+"""Creation of a project from the tracks of a MIDI file, with the user's choice of players, instruments and
+characters.
+"""
 
 from __future__ import annotations
 
@@ -20,15 +22,16 @@ from instrument_maps.model import InstrumentMap
 
 
 class ImportRow(msgspec.Struct, frozen=True):
-    """Tracks of a file and the players who play them.
+    """Tracks of a file and the players for them: one row of the import dialog.
 
     Attributes
     ----------
     assignment : PartAssignment
+        Tracks, instrument and name.
     requested : bool
-        False: the tracks are left out.
+        Whether the tracks get a player; otherwise they are left out.
     character_id : str or None
-        Id of the character; None: chosen automatically.
+        Id of the character; None to choose automatically.
     """
 
     assignment: PartAssignment
@@ -44,11 +47,11 @@ class ImportRequest(msgspec.Struct, frozen=True):
     dances : bool
         Whether to add a dancer for its percussion.
     contents : PieceContents or None
-        Contents that the rows belong to, if texts were decoded again; None: as first read.
+        Contents that the rows belong to, if texts were decoded again; None for those first read.
     encoding : str or None
-        Encoding of the texts; None: guessed.
+        Encoding of the texts; None to guess.
     outfit : str or None
-        Id of the outfit of all players, empty: clothes of their own; None: by the kind of piece.
+        Id of the outfit of all players, empty for their own clothes; None to choose by the kind of piece.
     """
 
     rows: tuple[ImportRow, ...]
@@ -59,7 +62,9 @@ class ImportRequest(msgspec.Struct, frozen=True):
 
 
 def usual_rows(contents: PieceContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
-    """Default rows of an import: one for every track, or one for each instrument of a track that has several."""
+    """Return the default rows of an import: one for every track, or one for each instrument of a track that has
+    several.
+    """
     found = suggestions(contents.channels, map_choices(maps.values()))
     rows = []
     for one in found:
@@ -70,7 +75,7 @@ def usual_rows(contents: PieceContents, maps: Mapping[str, InstrumentMap]) -> tu
 
 
 def cleaning(rows: Sequence[ImportRow], clean: bool) -> tuple[ImportRow, ...]:
-    """The rows with cleaning as takes switched on or off for all."""
+    """Return the rows with cleaning of their notes switched on or off for all."""
     return tuple(
         msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, clean=clean)) for row in rows
     )
@@ -97,7 +102,8 @@ def carried_over(
     again: PieceContents,
     usual_again: Sequence[ImportRow],
 ) -> tuple[ImportRow, ...]:
-    """Rows after the texts of a file were decoded again: changed rows stay, the others get the new defaults.
+    """Return the rows after the texts of a file were decoded again: rows changed by the user stay, the others get the
+    new defaults.
 
     Parameters
     ----------
@@ -148,7 +154,7 @@ class ImportPreview(msgspec.Struct, frozen=True):
     instruments: dict[PartAssignment, tuple[str, ...]]
 
     def instruments_of(self, assignment: PartAssignment) -> tuple[str, ...]:
-        """Ids of the instrument maps of an assignment; empty if not known yet."""
+        """Return the ids of the instrument maps of an assignment; empty if not known yet."""
         return self.instruments.get(_unnamed(assignment), ())
 
 
@@ -159,14 +165,14 @@ def outcome_of(
     before: ImportPreview | None = None,
     stop_requested: StopRequested = lambda: False,
 ) -> ImportPreview:
-    """Preview of importing the rows.
+    """Return a preview of importing the rows.
 
     Parameters
     ----------
     before : ImportPreview, optional
         Previous preview of the same file, whose unchanged rows are reused.
     stop_requested : callable
-        Raises Cancelled once it returns True.
+        Called repeatedly; once it returns True, Cancelled is raised.
     """
     score = score_of_rows(contents, rows, maps, stop_requested)
     known = {} if before is None else before.instruments
@@ -182,7 +188,7 @@ def outcome_of(
 
 
 def automatic(assignment: PartAssignment) -> PartAssignment:
-    """The assignment without chosen instruments, so that names, programs and ranges decide."""
+    """Return an assignment without the user's choice of instruments, so that names, programs and ranges decide."""
     return msgspec.structs.replace(assignment, map_id=None, voice_maps=())
 
 
@@ -211,7 +217,7 @@ def score_of_rows(
     maps: Mapping[str, InstrumentMap],
     stop_requested: StopRequested = lambda: False,
 ) -> Score:
-    """The score with the parts of the selected rows. Raises Cancelled once ``stop_requested`` returns True."""
+    """Return the score with the parts of the requested rows. Raises Cancelled once ``stop_requested`` returns True."""
     return assigned_score(
         contents,
         [row.assignment for row in rows if row.requested or row.assignment.map_id == PERCUSSION],
@@ -231,18 +237,18 @@ def import_project(
     seed: int = 0,
     outfit: str | None = None,
 ) -> Project:
-    """Create a project that plays the selected rows and stores them for later readings of the file.
+    """Create a project with players for the requested rows. All rows are stored for later readings of the file.
 
     Parameters
     ----------
     source : str
         Absolute path of the MIDI file.
     stop_requested : callable
-        Raises Cancelled once it returns True.
+        Called repeatedly; once it returns True, Cancelled is raised.
     encoding : str, optional
         Encoding with which the contents were read.
     outfit : str, optional
-        As in `ImportRequest`.
+        Outfit of all players, as in `ImportRequest`.
     """
     project = project_from_score(score_of_rows(contents, rows, maps, stop_requested), maps, seed=seed)
     characters = {}
@@ -274,7 +280,7 @@ def decisions_of(contents: PieceContents, rows: Sequence[ImportRow], encoding: s
 
 
 def decision_of(row: ImportRow, marks: Iterable[TrackMark]) -> RowDecision:
-    """The stored form of an import row, with the marks of its channels."""
+    """Return the stored form of an import row, with the marks of its channels."""
     chosen = row.assignment
     return RowDecision(
         tuple(marks),

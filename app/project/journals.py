@@ -1,5 +1,5 @@
-"""Paths of recording journals: next to the project's file or, without one, next to its autosave; a second place is used
-if that disk is full.
+"""Paths of recording journals: next to the project's file or, without one, next to its autosave. If that disk is full,
+the journal continues in another folder.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ SUFFIX: Final = ".take-journal"
 
 
 def journal_path(document: Path | None, *stems: Path) -> Path:
-    """A path for a new journal.
+    """Return an unused path for a new journal.
 
     Parameters
     ----------
     document : Path or None
         The project's file.
     *stems : Path
-        Paths of autosaves of a project without a file, without suffix; the first is this editor's.
+        For a project without a file: paths of its autosaves, without suffix; the first is this editor's.
 
     Raises
     ------
@@ -50,7 +50,7 @@ def second_path(first: Path, *stems: Path) -> Path:
     first : Path
         Path of the journal, from `journal_path`.
     *stems : Path
-        As in `journal_path`; for a project with a file the second place is the folder of unsaved work.
+        See `journal_path`; for a project with a file, the journal continues in the folder of unsaved work.
     """
     name, moment, _ = first.name.rsplit(".", 2)
     stem = stems[0].name if stems else name
@@ -59,8 +59,8 @@ def second_path(first: Path, *stems: Path) -> Path:
 
 
 def second_folder(first: Path, *folders: Path) -> Path:
-    """The first of some folders and the system's temporary folder that is on another disk than ``first``, or else a
-    different folder; folders that cannot be created are skipped.
+    """Return the first of some folders and the system's temporary folder that is on another disk than ``first``, or
+    else in another folder. Folders that cannot be created are skipped.
     """
     temporary = Path(tempfile.gettempdir())
     found: list[tuple[bool, bool, int, Path]] = []
@@ -72,7 +72,7 @@ def second_folder(first: Path, *folders: Path) -> Path:
 
 
 def journals_of(document: Path | None, *stems: Path) -> tuple[Path, ...]:
-    """Journals of a project, by name, that no process is writing, oldest first."""
+    """Return the journals of a project that no process is writing, oldest first."""
     besides = (*stems, *((document,) if document is not None else ()))
     return tuple(
         path
@@ -83,7 +83,7 @@ def journals_of(document: Path | None, *stems: Path) -> tuple[Path, ...]:
 
 
 def in_second_places(*stems: Path) -> tuple[Path, ...]:
-    """Journals of any project that no process is writing, in the folders used as second place."""
+    """Return the journals of any project that no process is writing, in the folders used if a disk is full."""
     folders = dict.fromkeys((*(stem.parent for stem in stems), Path(tempfile.gettempdir())))
     return tuple(path for folder in folders for path in _left_in(folder))
 

@@ -1,4 +1,4 @@
-"""Keeps chosen parts unchanged while a re-read file replaces the others."""
+"""Keeping of chosen parts unchanged while a re-read file replaces the others."""
 
 from __future__ import annotations
 
@@ -17,14 +17,16 @@ from app.score.model import ControllerCurve, Note, Part
 
 
 def keeping(found: FoundParts, project: Project, ids: Collection[str], scale: Fraction) -> FoundParts:
-    """Keep parts as they are in the project, at their places; new parts among them are left out.
+    """Return the matched parts with some of them kept as they are in the project; new parts of the file among them are
+    left out.
 
-    The stored file version of these parts stays too, so that the next reading offers the same changes again.
+    For these parts the stored version of the file stays as well, so that the next reading offers the same changes
+    again.
 
     Parameters
     ----------
     ids : collection of str
-        Of the parts to keep.
+        Ids of the parts to keep.
     scale : Fraction
         Ticks of the file per tick of the project.
     """
@@ -60,7 +62,7 @@ def keeping(found: FoundParts, project: Project, ids: Collection[str], scale: Fr
 
 
 def read_curves_of(project: Project, found: FoundParts, scale: Fraction) -> dict[str, tuple[ControllerCurve, ...]]:
-    """Controllers in the file, by part id; for kept parts, those of the previous reading."""
+    """Return the controllers in the file by part id; for kept parts, those of the previous reading."""
     place = place_map((), scale)
     result = {part.id: part.curves for part in found.parts if part.id not in found.kept}
     for id in found.kept & project.read_curves.keys():
@@ -69,7 +71,7 @@ def read_curves_of(project: Project, found: FoundParts, scale: Fraction) -> dict
 
 
 def moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fraction) -> Part:
-    """The project's part, moved to the place of its music in the file."""
+    """Return a part with a new id and all ticks converted by ``place``; lengths are multiplied by ``scale``."""
     notes = [_scaled(note, place, scale) for note in part.notes]
     ordered = tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch)))
     curves = tuple(moved_curve(curve, place) for curve in part.curves)
@@ -85,7 +87,7 @@ def moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fraction
 
 
 def _as_here(former: Part, part: Part, place: Callable[[int], int], scale: Fraction) -> Part:
-    """A part of the project with its ticks mapped to those of the file."""
+    """Return a part of the project with its ticks converted to those of the file, at the file's track and channel."""
     here = moved_part(former, former.id, place, scale)
     return msgspec.structs.replace(here, track=part.track, channel=part.channel, voice=part.voice)
 

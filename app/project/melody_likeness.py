@@ -20,8 +20,8 @@ _MIX: Final = np.uint64(0x9E3779B97F4A7C15)
 
 
 def turns(onset_ticks: Sequence[int], pitches: Sequence[int], quarter: int) -> FloatArray:
-    """Hashes of the intervals between each note and the following ones, sorted; independent of key, place and the
-    file's resolution.
+    """Return hashes of melodic turns (two successive intervals with their durations), sorted; they do not depend on
+    key, place and the file's resolution.
 
     Parameters
     ----------
@@ -43,8 +43,9 @@ def turns(onset_ticks: Sequence[int], pitches: Sequence[int], quarter: int) -> F
 
 
 def shares(old: Sequence[FloatArray], new: Sequence[FloatArray]) -> FloatArray:
-    """Share of common turns for each pair of melodies, 0..1, shape (old, new); computed turn by turn, since most pairs
-    share none.
+    """Return the share 0..1 of common turns for each pair of an old and a new melody, shape (old, new).
+
+    Computed turn by turn, since most pairs have none in common.
     """
     both: FloatArray = np.zeros((len(old), len(new)))
     here, there = _owners(old), _owners(new)
@@ -57,7 +58,7 @@ def shares(old: Sequence[FloatArray], new: Sequence[FloatArray]) -> FloatArray:
 
 
 def _owners(melodies: Sequence[FloatArray]) -> dict[float, tuple[list[int], list[int]]]:
-    """For each melodic turn the indices of the melodies that contain it, and how often each does."""
+    """Return for each melodic turn the indices of the melodies that contain it, and how often each does."""
     owners: dict[float, tuple[list[int], list[int]]] = {}
     for index, found in enumerate(melodies):
         values, counts = np.unique(found, return_counts=True)
@@ -69,15 +70,15 @@ def _owners(melodies: Sequence[FloatArray]) -> dict[float, tuple[list[int], list
 
 
 def sketch(found: FloatArray) -> tuple[int, ...]:
-    """The turns with the smallest hashes, representing all of them (bottom-k sketch; Cohen and Kaplan, 2007). Two
-    sketches estimate the similarity of their melodies.
+    """Return the turns with the smallest hashes, as a short sketch of a melody (bottom-k sketch; Cohen and Kaplan,
+    2007). Two sketches allow an estimate of the similarity of their melodies.
     """
     mixed = (found.astype(np.int64).astype(np.uint64) * _MIX) >> np.uint64(64 - SKETCH_BITS)
     return tuple(np.unique(mixed)[:SKETCH].tolist())
 
 
 def sketched_shares(old: Sequence[Sequence[int]], new: Sequence[Sequence[int]]) -> FloatArray:
-    """Return the `sketched_share` of all pairs of an old and a new melody (old, new)."""
+    """Return the similarity by `sketched_share` of each old and each new melody, shape (old, new)."""
     result: FloatArray = np.zeros((len(old), len(new)))
     owners: dict[int, list[int]] = {}
     for index, melody in enumerate(new):
@@ -91,8 +92,8 @@ def sketched_shares(old: Sequence[Sequence[int]], new: Sequence[Sequence[int]]) 
 
 
 def sketched_share(one: Sequence[int], other: Sequence[int]) -> float:
-    """Share of distinct turns common to two sketched melodies, 0..1: among the smallest hashes of both together, those
-    in both.
+    """Return the estimated share 0..1 of turns common to two melodies, from their sketches: among the smallest hashes
+    of both together, the share of those that are in both.
     """
     mine, others = set(one), set(other)
     together = sorted(mine | others)[:SKETCH]

@@ -23,7 +23,7 @@ def export_midi(project: Project, path: Path, maps: Mapping[str, InstrumentMap])
     Raises
     ------
     AppError
-        As in `app.score.write`, and if the file would overwrite the project's source.
+        The file cannot be written (see `app.score.write`), or it would overwrite the project's source.
     """
     _keep_source(project, path)
     performers: dict[str, PartPlayer] = {}

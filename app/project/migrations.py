@@ -1,4 +1,4 @@
-"""Migrates project files of older versions to the current one, version by version.
+"""Migration of project files of older versions to the current one, version by version.
 
 A migration is a pure function on the decoded JSON; the first one converts version 1 to 2. To change the format, add a
 migration to `STRUCTURE` and a sample file to ``tests/data/projects``; a new parameter only needs its first version in
@@ -21,24 +21,32 @@ VERSION_KEY: Final = "schema_version"
 
 
 def _with_transpositions(raw: Raw) -> Raw:
-    """2 to 3: parts have the transposition applied when the file had written pitches; 0 for older files."""
+    """Migrate version 2 to 3: parts store the transposition that was applied if the file has written pitches; 0 in
+    older files.
+    """
     parts = [{**part, "transposed_semitones": 0} for part in raw["score"]["parts"]]
     return {**raw, "score": {**raw["score"], "parts": parts}}
 
 
 def _with_unplayed_sounding(raw: Raw) -> Raw:
-    """5 to 6: unplayed parts have the spans in which they sound; empty until the file is read again."""
+    """Migrate version 5 to 6: unplayed parts store the spans in which they sound; empty until the MIDI file is read
+    again.
+    """
     unplayed = [{**part, "sounding": []} for part in raw["score"]["unplayed"]]
     return {**raw, "score": {**raw["score"], "unplayed": unplayed}}
 
 
 def _with_dancers(raw: Raw) -> Raw:
-    """6 to 7: there are dancers, and percussion hits; the latter are empty until the file is read again."""
+    """Migrate version 6 to 7: dancers and percussion hits are stored; the hits are empty until the MIDI file is read
+    again.
+    """
     return {**raw, "dancers": [], "dance_corrections": {}, "score": {**raw["score"], "percussion": []}}
 
 
 def _with_section_intensity(raw: Raw) -> Raw:
-    """9 to 10: there is a factor for everyone's acting, 1 for older files. Added gestures may be named ones."""
+    """Migrate version 9 to 10: a factor for everyone's acting is stored, 1 in older files. Added gestures may be named
+    ones.
+    """
     corrections = {
         player: [{**item, "gesture": ""} if item["correction"] == "add_gesture" else item for item in items]
         for player, items in raw["corrections"].items()
@@ -47,8 +55,8 @@ def _with_section_intensity(raw: Raw) -> Raw:
 
 
 def _with_takers(raw: Raw) -> Raw:
-    """10 to 11: a cue may list the players it brings in; older ones bring in all who enter. There may be style spans,
-    and a conductor; in older files players give all entries.
+    """Migrate version 10 to 11: a cue may list the players it brings in, style spans and a conductor may exist. In
+    older files a cue brings in all who enter, and players give all entries.
     """
     corrections = {
         player: [{**item, "takers": None} if item["correction"] == "set_cue" else item for item in items]
@@ -58,7 +66,7 @@ def _with_takers(raw: Raw) -> Raw:
 
 
 def _with_video_and_pins(raw: Raw) -> Raw:
-    """11 to 12: there may be a reference video; the recording may have pinned beats and doubtful bars."""
+    """Migrate version 11 to 12: a reference video may exist; the recording may have pinned beats and doubtful bars."""
     audio = raw["audio"]
     return {**raw, "video": None, "audio": None if audio is None else {**audio, "pins": [], "doubts": []}}
 
@@ -76,8 +84,8 @@ def _with_parameters(raw: Raw, version: int) -> Raw:
 
 
 def _with_stopped(raw: Raw) -> Raw:
-    """14 to 15: parts have hand-stopped spans and marks, both empty until the file is read again. Corrections may set
-    marks. Older imports do not follow words about the playing player, and clean no takes.
+    """Migrate version 14 to 15: parts store hand-stopped spans and marks, empty until the MIDI file is read again;
+    corrections may set marks. Older imports neither interpret words such as "solo" nor clean takes.
     """
     parts = [{**part, "stopped": [], "marks": [], "source": "sound"} for part in raw["score"]["parts"]]
     imported = raw["imported"]
@@ -88,7 +96,7 @@ def _with_stopped(raw: Raw) -> Raw:
 
 
 def _with_outfits(raw: Raw) -> Raw:
-    """16 to 17: players and dancers may be given an outfit; before, everyone wore clothes of their own."""
+    """Migrate version 16 to 17: players and dancers may have an outfit; in older files they wear their own clothes."""
     return {
         **raw,
         "players": [{**player, "outfit": {}} for player in raw["players"]],

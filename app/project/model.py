@@ -69,7 +69,7 @@ class PlayerTakes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     takes : tuple of Take
-        In the order of their lanes.
+        Takes in the order of their lanes.
     comp : tuple of CompSpan
         The take used in each span, in order without overlap; elsewhere the previous content.
     before_notes, before_curves : tuple
@@ -82,7 +82,7 @@ class PlayerTakes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     before_curves: tuple[ControllerCurve, ...] = ()
 
     def take(self, take_id: str) -> Take:
-        """The take of this id; KeyError if it does not exist."""
+        """Return the take with an id; KeyError if it does not exist."""
         for take in self.takes:
             if take.id == take_id:
                 return take
@@ -100,21 +100,22 @@ class Project:
     corrections : mapping of str to tuple of Correction
         Corrections by player id.
     seed : int
-        Random seed; another seed gives another performance of the same plan.
+        Random seed of the performance.
     preroll_beats : float
-        Before the first note, in felt beats.
+        Time before the first note, in felt beats.
     section_intensity : float
-        Factor of the acting of all players; 1: unchanged.
+        Factor of the acting of all players; 1 leaves it unchanged.
     conductor : ConductorPlace or None
         Place of a conductor; if it is None or empty, players give the entries.
     felt_beat_quarters : float or None
-        Felt beat of the whole piece in quarters, for example 1.5 for a fast 6/8 in two. None: derived from metre and
-        tempo.
+        Felt beat of the whole piece in quarters, for example 1.5 for a fast 6/8 in two. None to derive it from metre
+        and tempo.
     fps : Fraction
         Frames per second, for the ruler, for frame steps and as default of an export.
     audio : AudioTrack or None
-        Recording to play with the piece; None: the built-in synthesiser plays the score.
+        Recording to play with the piece; None if the built-in synthesiser plays the score.
     video : VideoTrack or None
+        Reference video.
     expressions : tuple of Expression
         Expressions added by the animator, by name, in addition to bundled ones.
     source : str
@@ -174,11 +175,11 @@ class Project:
         return tuple(player for player in self.players if self.musician(player) is player)
 
     def musician(self, player: Player) -> Player:
-        """The player whose body plays a part: the player itself unless it doubles another."""
+        """Return the player whose body plays a part: the player itself unless it doubles another."""
         return self._players.get(player.doubles, player) if player.doubles else player
 
     def played_by(self, player: Player) -> tuple[Player, ...]:
-        """All players of a player's musician: first the one with the body, then doubling ones, in order."""
+        """Return all players of a player's musician: first the one with the body, then doubling ones, in order."""
         return self._musicians[self.musician(player).id]
 
     @cached_property
@@ -192,7 +193,7 @@ class Project:
 
     @cached_property
     def metre_map(self) -> MetreMap:
-        """Metre map of the score, with the felt beat."""
+        """Metre map of the score, including the felt beat."""
         score = self.score
         if self.felt_beat_quarters is None:
             return score.felt_metre_map
@@ -204,20 +205,20 @@ class Project:
         return self._parts[player.part_id]
 
     def player(self, player_id: str) -> Player:
-        """The player of this id; KeyError if it does not exist."""
+        """Return the player with an id; KeyError if it does not exist."""
         return self._players[player_id]
 
     def dancer(self, dancer_id: str) -> Dancer:
-        """The dancer of this id; KeyError if it does not exist."""
+        """Return the dancer with an id; KeyError if it does not exist."""
         return self._dancers[dancer_id]
 
     @property
     def conducting(self) -> ConductorPlace | None:
-        """Return the place of a conductor who gives the entries; None if there is none or the place is empty."""
+        """Place of a conductor who gives the entries; None if there is none or the place is empty."""
         return self.conductor if self.conductor is not None and self.conductor.on_stage else None
 
     def performer_names(self, but: str = "") -> list[str]:
-        """Names of players and dancers, except of id ``but``; unique ignoring case."""
+        """Return the names of players and dancers, without the one with id ``but``; unique ignoring case."""
         return [performer.name for performer in self.performers if performer.id != but]
 
     @cached_property
@@ -249,8 +250,8 @@ class Project:
 
 
 def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed: int = 0) -> Project:
-    """Cast a score: a player for every part, with name, character, place and amplitude; parts of one musician share
-    them.
+    """Create a project from a score: a player for every part, with name, character, place and amplitude. Parts of one
+    musician share character and place.
 
     Parameters
     ----------
@@ -304,7 +305,7 @@ def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed:
 
 
 def preroll_of_new(project: Project) -> float:
-    """The pre-roll of a new piece in felt beats, by the tempo at its first note."""
+    """Return the length of the pre-roll of a new piece in felt beats, by the tempo at its first note."""
     clock = project.score.tempo_map
     first = min((part.notes[0].onset_tick for part in project.score.parts if part.notes), default=0)
     beat = project.metre_map.felt_ticks_at(first)
@@ -312,7 +313,9 @@ def preroll_of_new(project: Project) -> float:
 
 
 def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
-    """Facts about instrument maps in the form used by the score's reader."""
+    """Return the facts about instrument maps (names, range, transposition) by which reading a score chooses
+    among them.
+    """
     return tuple(
         MapChoice(
             map_id=instrument.id,
@@ -328,7 +331,7 @@ def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
 
 
 def with_settings(project: Project, settings: Sequence[ParameterSetting], maps: Mapping[str, InstrumentMap]) -> Project:
-    """Apply the user's settings to players; ``None`` as instrument or character keeps the automatic choice.
+    """Apply the user's settings to players; None as instrument or character keeps the automatic choice.
 
     Raises
     ------
@@ -390,5 +393,5 @@ def _hand_travel_m(instrument: InstrumentMap) -> float:
 
 
 def _by_hand(control: Control) -> bool:
-    """Return whether the whole hand travels with a control."""
+    """Return whether the whole hand moves along with a control, as with a slide."""
     return control.finger.endswith(".hand")

@@ -1,4 +1,4 @@
-"""Maps ticks of the old score to a re-read one by matched notes."""
+"""Conversion of ticks of the old score to those of a re-read one by matched notes."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from app.project.limits import LAST_TICK
 
 
 def place_map(pairs: Iterable[tuple[int, int]], scale: Fraction) -> Callable[[int], int]:
-    """Return a function from old to new ticks: the distance from the last matched note before is kept, but not beyond
-    the next one; ticks before the first matched note move with it.
+    """Return a function from old to new ticks, by pairs of old and new tick of matched notes.
+
+    The distance from the previous matched note is kept, but not beyond the next one; ticks before the first matched
+    note move with it.
     """
     by_tick: dict[int, int] = {}
     for before, after in sorted(pairs):

@@ -22,7 +22,7 @@ _LONGEST_NAME_BYTES = 80
 
 
 def clean_name(text: str) -> str:
-    """Return the text on one line, composed (NFC), without control characters; may be empty."""
+    """Return a text on one line, in composed form (NFC), without control characters; may be empty."""
     kept = (" " if character.isspace() else character for character in unicodedata.normalize("NFC", text))
     visible = "".join(
         character for character in kept if unicodedata.category(character) not in ("Cc", "Cs", "Cn", "Co")
@@ -33,7 +33,7 @@ def clean_name(text: str) -> str:
 def unique_names(names: Iterable[str]) -> tuple[str, ...]:
     """Make names unique, ignoring case.
 
-    Single names stay; equal ones are numbered in order ("trumpet 1", "trumpet 2"), skipping numbers in use.
+    Names that occur once stay; equal ones are numbered in order ("trumpet 1", "trumpet 2"), skipping numbers in use.
     """
     requested = [clean_name(name) for name in names]
     counts = Counter(name.casefold() for name in requested)
@@ -53,7 +53,9 @@ def unique_names(names: Iterable[str]) -> tuple[str, ...]:
 
 
 def file_stem(name: str) -> str:
-    """A file name without extension that every common system accepts; never empty, a path, a device or hidden."""
+    """Return a file name without extension, made from a name, that every common system accepts; it is never empty, a
+    path, a device or hidden.
+    """
     text = "".join(
         character
         for character in clean_name(name)
@@ -72,7 +74,7 @@ def file_stem(name: str) -> str:
 
 
 def file_stems(names: Sequence[str]) -> tuple[str, ...]:
-    """File names without suffix for the given names, made unique regardless of case by numbers."""
+    """Return file names without suffix for names, made unique regardless of case by numbers."""
     taken: set[str] = set()
     stems = []
     for name in names:
@@ -87,5 +89,5 @@ def file_stems(names: Sequence[str]) -> tuple[str, ...]:
 
 
 def _key(text: str) -> str:
-    """Key for comparing names; equal keys may be the same file (case-insensitive and decomposing file systems)."""
+    """Return a key for comparing names; names with equal keys may be the same file on some system."""
     return unicodedata.normalize("NFKD", text.casefold())

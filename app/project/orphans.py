@@ -13,14 +13,14 @@ from app.project.model import Project
 
 @dataclass(frozen=True)
 class Orphan:
-    """A correction whose note no longer exists."""
+    """A correction whose note no longer exists, with its player."""
 
     player_id: str
     correction: Correction
 
 
 def orphaned(project: Project) -> tuple[Orphan, ...]:
-    """Every correction that belongs to a note which its player does not have (any more)."""
+    """Return every correction that belongs to a note which its player does not have or no longer has."""
     found = []
     for player in project.players:
         corrections = project.corrections.get(player.id, ())
@@ -34,8 +34,8 @@ def orphaned(project: Project) -> tuple[Orphan, ...]:
 
 
 def reattached(project: Project, player_id: str, correction: Correction, note_id: str) -> Project:
-    """Attach a correction to another note of its player, keeping lengths relative to the note; it replaces one with the
-    same place. For a slur, the missing end is attached; if both are missing, the first one.
+    """Attach a correction to another note of its player, keeping lengths relative to the note; it replaces one of the
+    same kind there. For a slur, the missing end is attached; if both are missing, the first one.
     """
     anchors = notes_of(correction)
     if not anchors:

@@ -1,4 +1,4 @@
-"""Parses and checks ``PLAYER.parameter=value`` settings for one or several players."""
+"""Parsing and checking of ``PLAYER.parameter=value`` settings for one or several players."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _STYLE, _HABITS = "style", "habits"
 
 
 class ParameterSetting(msgspec.Struct, frozen=True):
-    """A parameter value set for the player with an index; ``value`` has the parameter's type."""
+    """A value set for a parameter of the player with an index; ``value`` has the parameter's type."""
 
     player: int
     parameter: str
@@ -38,7 +38,7 @@ def parameter_names() -> tuple[str, ...]:
 
 
 def matching_players(requested: str, names: Sequence[str]) -> tuple[int, ...]:
-    """Indices of the players that match a name or pattern (``*``, ``?``, ``[...]``), ignoring case.
+    """Return the indices of the players that match a name or pattern (``*``, ``?``, ``[...]``), ignoring case.
 
     An exact name matches only that player, even if it is also a pattern.
     """
@@ -50,7 +50,7 @@ def matching_players(requested: str, names: Sequence[str]) -> tuple[int, ...]:
 
 
 def select_players(requested: Iterable[str], names: Sequence[str]) -> tuple[int, ...]:
-    """Indices of the named players in score order; all players if none are named.
+    """Return the indices of the named players in score order; of all players if none are named.
 
     Raises
     ------
@@ -71,14 +71,15 @@ def select_players(requested: Iterable[str], names: Sequence[str]) -> tuple[int,
 def parse_settings(
     texts: Iterable[str], names: Sequence[str], instruments: Iterable[str], characters: Iterable[str]
 ) -> tuple[ParameterSetting, ...]:
-    """Parse ``PLAYER.parameter=value`` texts; of equal settings the last one counts.
+    """Parse ``PLAYER.parameter=value`` texts; of several for the same parameter the last one is used.
 
     Parameters
     ----------
     texts : iterable of str
         Texts from the user. The player may be a pattern: ``*.amplitude=0``.
     names : sequence of str
-        Names of the players, which may contain dots and equals signs; the interpretation that matches a player is used.
+        Names of the players, which may contain dots and equals signs; a text is split so that the name matches a
+        player.
     instruments, characters : iterable of str
         Allowed ids for ``instrument`` and ``character``.
 
@@ -108,7 +109,7 @@ def is_possible(parameter: str, value: object) -> bool:
 
 
 def with_settings(parameters: PlayerParameters, settings: Iterable[ParameterSetting]) -> PlayerParameters:
-    """Apply the settings that are fields of the parameters."""
+    """Return the parameters with those settings applied that are among their fields."""
     changes = {setting.parameter: setting.value for setting in settings if setting.parameter in PARAMETERS}
     return msgspec.structs.replace(parameters, **changes)
 
@@ -151,7 +152,7 @@ def _value(parameter: str, text: str, choices: Mapping[str, tuple[str, ...]]) ->
 
 
 def _choreography(text: str) -> str:
-    """Parse a choreography: a bundled name, or else a path."""
+    """Return a choreography from a text: a bundled name, or else a path."""
     if text.casefold() in ("", _GENERATED, AUTOMATIC):
         return ""
     known = bundled_choreographies()
@@ -164,7 +165,7 @@ def _choreography(text: str) -> str:
 
 
 def _known(parameter: str, text: str) -> str:
-    """Check a style, or comma-separated habits, against the available ones."""
+    """Return the text of a style, or of comma-separated habits, if all are available. Raises UsageError otherwise."""
     if parameter == _HABITS and text.casefold() in (_GENERATED, AUTOMATIC):
         return ""
     known = STYLES.now().items if parameter == _STYLE else HABITS.now().items
@@ -175,7 +176,7 @@ def _known(parameter: str, text: str) -> str:
 
 
 def range_text(parameter: str) -> str:
-    """Range of a parameter as a text for a message: numbers and words only."""
+    """Return the range of a parameter as a text for a message: numbers and words only."""
     if parameter == _DANCED:
         return ", ".join((_GENERATED, *bundled_choreographies(), f"*{SUFFIX}"))
     if parameter == _STYLE:

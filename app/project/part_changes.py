@@ -1,4 +1,4 @@
-"""Changes between two versions of a part, in order, for review before the newer version is used."""
+"""Comparison of two versions of a part: its changes in order, for review before the newer version is used."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ class PartChange:
     Attributes
     ----------
     tick, tick_now : int
-        Place in the previous and in the new version.
+        Tick in the previous and in the new version.
     before, now : Note, Mark or None
-        The item in each version; None: missing there. For a run, its first note.
+        The changed item in each version; None if missing there. For a run, its first note.
     count : int
         Number of moved notes.
     """
@@ -46,24 +46,24 @@ PartChanges: TypeAlias = Mapping[str, tuple[PartChange, ...]]
 
 
 def changes_by_part(before: Score, now: Score) -> PartChanges:
-    """Changes of every part of a newer score, by part id."""
+    """Return the changes of every part of a newer score, by part id."""
     scale = Fraction(now.ticks_per_quarter, before.ticks_per_quarter)
     former = {part.id: part for part in before.parts}
     return {part.id: part_changes(former.get(part.id), part, scale) for part in now.parts}
 
 
 def part_changes(before: Part | None, now: Part | None, scale: Fraction) -> tuple[PartChange, ...]:
-    """Changes between two versions of a part.
+    """Return the changes between two versions of a part.
 
     Notes are matched by id. Neighbours moved by the same distance form one change, so that bars inserted before a
-    thousand notes give one row.
+    thousand notes give one entry.
 
     Parameters
     ----------
     before, now : Part or None
-        None: the version is missing, so all notes are added or removed.
+        Versions; None if one is missing, so that all notes are added or removed.
     scale : Fraction
-        Present ticks per former tick.
+        Ticks of the new version per tick of the previous one.
     """
     was = {note.id: note for note in before.notes} if before is not None else {}
     new = {note.id: note for note in now.notes} if now is not None else {}
@@ -111,7 +111,7 @@ def _marks(before: Part, moved: Part, now: Part) -> Iterator[PartChange]:
     Parameters
     ----------
     moved : Part
-        The previous version with marks at the new places of their music.
+        The previous version with its ticks converted to those of the new one.
     """
     onsets = {note.id: note.onset_tick for note in before.notes}
     onsets_now = {note.id: note.onset_tick for note in now.notes}

@@ -1,4 +1,4 @@
-"""Matches the parts of a score with those of a newer version."""
+"""Matching of the parts of a score with those of a newer version."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def matched_parts(old: Score, new: Score, hints: Sequence[Place | None]) -> list
     Parameters
     ----------
     hints : sequence of Place or None
-        Current place of each old part's track; None: not known.
+        Present place of each old part's track; None if not known.
     """
     if not old.parts or not new.parts:
         return []
@@ -51,7 +51,7 @@ def turns_of(part: Part, quarter: int) -> FloatArray:
 
 
 def _kinship(one: Part, other: Part) -> float:
-    """Return the similarity of two parts other than their notes: decides between parts with equal music."""
+    """Return the similarity of two parts apart from their notes, which decides between parts with equal music."""
     return (
         0.25 * (one.name.casefold() == other.name.casefold())
         + 0.15 * (one.map_id == other.map_id and one.instrument == other.instrument)

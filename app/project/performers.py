@@ -24,7 +24,7 @@ class Player(msgspec.Struct, frozen=True):
     colour : str
         ``"#rrggbb"``; empty for a colour of the theme that depends on the player's place in the project.
     muted, soloed : bool
-        Whether the player sounds; a muted player is still shown and exported.
+        Whether the player is silent, or sounds alone; a muted player is still shown and exported.
     doubles : str
         Id of the player whose body plays this instrument too, as a flutist also plays the piccolo; empty for a body of
         its own. Character, parameters, place and outfit are stored with the player of that id.
@@ -63,17 +63,17 @@ class Dancer(msgspec.Struct, frozen=True):
     delay_beats : float
         Delay of the dance against the music in felt beats: two dancers with the same seed then dance in canon.
     mirrored : bool
-        Left and right are exchanged.
+        Whether left and right are exchanged.
     source : int
         Index of the choreography's source whose segments are preferred; -1 for none.
     size : float
-        Of the motion, 0..1.5; 1: as captured.
+        Size of the motion, 0..1.5; 1 as captured.
     weight : float
         Bending of the knees, -1 (light) to 1 (heavy); 0 as captured.
     melody : float
         Weight of melody, bass and accents against percussion, 0..1; a piece without percussion is danced to them alone.
     colour : str
-        ``"#rrggbb"``; empty: the theme's.
+        ``"#rrggbb"``; empty for the theme's colour.
     outfit : OutfitChoice
         Clothes of the body.
     """

@@ -40,14 +40,14 @@ _NOT_ACTING: Final = frozenset({*BREATH_KINDS, "cue", "fingering", "embouchure",
 
 
 class PlayerMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Parameters and corrections of a player in a metadata file."""
+    """Acting parameters and corrections of a player in a metadata file."""
 
     parameters: dict[str, Any] = {}
     corrections: tuple[Correction, ...] = ()
 
 
 class PieceMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Metadata of a piece.
+    """Metadata of a piece: its acting without its notes.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class LoadedPiece(NamedTuple):
 
 
 class MetadataDifference(NamedTuple):
-    """A difference between two metadata; the text of a side without the entry is empty."""
+    """A difference between the metadata of two pieces; the text of a side is empty if it has no such entry."""
 
     place: str
     one: str
@@ -85,7 +85,9 @@ def is_acting(correction: Correction) -> bool:
 
 
 def metadata_of(project: Project) -> PieceMetadata:
-    """The current metadata of a piece. A musician with several instruments occurs once, as the player with the body."""
+    """Return the present metadata of a piece. A musician with several instruments occurs once, as the player with the
+    body.
+    """
     players = {}
     for player in project.players:
         parameters = {}
@@ -137,7 +139,7 @@ def _merged(before: tuple[Correction, ...], said: tuple[Correction, ...], scale:
 
 
 def _with_distinct_keys(curve: AdditiveCurve) -> AdditiveCurve:
-    """The curve with only the last of several keys that coarser ticks put at one tick."""
+    """Return the curve with only the last of several keys that fall on one tick at a coarser resolution."""
     keys = {key.tick: key for key in curve.keys}
     return curve if len(keys) == len(curve.keys) else msgspec.structs.replace(curve, keys=tuple(keys.values()))
 
@@ -187,7 +189,7 @@ def save_metadata(metadata: PieceMetadata, path: Path) -> None:
 
 
 def _text(table: dict[str, Any]) -> str:
-    """Text of the file: every correction and expression is a separate table, so that diff programs compare them
+    """Return the text of the file: every correction and expression is a separate table, so that programs compare files
     well.
     """
     text = toml({key: value for key, value in table.items() if key not in ("players", "expressions")})
@@ -231,7 +233,7 @@ def load_metadata(path: Path) -> PieceMetadata:
 
 
 def _player(name: str, table: object, file: str) -> PlayerMetadata:
-    """Parse a player's data; errors name the player."""
+    """Return a player's data from a table; errors name the player."""
     try:
         return shaped(table, PlayerMetadata, file)
     except MapError as error:

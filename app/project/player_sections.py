@@ -1,4 +1,4 @@
-"""Groups players into sections by family of instrument."""
+"""Grouping of players into sections by family of instrument."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ GROUPED_FROM: Final = 6
 
 
 class PlayerSection(NamedTuple):
-    """A section.
+    """A section: players of one family of instruments.
 
     Attributes
     ----------
     family : str
-        Family id of the vocabulary; empty: unknown families.
+        Family id of the vocabulary; empty for unknown families.
     player_ids : tuple of str
-        In the order of the project.
+        Ids in the order of the project.
     """
 
     family: str
@@ -40,7 +40,7 @@ _SECTIONS: IdentityCache[tuple[PlayerSection, ...]] = IdentityCache(1)
 
 
 def sections(project: Project) -> tuple[PlayerSection, ...]:
-    """The sections of a project, in the order of their first players."""
+    """Return the sections of a project, in the order of their first players."""
     return _SECTIONS.step(_sections, project.players, library())
 
 
@@ -54,7 +54,9 @@ def _sections(players: tuple[Player, ...], known: Library) -> tuple[PlayerSectio
 
 
 def are_worth_grouping(project: Project) -> bool:
-    """Return whether a list of players should be grouped: there are enough of them, and some sections have several."""
+    """Return whether a list of players should be grouped by section: there are many players and several sections, and
+    not everyone is in a section of their own.
+    """
     return len(project.players) >= GROUPED_FROM and 1 < len(sections(project)) < len(project.players)
 
 

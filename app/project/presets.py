@@ -1,6 +1,6 @@
 """Presets shared between projects: a player's parameters, and expressions.
 
-Each is a small TOML file in a user folder; it contains its name, and its file name is a cleaned form of that. A project
+Each is a small TOML file in a user folder. It contains its name; the file's name is a cleaned form of that. A project
 stores copies of the expressions it uses and does not need these files.
 """
 
@@ -69,7 +69,7 @@ def preset_of(parameters: PlayerParameters, name: str) -> Preset:
 
 
 def presets(folder: Path) -> PresetFolder[Preset]:
-    """All presets in a folder, sorted by name."""
+    """Read all presets in a folder, sorted by name."""
     return PresetFolder(*_PRESETS.found(folder))
 
 
@@ -85,7 +85,7 @@ def delete_preset(folder: Path, name: str) -> None:
 
 
 def expressions(folder: Path) -> PresetFolder[Expression]:
-    """All expressions in a folder, sorted by name."""
+    """Read all expressions in a folder, sorted by name."""
     return PresetFolder(*_EXPRESSIONS.found(folder))
 
 

@@ -8,13 +8,14 @@ import msgspec
 
 
 class BeatPin(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A beat placed by hand at its time in the recording; following the recording again keeps it.
+    """A beat placed by hand at its time in the recording, which following the recording again does not move.
 
     Attributes
     ----------
     tick : int
+        Tick of the beat.
     recording_s : float
-        From the recording's first sample.
+        Time from the recording's first sample.
     """
 
     tick: int
@@ -22,14 +23,14 @@ class BeatPin(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Doubt(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A bar whose place in the recording is uncertain after following.
+    """A bar whose time in the recording is uncertain after following.
 
     Attributes
     ----------
     start_tick, end_tick : int
-        Half-open.
+        The bar; the end is excluded.
     confidence : float
-        0..1; 0: the recording does not have the bar.
+        0..1; 0 if the recording lacks the bar.
     """
 
     start_tick: int
@@ -47,9 +48,9 @@ class AudioTrack(msgspec.Struct, frozen=True):
     offset_s : float
         Performance time of the recording's first sample; score second 0 is tick 0.
     confidence : float or None
-        Confidence 0..1 of an estimated offset; None: set by hand.
+        Confidence 0..1 of an estimated offset; None if set by hand.
     pins : tuple of BeatPin
-        Ticks and seconds rise.
+        Pinned beats, ascending in ticks and seconds.
     doubts : tuple of Doubt
         Uncertain bars, in order without overlap.
     """
@@ -62,7 +63,7 @@ class AudioTrack(msgspec.Struct, frozen=True):
 
 
 def with_places(audio: AudioTrack, place: Callable[[int], int]) -> AudioTrack:
-    """The recording after a change of ticks: pins move along; uncertain bars are dropped."""
+    """Return the recording after a change of ticks: pins move with the music; uncertain bars are dropped."""
     pins: list[BeatPin] = []
     for pin in audio.pins:
         tick = place(pin.tick)

@@ -36,7 +36,7 @@ class Recoverable:
     changed_s : float
         Time of saving, seconds since 1970 (UTC), for display only.
     token : str
-        Token of the editor; empty if only the file is left.
+        Token of the editor; empty if there is only the autosave.
     facts : Autosaved or None
         Facts stored in the autosave; None in files of older versions.
     is_file_missing : bool
@@ -60,13 +60,13 @@ class Recoverable:
 
 
 def recovery_folder() -> Path:
-    """Folder for unsaved work of projects without a file, and for records of running editors."""
+    """Return the folder for unsaved work of projects without a file, and for records of running editors."""
     return platformdirs.user_state_path("suisou", appauthor=False) / "recovery"
 
 
 def recoverable(folder: Path) -> tuple[Recoverable, ...]:
-    """All unsaved work of ended editors, newest first; their other files are deleted. May be slow, since every such
-    file and the project's own file are read.
+    """Return all unsaved work of ended editors, newest first, and delete their other files. May be slow, since every
+    autosave and the project's own file are read.
 
     Parameters
     ----------
@@ -83,8 +83,9 @@ def recoverable(folder: Path) -> tuple[Recoverable, ...]:
 
 
 def recoverable_of(document: Path, folder: Path, own_token: str = "") -> tuple[Recoverable, ...]:
-    """Unsaved work on a project's file found next to it or in the folder of autosaves; work based on the file's current
-    content comes first. Empty if there is none or another running editor has the file open."""
+    """Return unsaved work on a project's file found next to it or in the folder of autosaves; work based on the file's
+    current content comes first. Empty if there is none or another running editor has the file open.
+    """
     beside, real = autosave_path(document), os.path.realpath(document)
     sweep(Path(real).parent)
     left = {beside: "", **_left_behind(folder)}
@@ -93,7 +94,7 @@ def recoverable_of(document: Path, folder: Path, own_token: str = "") -> tuple[R
 
 
 def never_saved(folder: Path, source: Path | None = None) -> tuple[Recoverable, ...]:
-    """Unsaved work of ended editors on projects without a file, newest first.
+    """Return unsaved work of ended editors on projects without a file, newest first.
 
     Parameters
     ----------
@@ -105,7 +106,7 @@ def never_saved(folder: Path, source: Path | None = None) -> tuple[Recoverable, 
 
 
 def _plain(path: str) -> str:
-    """A path as paths are compared without a look at the disk."""
+    """Return a path normalised for comparison, without access to the disk."""
     return os.path.normcase(os.path.normpath(path)) if path else ""
 
 
@@ -127,7 +128,9 @@ def discard(item: Recoverable) -> None:
 
 
 def _left_behind(folder: Path) -> dict[Path, str]:
-    """Files that may hold unsaved work of ended editors, with their tokens; incomplete files are deleted."""
+    """Return files that may hold unsaved work of ended editors, with the editors' tokens; incomplete files
+    are deleted.
+    """
     known = dict(editors(folder))
     left: dict[Path, str] = {}
     for token, alive in known.items():
@@ -153,13 +156,15 @@ def _left_behind(folder: Path) -> dict[Path, str]:
 def _described(
     left: dict[Path, str], folder: Path, real_document: str | None = None, own_token: str = ""
 ) -> tuple[Recoverable, ...]:
-    """Files to offer for recovery, newest first; those already contained in the project's file, and older generations,
-    are deleted.
+    """Return the files to offer for recovery, newest first. Those already contained in the project's file, and older
+    generations, are deleted.
 
     Parameters
     ----------
+    left : dict of Path to str
+        Files with the tokens of their editors.
     real_document : str, optional
-        Only work on this file.
+        If given, only work on this project file is returned.
     """
     living = {token: note_of(folder, token) for token, alive in editors(folder) if alive}
     claimed = {note.autosave for note in living.values()}
@@ -197,7 +202,7 @@ def _generation(item: Recoverable) -> int:
 
 
 def _document(path: Path, folder: Path, token: str, facts: Autosaved | None) -> Path | None:
-    """Project file that an autosave belongs to; None if it has none."""
+    """Return the project file that an autosave belongs to; None if it has none."""
     if path.name.endswith(AUTOSAVE):
         # Both may have been moved since.
         return path.with_name(path.name.removesuffix(AUTOSAVE))

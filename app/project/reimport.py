@@ -1,11 +1,11 @@
-"""Updates a piece whose MIDI file has changed, keeping what was done by hand.
+"""Update of a piece whose MIDI file has changed, keeping changes made by hand.
 
 Parts are matched by music, name, track and instrument, notes by alignment (`app.project.alignment`). A matched note
 keeps its id and so its corrections; corrections at ticks move with the notes around them. A note changed only by the
-user stays so (a deleted one stays deleted); if both changed it, the file's version is used and reported. Players'
-settings stay. A new part gets a player. A player whose part disappeared keeps it as a part of the project and may be
-removed (`app.project.edit.players.remove_players`). Parts made in the editor stay, and so do notes added to the file's
-parts where they do not overlap the file's notes.
+user keeps that change (a deleted one stays deleted); if both changed it, the file's version is used and reported.
+Players' settings stay. A new part gets a player. A player whose part disappeared keeps it as a part of the project and
+may be removed (`app.project.edit.players.remove_players`). Parts made in the editor stay, and so do notes added to the
+file's parts if they do not overlap the file's notes.
 
 Dancers stay; corrections of their dances and pinned beats move like other corrections at ticks.
 
@@ -72,13 +72,14 @@ class Reimport:
     new_unplayed : tuple of UnplayedPart
         New parts of the file without a player, by name.
     orphans : tuple of Orphan
-        All corrections without a note, from now or earlier.
+        All corrections whose note no longer exists, also from before.
     conflicts : tuple of Conflict
-        In the order of the parts.
+        Notes changed both by the user and in the file, in the order of the parts.
     replaced : tuple of {"tempo", "metres", "controllers"}
         Items edited both in the project and in the file; the file's version is used.
     keeping : callable
-        Function from part ids to the same re-import with these parts unchanged, and new ones among them left out.
+        Function that returns the same re-import with parts of given ids kept unchanged, and new ones among them left
+        out.
     """
 
     project: Project
@@ -103,7 +104,8 @@ def reimported(
 ) -> Reimport:
     """Read a MIDI file with the decisions of its first import, and replace the project's score by it.
 
-    Raises as `app.score.read.read_contents`, and Cancelled once ``stop_requested``, called between steps, returns True.
+    Raises the errors of `app.score.read.read_contents`, and Cancelled once ``stop_requested``, called between steps,
+    returns True.
     """
     decisions = project.imported
     apart = {(part.track, part.channel) for part in project.score.parts}
@@ -160,7 +162,7 @@ def _outcome(
     source: str | None,
     reading: MidiReading | None,
 ) -> Reimport:
-    """Apply the parts matched in a re-read file to the project; parameters as in `reimport`."""
+    """Return the project after a re-import, from the parts matched in the file; parameters as in `reimport`."""
     scale = Fraction(score.ticks_per_quarter, project.score.ticks_per_quarter)
     everywhere = place_map(found.pairs_of_ticks, scale)
     timing = merged_timing(project, score, everywhere, scale, found.is_unchanged)
@@ -198,7 +200,9 @@ def _outcome(
 
 
 def _says_nothing_new(project: Project, result: Project) -> bool:
-    """Return whether a file left the project unchanged, apart from data that was merely unknown before."""
+    """Return whether a re-read file left the project unchanged, apart from facts about the file that were not stored
+    before.
+    """
     fields = ("imported", "read_curves", "read_timing", *(("read_notes",) if not project.read_notes else ()))
     known: dict[str, Any] = {field: getattr(project, field) for field in fields}
     if project.imported is None:
@@ -221,7 +225,9 @@ def _new_unplayed(before: Score, now: Score) -> tuple[UnplayedPart, ...]:
 def _with_curves(
     project: Project, found: FoundParts, everywhere: Callable[[int], int], scale: Fraction
 ) -> tuple[list[Part], tuple[ReplacedKind, ...]]:
-    """Matched parts with controllers edited only in the project, and the kinds that were replaced."""
+    """Return the matched parts with controllers that were edited only in the project, and the kinds of those replaced
+    by the file's.
+    """
     parts = list(found.parts)
     replaced = False
     for index, (part, before) in enumerate(zip(found.parts, found.former, strict=True)):
@@ -264,7 +270,8 @@ def _with_players(
     everywhere: Callable[[int], int],
     scale: Fraction,
 ) -> Project:
-    """The project with these parts and its previous players, with corrections and takes moved along.
+    """Return the project with the given parts and its previous players, whose corrections and takes move with the
+    music.
 
     Parameters
     ----------
@@ -325,6 +332,6 @@ def _with_new_players(
 
 
 def _musician(project: Project, player_id: str) -> str:
-    """Return the id of a player's musician; a new player is its own."""
+    """Return the id of a player's musician; the player's own id if it is new."""
     known = next((player for player in project.players if player.id == player_id), None)
     return player_id if known is None else project.musician(known).id

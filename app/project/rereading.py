@@ -1,8 +1,8 @@
-"""Applies the stored import decisions to a re-read MIDI file: its tracks are recognised regardless of order and name,
-and get their previous players.
+"""Application of stored import decisions to a re-read MIDI file: its tracks are recognised regardless of order and
+name, and get their previous players.
 
 Tracks without a decision are treated as in a new import, except that a name need not contain an instrument. Decisions
-about tracks missing in the file are kept, in case they return.
+about tracks missing in the file are kept, in case these return.
 """
 
 from __future__ import annotations
@@ -65,12 +65,12 @@ def read_as_decided(
     choices: Sequence[MapChoice],
     played_on: Mapping[Place, str],
 ) -> MidiReading:
-    """Create import rows of a file from decisions about another version of it.
+    """Return import rows for a file from decisions about another version of it.
 
     Parameters
     ----------
     choices : sequence of MapChoice
-        Of the maps.
+        Facts about the maps.
     played_on : mapping of Place to str
         Instrument map of each part of the project, by place; used if nothing else is known.
     """
@@ -116,8 +116,8 @@ def read_as_decided(
 
 
 def _played(row: ImportRow, channels: Sequence[TrackChannel], choices: Sequence[MapChoice]) -> ImportRow:
-    """Complete the row of new tracks: if the name prevents a choice of instrument, choose by range, since the user is
-    not asked here.
+    """Return the row of new tracks, completed: if the names do not give an instrument, it is chosen by range, since the
+    user is not asked here.
     """
     own = [
         msgspec.structs.replace(channels[place], name="", instrument_name="", program=None)
@@ -134,12 +134,13 @@ def _played(row: ImportRow, channels: Sequence[TrackChannel], choices: Sequence[
 def recognised_streams(
     marks: Sequence[TrackMark], channels: Sequence[TrackChannel], melodies: Sequence[tuple[int, ...]]
 ) -> list[int | None]:
-    """Channel index of each mark, with the greatest total similarity; None: missing.
+    """Return the index of the channel that each mark identifies, with the greatest total similarity; None if it is
+    missing.
 
     Parameters
     ----------
     melodies : sequence of tuple of int
-        Sketches of the channels.
+        Sketches of the channels' melodies.
     """
     result: list[int | None] = [None] * len(marks)
     if not marks or not channels:
@@ -155,7 +156,7 @@ def recognised_streams(
 
 
 def _kinship(mark: TrackMark, channel: TrackChannel) -> float:
-    """Return the similarity of a channel and a mark other than their notes."""
+    """Return the similarity of a mark and a channel apart from their notes: names, program and numbers."""
     named = channel.name.casefold() in (mark.called.casefold(), mark.name.casefold())
     return (
         (0.25 if channel.name else 0.1) * named
@@ -168,7 +169,7 @@ def _kinship(mark: TrackMark, channel: TrackChannel) -> float:
 
 
 def _says_who(channel: TrackChannel, mark: TrackMark, choices: Sequence[MapChoice]) -> bool:
-    """Return whether a track identifies its instrument at least as well as it did before."""
+    """Return whether the names of a channel identify its instrument at least as well as those of its mark."""
     found = candidates([channel], choices)
     if found.how is not How.SAID or not found.maps or found.unknown:
         return False
@@ -177,19 +178,19 @@ def _says_who(channel: TrackChannel, mark: TrackMark, choices: Sequence[MapChoic
 
 
 def _understood(track: TrackChannel | TrackMark) -> int:
-    """Return a score of how well the names of a track identify an instrument: 2: clearly; 1: vaguely; 0: not at all."""
+    """Return 2 if the names of a track identify an instrument clearly, 1 if vaguely, 0 if not at all."""
     named = [vocabulary().by_name(text) for text in (track.name, track.instrument_name) if text]
     return max((1 if found.vague else 2 for found in named if found is not None), default=0)
 
 
 def _says_the_same(channel: TrackChannel, marks: Sequence[TrackMark]) -> bool:
-    """Return whether a track has the same names and program as one of the marks."""
+    """Return whether a channel has the same names and program as one of the marks."""
     said = channel.name, channel.instrument_name, channel.program
     return any((mark.name, mark.instrument_name, mark.program) == said for mark in marks)
 
 
 def _as_before(channel: TrackChannel, mark: TrackMark) -> TrackChannel:
-    """The channel with the names and program that it had at its import."""
+    """Return a channel with the names and program that it had when it was imported."""
     return msgspec.structs.replace(
         channel,
         name=mark.name,
@@ -207,12 +208,14 @@ def _row(
     choices: Sequence[MapChoice],
     before: str | None,
 ) -> ImportRow:
-    """The import row of a decision.
+    """Return the import row of a decision.
 
     Parameters
     ----------
+    places : sequence of int
+        Indices of its channels in the file.
     called, channels : sequence of TrackChannel
-        Channels as in the file, and with the data by which instruments were chosen.
+        Channels as in the file, and channels with the names by which instruments were chosen.
     before : str or None
         Instrument map used before.
     """
@@ -247,7 +250,7 @@ def _row(
 
 
 def characters_of(reading: MidiReading) -> dict[Place, str]:
-    """Chosen characters of rows, by the places of the parts read from them."""
+    """Return the characters chosen in import rows, by the places of the parts read from them."""
     return {
         reading.contents.channels[row.assignment.channels[0]].place: row.character_id
         for row in reading.rows

@@ -30,7 +30,7 @@ MOST_NOTE_BYTES: Final = 2**16
 
 
 class PresenceNote(msgspec.Struct, frozen=True):
-    """Note beside a project's file: the process that has it open.
+    """Record of the project that an editor has open, stored in a folder of records.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Presence:
     Parameters
     ----------
     folder : Path
-        `app.project.recovery.recovery_folder`; made if needed.
+        Folder of the records, `app.project.recovery.recovery_folder`; created if needed.
 
     Attributes
     ----------
@@ -81,11 +81,11 @@ class Presence:
 
     @property
     def own_path(self) -> Path:
-        """The file for unsaved work in the folder."""
+        """Path of the file for this editor's unsaved work in the folder of records."""
         return self.folder / f"{self.token}{SUFFIX}"
 
     def report(self, document: Path | None, autosave: Path | None) -> None:
-        """Write the note about the open project. Raises FileError if the folder refuses."""
+        """Write the note about the open project. Raises FileError if the folder cannot be written."""
         self.note = note = PresenceNote(os.getpid(), str(document or ""), str(autosave or ""))
         was_here = self._is_here()
         if not was_here:
@@ -143,7 +143,7 @@ def editors(folder: Path) -> Iterator[tuple[str, bool]]:
 
 
 def note_of(folder: Path, token: str) -> PresenceNote:
-    """The note of an editor; an empty one if it has none."""
+    """Return the note of an editor; an empty one if it has none."""
     path = folder / f"{token}{NOTE}"
     try:
         note = decode_json(read_file(path, MOST_NOTE_BYTES), PresenceNote, str(path))

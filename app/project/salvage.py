@@ -22,7 +22,7 @@ _FIELDS: Final = {"edited_notes": "read_notes", "edited_curves": "read_curves"}
 
 
 class Salvaged(NamedTuple):
-    """A project that can be saved.
+    """A project without the values that cannot be saved.
 
     Attributes
     ----------
@@ -85,12 +85,12 @@ def _kept(place: str, values: tuple[T, ...], places: list[str]) -> tuple[T, ...]
 
 
 def _is_at(place: str, places: list[str]) -> bool:
-    """Return whether a place contains, or equals, one of the faulty places."""
+    """Return whether a key path equals one of the faulty key paths or contains one."""
     return any(one == place or one.startswith((f"{place}.", f"{place}[")) for one in places)
 
 
 def _field(place: str) -> str | None:
-    """Return the name of the project's field that contains a place in its stored form; None if unknown."""
+    """Return the name of the project's field that contains a key path of its stored form; None if unknown."""
     found = _FIELD.match(place)
     name: Any = None if found is None else _FIELDS.get(found[0], found[0])
     return name if name in Project.__dataclass_fields__ else None

@@ -1,8 +1,8 @@
 """Project files: one readable JSON document, written atomically.
 
 The file begins with its version; older ones are migrated (`app.project.migrations`), newer ones refused. Media paths
-are stored relative to the file where possible, so that a folder can be moved. Only the recording, the video, the source
-MIDI file and choreography files are ever used as paths; all names are plain text.
+are stored relative to the file where possible, so that a folder can be moved. Only recording, video, source MIDI file
+and choreography files are used as paths; all names are plain text.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Autosaved(msgspec.Struct, frozen=True):
     Attributes
     ----------
     work : str
-        Identifies the work from opening a project to saving or closing it, also across a crash and recovery.
+        Id of the work from opening a project to saving or closing it, also across a crash and recovery.
     generation : int
         Ascends within a work: the highest is the newest.
     editor : str
@@ -70,13 +70,13 @@ class Autosaved(msgspec.Struct, frozen=True):
 
 
 class _Autosave(Content, kw_only=True):
-    """Contents of the file of an autosave: those of a project, and where it came from."""
+    """Contents of an autosave: those of a project's file, and the facts."""
 
     autosave: Autosaved
 
 
 class _Facts(msgspec.Struct):
-    """Facts of an autosave, read without its project."""
+    """The facts of an autosave, decoded without its project."""
 
     autosave: Autosaved | None = None
 
@@ -104,12 +104,12 @@ def save(project: Project, path: str | os.PathLike[str]) -> str:
 
 
 def content_hash(content: bytes) -> str:
-    """Hash of a file's content, to detect changes independently of file times."""
+    """Return a hash of a file's content, to detect changes independently of file times."""
     return hashlib.sha256(content).hexdigest()
 
 
 def file_hash(path: Path) -> str:
-    """`content_hash` of a file; empty if it does not exist or cannot be read."""
+    """Return the `content_hash` of a file; empty if it does not exist or cannot be read."""
     try:
         with open_file(path) as stream:
             return hashlib.file_digest(stream, "sha256").hexdigest()
@@ -179,7 +179,7 @@ def load(path: str | os.PathLike[str]) -> Project:
 
 
 def read(path: str | os.PathLike[str]) -> bytes:
-    """The bytes of a project's file, for `decode`. Raises FileError."""
+    """Read the bytes of a project's file, for `decode`. Raises FileError."""
     return read_file(path, MOST_BYTES)
 
 
@@ -212,7 +212,7 @@ def decode(content: bytes, path: Path, name: str | None = None) -> Project:
 
 
 def autosave_facts(content: bytes) -> Autosaved | None:
-    """Facts in the bytes of an autosave; None if there are none, as in older versions."""
+    """Return the facts in the bytes of an autosave; None if there are none, as in older versions."""
     try:
         facts = _FACTS.decode(content).autosave
     except UNREADABLE:
@@ -221,7 +221,7 @@ def autosave_facts(content: bytes) -> Autosaved | None:
 
 
 def file_named(text: str) -> str:
-    """Absolute path of a file as stored in a note or autosave; empty if it is invalid."""
+    """Return the absolute path of a file as stored in a note or autosave; empty if it is invalid."""
     path = Path(restored(text))
     return str(path) if path.is_absolute() and path.name and "\0" not in str(path) else ""
 
@@ -255,7 +255,7 @@ def missing(project: Project) -> tuple[Message, ...]:
 
 
 def choreography_missing(dancer: str, choreography: str) -> tuple[Message, ...]:
-    """Return warnings about a missing choreography of the performer of a name; empty if it exists."""
+    """Return a warning if the choreography of the dancer of a name is missing; empty if it exists."""
     path = choreography_path(choreography)
     if not may_touch(path):
         return (
@@ -273,15 +273,15 @@ def choreography_missing(dancer: str, choreography: str) -> tuple[Message, ...]:
 
 
 def missing_media(project: Project) -> Path | None:
-    """The recording or reference video that does not exist at its path, so that the user can locate it. Paths on other
-    computers are checked only if the user agreed.
+    """Return the recording or reference video that does not exist at its path, so that the user can locate it; None if
+    all exist. Paths on other computers are checked only if the user agreed.
     """
     paths = (track.path for track in (project.audio, project.video) if track is not None)
     return next((Path(path) for path in paths if may_touch(path) and not is_file(path)), None)
 
 
 def elsewhere(project: Project) -> tuple[str, ...]:
-    """Paths of media and choreographies on other computers that the user has not agreed to access."""
+    """Return the paths of media and choreographies on other computers that the user has not agreed to access."""
     tracks = [track.path for track in (project.audio, project.video) if track is not None]
     dances = [player.parameters.choreography for player in project.players]
     dances += [dancer.choreography for dancer in project.dancers]
@@ -292,7 +292,7 @@ def elsewhere(project: Project) -> tuple[str, ...]:
 
 
 def _layout(value: Any, indent: str) -> Iterator[str]:
-    """Lay out JSON with two spaces per level; values without nested values, such as a note, take one line."""
+    """Yield JSON text with two spaces per level; values without nested values, such as a note, take one line."""
     if not isinstance(value, dict | list | tuple) or not any(map(_is_nested, _values(value))):
         yield msgspec.json.format(msgspec.json.encode(value), indent=0).decode()
         return

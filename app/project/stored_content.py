@@ -1,4 +1,4 @@
-"""Typed content of a project's file: made from a project, and converted back to one."""
+"""Typed content of a project's file, and conversion from and to a project."""
 
 from __future__ import annotations
 
@@ -179,8 +179,8 @@ def project_of(raw: Raw, folder: Path, file: str) -> Project:
 
 
 def _edited_notes(project: Project) -> dict[str, tuple[Note, ...]]:
-    """Notes as read from the MIDI file that were edited or deleted in the project, or added in the project before the
-    file had them.
+    """Return the notes as read from the MIDI file that were edited or deleted in the project, by part id, so that only
+    these need be stored.
     """
     here = {part.id: {note.id: note for note in part.notes} for part in project.score.parts}
     return {
@@ -199,7 +199,9 @@ def _place(note: Note) -> tuple[int, int, str]:
 
 
 def _read_notes(edited: dict[str, tuple[Note, ...]], score: Score) -> dict[str, dict[str, Note]]:
-    """Notes as read from the MIDI file: all not added in the project, with the file's version of the edited ones."""
+    """Return all notes as read from the MIDI file by part and note id: the score's, with the file's version of edited
+    ones.
+    """
     parts = {part.id: part.notes for part in score.parts}
     return {
         part_id: {note.id: note for note in parts.get(part_id, ()) if not is_made_here(note.id)}
@@ -209,13 +211,13 @@ def _read_notes(edited: dict[str, tuple[Note, ...]], score: Score) -> dict[str, 
 
 
 def _edited_curves(project: Project) -> dict[str, tuple[ControllerCurve, ...]]:
-    """The MIDI file's controllers for parts whose controllers were edited in the project."""
+    """Return the MIDI file's controllers of parts whose controllers were edited in the project, by part id."""
     here = {part.id: part.curves for part in project.score.parts}
     return {part_id: curves for part_id, curves in project.read_curves.items() if here.get(part_id) != curves}
 
 
 def _read_curves(content: Content, score: Score) -> dict[str, tuple[ControllerCurve, ...]]:
-    """Return the controller curves by part id: those that the user edited, else those of the MIDI file."""
+    """Return the MIDI file's controllers by part id: the stored ones if they were edited, else the score's."""
     here = {part.id: part.curves for part in score.parts}
     return {part_id: here.get(part_id, ()) for part_id in content.edited_notes} | content.edited_curves
 
@@ -233,7 +235,7 @@ def _converted(raw: Any, type_: Any, prefix: str, file: str) -> Any:
 
 
 def _unknown(raw: Any, known: Any, place: str) -> Iterator[str]:
-    """Key paths of a stored file that this version does not know."""
+    """Yield the key paths of a stored file that this version does not support."""
     if isinstance(raw, dict) and isinstance(known, dict):
         for key, value in raw.items():
             if key not in known:
@@ -247,7 +249,7 @@ def _unknown(raw: Any, known: Any, place: str) -> Iterator[str]:
 
 
 def sayable(message: Message) -> Message:
-    """The message itself if its id has a text, else a general message that contains the id."""
+    """Return a message unchanged if its id has a text, else a general message that contains the id."""
     message = _placed(Message(_RENAMED.get(message.id, message.id), message.arguments))
     try:
         text(message)
@@ -257,7 +259,7 @@ def sayable(message: Message) -> Message:
 
 
 def _placed(message: Message) -> Message:
-    """Convert a stored message of the time when positions were counted as bar and beat to the present form."""
+    """Convert a message stored by versions that counted positions as bar and beat to the present form."""
     arguments = message.arguments
     bar, beat = arguments.get("bar"), arguments.get("beat")
     if "place" in arguments or not isinstance(bar, int) or not isinstance(beat, int | float):

@@ -19,12 +19,14 @@ Track = TypeVar("Track", AudioTrack, VideoTrack)
 
 
 def moved_track(track: Track | None, path: Callable[[str, Path], str], folder: Path) -> Track | None:
-    """A recording or video with its path converted to the stored or the absolute form."""
+    """Return a recording or video with its path converted by ``path`` to the stored or the absolute form."""
     return None if track is None else msgspec.structs.replace(track, path=path(track.path, folder))
 
 
 def stored_path(path: str, folder: Path) -> str:
-    """Path in stored form: relative with slashes if it shares a folder below the root with the file."""
+    """Return a path in stored form: relative with slashes if it shares a folder below the root with the
+    project's file.
+    """
     if path and Path(path).is_absolute():
         try:
             shared = Path(os.path.commonpath([path, folder]))
@@ -36,7 +38,7 @@ def stored_path(path: str, folder: Path) -> str:
 
 
 def full_path(path: str, folder: Path) -> str:
-    """Absolute path; one that is absolute only on another system stays unchanged."""
+    """Return an absolute path from a stored one; a path that is absolute only on another system stays unchanged."""
     path = restored(path)
     if not path or path.startswith(PREFIX) or PurePosixPath(path).is_absolute() or PureWindowsPath(path).is_absolute():
         return path
@@ -44,8 +46,9 @@ def full_path(path: str, folder: Path) -> str:
 
 
 def stored_choreography(choreography: str, folder: Path) -> str:
-    """The stored form of a choreography's path; empty values and names of bundled choreographies are stored
-    unchanged."""
+    """Return the stored form of a choreography's path; empty values and names of bundled choreographies are returned
+    unchanged.
+    """
     return stored_path(choreography, folder) if choreography and not is_bundled_name(choreography) else choreography
 
 

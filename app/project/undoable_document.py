@@ -1,4 +1,4 @@
-"""The only writer of a project: every edit is applied here with a name, and can be undone.
+"""The open project with its undo history: every edit is applied here, with a name.
 
 Edits are pure functions from project to project (`app.project.edit`); the document only stores values, so a failing
 edit has no effect, and history is cheap because unchanged parts are shared.
@@ -35,7 +35,7 @@ class Change:
     """Notification for observers, which should compare values by identity (``is``) and must not edit while notified.
 
     ``origin`` is the object that requested the edit, so that it can ignore its own change; None for undo, redo and
-    opening. ``opened``: another project was opened.
+    opening. ``opened`` is True if another project was opened.
     """
 
     before: Project
@@ -79,14 +79,14 @@ class Document:
         return tuple(self._undone)
 
     def observe(self, observer: Observer) -> Callable[[], None]:
-        """Register an observer of all changes; call the result to remove it."""
+        """Register an observer of all changes; call the returned function to remove it."""
         self._observers.append(observer)
         return lambda: self._observers.remove(observer)
 
     def apply(
         self, name: Message, project: Project, gesture: object | None = None, origin: object | None = None
     ) -> None:
-        """Make this the current project, as an undoable step; an equal project makes no step.
+        """Make ``project`` the current project, as an undoable step; an equal project makes no step.
 
         Parameters
         ----------
@@ -98,12 +98,12 @@ class Document:
             Consecutive edits with the same token (a drag, a slider) form one step, which is dropped if it returns to
             its start.
         origin : object, optional
-            Handed to the observers.
+            Object that requested the edit, passed to the observers.
 
         Raises
         ------
         UsageError
-            The project could not be saved; nothing is changed.
+            The project is invalid and could not be saved; nothing is changed.
         """
         before = self._project
         if project is before or project == before:
@@ -128,7 +128,7 @@ class Document:
             self._done[-1] = replace(self._done[-1], gesture=None)
 
     def cancel_gesture(self, gesture: object) -> bool:
-        """Revert to the start of a drag; returns whether the last step belonged to it."""
+        """Revert to the start of a drag; return whether the last step belonged to it."""
         last = self._done[-1] if self._done else None
         if last is None or last.gesture is not gesture:
             return False
@@ -155,7 +155,7 @@ class Document:
         return step.name
 
     def mark_saved(self, project: Project) -> None:
-        """Record that this version is saved in the file."""
+        """Record that ``project`` is the version saved in the file."""
         self._saved = project
 
     def mark_unsaved(self) -> None:

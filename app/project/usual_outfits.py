@@ -1,4 +1,4 @@
-"""Outfits that players are given by themselves: those of the kind of piece, later those of most on the stage."""
+"""Default outfits of players: in a new piece by the kind of piece, later those that most players wear."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ MOST_IN_JAZZ: Final = 18
 
 
 def outfit_of_piece(contents: PieceContents, players: int) -> str:
-    """Return the id of the outfit that suits a piece: winds with a rhythm section play jazz, others a concert.
+    """Return the id of the outfit that suits a piece: for jazz if winds play with a rhythm section, else for a concert.
 
     Parameters
     ----------
     players : int
-        Musicians on the stage.
+        Number of musicians on the stage.
     """
     rhythm = any(use_of(channel) == "rhythm" for channel in contents.channels)
     jazz = rhythm and players <= MOST_IN_JAZZ and all(_has(contents.channels, one) for one in (BASSES, CHORDS))
@@ -49,7 +49,7 @@ def with_outfit(project: Project, outfit_id: str) -> Project:
 
 
 def common_outfit(project: Project) -> OutfitChoice:
-    """Return the outfit of most players on the stage, for a new player; in an empty piece that for a concert."""
+    """Return the outfit that most players on the stage wear, for a new player; in an empty piece that for a concert."""
     worn = Counter(player.outfit for player in project.bodies)
     if worn:
         return worn.most_common(1)[0][0]

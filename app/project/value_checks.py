@@ -1,4 +1,4 @@
-"""Faults of a project, and checks of values of any kind: bounds, order, lengths and uniqueness."""
+"""Checks of values in a project: bounds, order, lengths and uniqueness; a fault is a key path with a description."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ MOST_NAME: Final = 60
 def about(
     performer: Player | Dancer | None, found: Iterable[Fault], where: Callable[[str], str] = lambda place: ""
 ) -> Iterator[Fault]:
-    """Add a performer's name to faults, since list indices mean little to users.
+    """Yield faults with the performer's name added to the description, since list indices mean little to users.
 
     Parameters
     ----------
     where : callable
-        Function from a fault's key path to further information, such as the bar.
+        Returns further information for a fault's key path, such as the bar.
     """
     who = "dancer" if isinstance(performer, Dancer) else "player"
     for place, detail in found:
@@ -40,20 +40,20 @@ def about(
 
 
 def faults_at_key(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:
-    """Yield the errors with their places prefixed by the key at which the checked value lies."""
+    """Yield faults with their key paths prefixed by the key of the checked value."""
     for place, detail in found:
         yield f"{prefix}.{place}", detail
 
 
 def faults_of_bounds(place: str, value: float, bounds: Bounds) -> Iterator[Fault]:
-    """Yield an error at ``place`` if a number is outside its bounds."""
+    """Yield a fault at the key path ``place`` if a number is outside its bounds."""
     # Also not where it is no number at all, or a whole one that no float can hold.
     if not bounds[0] <= value <= bounds[1]:
         yield place, f"must be from {bounds[0]:.15g} to {bounds[1]:.15g}"
 
 
 def in_order(place: str, ticks: Sequence[int]) -> Iterator[Fault]:
-    """Check that ticks begin with 0 and ascend."""
+    """Yield a fault if ticks do not begin with 0, do not ascend, or are too large."""
     if not ticks:
         yield place, "must not be empty"
         return
@@ -68,7 +68,7 @@ def in_order(place: str, ticks: Sequence[int]) -> Iterator[Fault]:
 
 
 def unique(place: str, values: Iterable[str], field: str = "id", taken: Iterable[str] = ()) -> Iterator[Fault]:
-    """Check that values are unique and not ``taken`` elsewhere."""
+    """Yield a fault for values that are not unique or are ``taken`` elsewhere."""
     seen = set(taken)
     for index, value in enumerate(values):
         if value in seen:
@@ -77,7 +77,7 @@ def unique(place: str, values: Iterable[str], field: str = "id", taken: Iterable
 
 
 def text_faults(place: str, value: str, most: int = limits.MOST_TEXT) -> Iterator[Fault]:
-    """Check that a text is valid Unicode and not too long."""
+    """Yield a fault if a text is not valid Unicode or too long."""
     if len(value) > most:
         yield place, f"at most {most} characters"
     elif not is_text(value):
@@ -85,7 +85,7 @@ def text_faults(place: str, value: str, most: int = limits.MOST_TEXT) -> Iterato
 
 
 def path_faults(place: str, value: str) -> Iterator[Fault]:
-    """Check that a path is not too long and possible for a file; its name may be any bytes."""
+    """Yield a fault if a path is too long or impossible for a file; its name may be any bytes."""
     if len(value) > limits.MOST_TEXT:
         yield place, f"at most {limits.MOST_TEXT} characters"
     elif "\0" in value or restored(stored(value)) != value:
@@ -93,7 +93,7 @@ def path_faults(place: str, value: str) -> Iterator[Fault]:
 
 
 def id_faults(place: str, value: str, least: int = 1) -> Iterator[Fault]:
-    """Check that an id is not empty, not too long, and valid Unicode."""
+    """Yield a fault if an id is empty, too long, or not valid Unicode."""
     if not least <= len(value) <= limits.MOST_ID:
         yield place, f"must have from {least} to {limits.MOST_ID} characters"
     elif not is_text(value):
@@ -101,7 +101,7 @@ def id_faults(place: str, value: str, least: int = 1) -> Iterator[Fault]:
 
 
 def look_faults(performer: Player | Dancer, place: str) -> Iterator[Fault]:
-    """Faults of a performer's place on the stage, colour and clothes."""
+    """Yield the faults of a performer's place on the stage, colour and clothes."""
     outfit = performer.outfit
     yield from id_faults(f"{place}.outfit.id", outfit.id, least=0)
     colours = {"colour": performer.colour, **{f"outfit.{tint}": outfit.colour(tint) for tint in TINTS}}

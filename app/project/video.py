@@ -15,7 +15,7 @@ class VideoTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     offset_s : float
         Performance time of its first frame; score second 0 is tick 0.
     confidence : float or None
-        Confidence 0..1 of an estimated offset; None: set by hand.
+        Confidence 0..1 of an estimated offset; None if set by hand.
     """
 
     path: str

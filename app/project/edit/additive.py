@@ -1,4 +1,4 @@
-"""Edits of additive curves: keys, handles, blends, weights.
+"""Edits of additive curves: keys, handles, fades, weights.
 
 Keys are identified by tick, curves by name. A key moved to the tick of another key replaces it.
 """
@@ -25,7 +25,7 @@ DECIMALS: Final = 5
 
 
 def curves_of(project: Project, player_id: str, channel: str | None = None) -> tuple[AdditiveCurve, ...]:
-    """Additive animation curves of a player: all, or those of one channel."""
+    """Return the additive animation curves of a player: all, or those of one channel."""
     return tuple(
         item
         for item in project.corrections.get(player_id, ())
@@ -82,7 +82,7 @@ def move_keys(project: Project, player_id: str, keys: Keys, ticks: int, value: f
 
 
 def set_values(project: Project, player_id: str, keys: Keys, value: float) -> Project:
-    """Set the value of the chosen keys of a player's additive curves, within the range of each channel."""
+    """Set the value of the chosen keys of a player's additive curves, clipped to the range of each channel."""
     return _each_key(project, player_id, keys, lambda key, channel: _valued(key, channel, value))
 
 
@@ -117,7 +117,7 @@ def free_tangents(project: Project, player_id: str, keys: Keys) -> Project:
 
 
 def flatten_tangents(project: Project, player_id: str, keys: Keys) -> Project:
-    """Make curves level at keys: handles reach a third of the way to the neighbouring keys."""
+    """Make curves horizontal at keys: handles reach a third of the way to the neighbouring keys."""
     for name, chosen in keys.items():
 
         def level(curve: AdditiveCurve, chosen: Collection[int] = frozenset(chosen)) -> AdditiveCurve:

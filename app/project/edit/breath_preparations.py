@@ -32,7 +32,9 @@ def preparations_of(plan: PlayerPlan) -> dict[str, BreathEvent]:
 def preparation_with(
     project: Project, player_id: str, breath: BreathEvent, placed: SetBreath, prepared: BreathEvent
 ) -> SetBreath:
-    """Return the preparation of a breath shifted by as much as the start of the breath was, before the same note."""
+    """Return the correction of a breath's preparation, shifted by as much as the breath's start; it stays at the same
+    note.
+    """
     before = breath_of(project, player_id, prepared)
     onset, by = _start(project, player_id, breath, placed)
     return msgspec.structs.replace(
@@ -45,8 +47,8 @@ def preparation_with(
 
 
 def lowered_with(project: Project, player_id: str, breath: BreathEvent, placed: SetBreath) -> list[Correction]:
-    """Return corrections for the lowered instrument before a breath's note, so that it is raised earlier or later by as
-    much as the breath moved; none if the generator adapts it anyway.
+    """Return corrections that make the lowered instrument before a breath's note rise earlier or later by as much as
+    the breath moved; empty if the generator adapts it anyway.
     """
     if BREATH_KINDS[placed.kind].within or not breath.draws_air:
         return []
@@ -61,7 +63,7 @@ def lowered_with(project: Project, player_id: str, breath: BreathEvent, placed: 
 
 
 def moved_along(project: Project, player_id: str, event_ids: Iterable[str]) -> tuple[str, ...]:
-    """Return the ids of preparations that moved along because they end where breaths placed by hand begin."""
+    """Return the ids of preparations that moved with breaths placed by hand, since they end where these begin."""
     said = {item.about: item for item in project.corrections.get(player_id, ()) if isinstance(item, SetBreath)}
     found = []
     for event_id in event_ids:

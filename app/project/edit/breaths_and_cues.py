@@ -76,20 +76,21 @@ def notes_of(project: Project, player_id: str) -> tuple[Note, ...]:
 
 
 def removals_of(project: Project, player_id: str, event_id: str) -> tuple[Correction, ...]:
-    """The corrections of a player that only remove a planned event, and add no other in its place."""
+    """Return the corrections of a player that only remove a generated event, without adding another in its place."""
     return tuple(item for item in corrections_of(project, player_id, (event_id,)) if item.left_out == event_id)
 
 
 def _added(project: Project, player_id: str, item: SetBreath | SetCue) -> Edited:
-    """Add a breath or cue by hand; if the planned one was removed there, it is restored with the new times. Returns the
-    project and the id."""
+    """Add a breath or cue by hand; if a generated one was removed there, it is restored with the new times. Return the
+    project and the event's id.
+    """
     removed = removals_of(project, player_id, item.about)
     item = msgspec.structs.replace(item, added=not removed)
     return Edited(with_corrections(take_back(project, player_id, removed), player_id, (item,)), (item.about,))
 
 
 def breath_of(project: Project, player_id: str, event: BreathEvent) -> SetBreath:
-    """The existing correction of a breath, or one that equals the generated breath."""
+    """Return the existing correction of a breath, or a new one that equals the generated breath."""
     for item in corrections_of(project, player_id, (event.id,)):
         if isinstance(item, SetBreath):
             return item
@@ -123,8 +124,9 @@ def breath_at(
 
 
 def _breath_within(before: SetBreath, note: Note, start: int, end: int, moves: bool) -> SetBreath:
-    """Return the breath ``before`` placed within a note from ``start`` to ``end`` (ticks), kept inside the note: by a
-    shift if ``moves``, else by shortening."""
+    """Return the breath ``before`` from ``start`` to ``end`` (ticks), limited so that it ends at its note at the
+    latest: by a shift if ``moves``, else by shortening.
+    """
     first, last = start - note.onset_tick, end - note.onset_tick
     if moves:
         by = max(-first, 0) + min(note.duration_tick - last, 0)
@@ -135,7 +137,9 @@ def _breath_within(before: SetBreath, note: Note, start: int, end: int, moves: b
 
 
 def _note_after(notes: Sequence[Note], end: int) -> int:
-    """Index of the note for a breath that ends at a tick: the next note, or the note in whose first half it ends."""
+    """Return the index of the note that a breath ending at a tick belongs to: the next note, or the note in whose first
+    half it ends.
+    """
     index = bisect_left(notes, end, key=lambda note: note.onset_tick)
     if index > 0 and (index == len(notes) or end < notes[index - 1].onset_tick + notes[index - 1].duration_tick / 2):
         return index - 1
@@ -159,7 +163,7 @@ def cue_at(project: Project, player_id: str, event: CueEvent, start: int, end: i
 
 
 def _room_before(project: Project, notes: Sequence[Note], index: int) -> int:
-    """Return the start tick of an added breath before a note."""
+    """Return the tick at which a breath added before the note with an index starts."""
     onset, clock = notes[index].onset_tick, project.score.tempo_map
     beat = project.metre_map.felt_ticks_at(onset)
     if index == 0:

@@ -1,4 +1,4 @@
-"""Adding and removing corrections, of which the last one at each place counts; and ignoring problems."""
+"""Adding and removing corrections, of which the last one at each place is used; and ignoring problems."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ T = TypeVar("T")
 
 
 def with_corrections(project: Project, player_id: str, corrections: Iterable[Correction]) -> Project:
-    """Add corrections; each replaces one with the same place. KeyError for an unknown player."""
+    """Add corrections; each replaces an existing one of the same kind at the same note or tick. KeyError for an unknown
+    player.
+    """
     before = project.corrections.get(project.player(player_id).id, ())
     kept = {correction.place: correction for correction in before}
     for correction in corrections:
@@ -37,7 +39,7 @@ def take_back(project: Project, player_id: str, corrections: Iterable[Correction
 
 
 def ignore(project: Project, performer_id: str, problems: Iterable[Problem]) -> Project:
-    """Mark problems of a performer as ignored."""
+    """Mark problems of a performer as ignored, so that they are no longer shown."""
     clock, known = project.score.tempo_map, project.ignored_problems.get(performer_id, ())
     added = (ignored_problem(problem, clock) for problem in problems)
     return _ignoring(project, performer_id, tuple(dict.fromkeys((*known, *added))))
@@ -64,7 +66,9 @@ def _ignoring(project: Project, performer_id: str, ignored: tuple[IgnoredProblem
 def _changed(
     known: Mapping[str, tuple[T, ...]], performer_id: str, items: tuple[T, ...]
 ) -> Mapping[str, tuple[T, ...]]:
-    """Set a performer's items in a mapping, without keeping empty rows; the same mapping if nothing changes."""
+    """Return the mapping with a performer's items replaced, without empty entries; the same mapping if
+    nothing changes.
+    """
     if items == known.get(performer_id, ()):
         return known
     others = {id: kept for id, kept in known.items() if id != performer_id}
@@ -72,7 +76,7 @@ def _changed(
 
 
 class Edited(NamedTuple):
-    """A project after an edit, and the new ids of the edited events, in the given order."""
+    """A project after an edit, and the present ids of the edited events, in the given order."""
 
     project: Project
     event_ids: tuple[str, ...]

@@ -58,7 +58,7 @@ def set_giver(project: Project, plan: PlayerPlan, cue_id: str, giver_id: str, pe
 
 
 def set_takers(project: Project, plan: PlayerPlan, cue_id: str, takers: Collection[str] | None) -> Project:
-    """Set the players that a cue brings in (ids); None: all who come in there."""
+    """Set the ids of the players that a cue brings in; None for all who come in there."""
     cue = _cue(project, plan, cue_id)
     if cue is None:
         return project
@@ -94,13 +94,13 @@ def hand_over(project: Project, plan: PlayerPlan, cue_id: str, taker_id: str, ot
 
 
 def _cue(project: Project, plan: PlayerPlan, cue_id: str) -> CueEvent | None:
-    """The cue in a plan; None if it no longer exists."""
+    """Return the cue with an id in a plan; None if it no longer exists in plan or project."""
     there = is_there(project, plan.player_id, cue_id)
     return next((event for event in plan.cues if event.id == cue_id), None) if there else None
 
 
 def _said(project: Project, player_id: str, cue: CueEvent) -> SetCue:
-    """The existing correction of a cue, or one that equals the generated cue."""
+    """Return the existing correction of a cue, or a new one that equals the generated cue."""
     said = corrections_of(project, player_id, (cue.id,))
     found = next((item for item in said if isinstance(item, SetCue)), None)
     return found or SetCue(EventId.parse(cue.id).of, _beats_from(project, cue, _peak_tick(project, cue)))
@@ -111,12 +111,12 @@ def _peak_tick(project: Project, cue: CueEvent) -> float:
 
 
 def _beats_from(project: Project, cue: CueEvent, peak_tick: float) -> float:
-    """Return the length in felt beats of a preparatory beat that begins at a tick."""
+    """Return the length in felt beats of a preparatory beat from ``peak_tick`` to the cue's entry."""
     beats = (cue.end_tick - peak_tick) / project.metre_map.felt_ticks_at(cue.end_tick)
     return min(max(round(beats, 4), LEAST_BEATS), MOST_BEATS)
 
 
 def _beats(project: Project, cue: CueEvent) -> float:
-    """Return the length of the preparatory beat in beats of the score."""
+    """Return the present length of a cue's preparatory beat in felt beats."""
     beat = LEAD_BEATS * project.metre_map.felt_ticks_at(cue.end_tick)
     return max(round((cue.end_tick - cue.start_tick) / beat, 4), LEAST_BEATS) if cue.corrected else 1.0

@@ -11,12 +11,12 @@ from app.project.model import Project
 
 
 def pin_state(project: Project, dancer_id: str, tick: int, state: int) -> Project:
-    """Require a basic motion at a tick, replacing what was pinned there."""
+    """Require a basic motion at a tick of a dance, replacing any requirement there."""
     return _put(project, dancer_id, PinState(_tick(tick), state))
 
 
 def use_segment(project: Project, dancer_id: str, tick: int, segment: int) -> Project:
-    """Require a certain segment of motion at a tick of a dance, replacing what was required there."""
+    """Require a segment of the motion capture at a tick of a dance, replacing any requirement there."""
     return _put(project, dancer_id, UseSegment(_tick(tick), segment))
 
 
@@ -34,7 +34,7 @@ def take_back(project: Project, dancer_id: str, corrections: Iterable[DanceCorre
 
 
 def clear(project: Project, dancer_id: str) -> Project:
-    """Remove every correction of a dance."""
+    """Remove every correction of a dancer's dance."""
     return _without(project, dancer_id, project.dance_corrections.get(dancer_id, ()))
 
 
@@ -43,7 +43,9 @@ def _tick(tick: int) -> int:
 
 
 def _place(item: DanceCorrection) -> tuple[int, ...]:
-    """Key of a dance correction: at one tick only one segment or motion can be required."""
+    """Return the key of a dance correction; corrections with equal keys replace each other, such as requirements at one
+    tick.
+    """
     return (item.start_tick, item.end_tick, item.state) if isinstance(item, ForbidState) else (item.tick,)
 
 

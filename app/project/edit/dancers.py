@@ -55,9 +55,7 @@ def add_dancer(project: Project, choreography: str | os.PathLike[str], name: str
 
 
 def remove_dancers(project: Project, dancer_ids: Collection[str]) -> Project:
-    """Copy dancers with their corrections and seed, so that the copies dance in unison; returns their ids. Each copy is
-    listed after its original.
-    """
+    """Remove dancers with their corrections and ignored problems."""
     kept = tuple(dancer for dancer in project.dancers if dancer.id not in dancer_ids)
     if len(kept) == len(project.dancers):
         return project
@@ -67,8 +65,9 @@ def remove_dancers(project: Project, dancer_ids: Collection[str]) -> Project:
 
 
 def duplicate_dancers(project: Project, dancer_ids: Collection[str]) -> tuple[Project, tuple[str, ...]]:
-    """Add for each dancer another one with the same corrections and seed, who dances in unison, listed behind the
-    original. Returns the project and the new ids."""
+    """Copy dancers with their corrections and seed, so that the copies dance in unison; each is listed after its
+    original. Return the project and the new ids.
+    """
     originals = [dancer for dancer in project.dancers if dancer.id in dancer_ids]
     new_ids = fresh_dancer_ids(project, len(originals))
     names = project.performer_names()
@@ -106,15 +105,15 @@ def change_dancers(project: Project, dancer_ids: Collection[str], **fields: Any)
 
 
 def dancer_edit(field: str, dancer: str) -> Message:
-    """History entry for a change of a dancer's field."""
+    """Return the name, for the undo history, of a change of a dancer's field."""
     if field in DANCER_PARAMETERS:
         return Message("edit.dancer_parameter", {"parameter": DANCER_PARAMETERS[field].label, "dancer": dancer})
     return Message(f"edit.dancer_{field}", {"dancer": dancer})
 
 
 def set_choreography(project: Project, dancer_ids: Collection[str], choreography: str | os.PathLike[str]) -> Project:
-    """Change the choreography of dancers. Corrections stay, and now refer to its motions and segments by number. Raises
-    AppError for an invalid choreography.
+    """Change the choreography of dancers. Corrections stay; their indices then refer to its motions and segments.
+    Raises AppError for an invalid choreography.
     """
     return _changed(project, dancer_ids, {"choreography": checked_choreography(choreography)})
 
@@ -133,8 +132,9 @@ def move_dancers(project: Project, dancer_ids: Collection[str], before: int) -> 
 
 
 def free_places(project: Project, count: int) -> tuple[StagePosition, ...]:
-    """Free positions for ``count`` more dancers in front of the players, facing the audience: in rows filled from the
-    middle."""
+    """Return free places for ``count`` more dancers in front of the players, facing the audience, in rows filled from
+    the middle.
+    """
     taken = [dancer.stage for dancer in project.dancers]
     found: list[StagePosition] = []
     places = _rows(_front_m(project))
@@ -146,7 +146,7 @@ def free_places(project: Project, count: int) -> tuple[StagePosition, ...]:
 
 
 def _front_m(project: Project) -> float:
-    """Return the z coordinate of the first row, far enough from the players' instruments."""
+    """Return the z coordinate in metres of the first row of dancers, in front of the players' instruments."""
     reaches_m = (
         player.stage.z_m + max(room.left_m, room.right_m, room.ahead_m, ELBOW_M)
         for player in project.players
@@ -156,8 +156,8 @@ def _front_m(project: Project) -> float:
 
 
 def _rows(front_m: float) -> Iterator[StagePosition]:
-    """Yield places row by row towards the audience, from the middle to both sides, in a staggered grid. At the edge of
-    the stage they continue in the last row.
+    """Yield possible places of dancers row by row towards the audience, from the middle to both sides, in a staggered
+    grid. At the edge of the stage they continue in the last row.
     """
     row = 0
     while True:
@@ -194,7 +194,7 @@ def _changed(project: Project, dancer_ids: Collection[str], fields: Mapping[str,
 
 
 def checked_choreography(choreography: str | os.PathLike[str]) -> str:
-    """A choreography in stored form: a bundled name, or the absolute path of a file. Raises AppError if it is
+    """Return a choreography in stored form: a bundled name, or the absolute path of a file. Raises AppError if it is
     invalid.
     """
     text = os.fspath(choreography)
@@ -213,8 +213,8 @@ def _seldom_seen(project: Project) -> str:
 
 
 def set_body_dance(project: Project, player_ids: Collection[str], choreography: str | os.PathLike[str]) -> Project:
-    """Set the choreography that players' bodies dance while they play: a bundled name or a file; empty: generated
-    motion only.
+    """Set the choreography that players' bodies dance while they play: a bundled name or a file. Empty for the
+    generated motion only.
 
     Raises
     ------

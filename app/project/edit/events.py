@@ -1,4 +1,4 @@
-"""Edits of a player's events: each request becomes a correction.
+"""Edits of a player's events, each of which is stored as a correction.
 
 All functions take the plan shown to the user and ids of its events. Functions that may change an event's id (a breath
 dragged to another note) also return the new ids.
@@ -148,7 +148,7 @@ def pin_fingerings(project: Project, player_id: str, labels: Mapping[str, str]) 
 
 
 def toggle_preparation(project: Project, plan: PlayerPlan, note_id: str) -> Edited:
-    """Remove the preparatory motion before a note's breath, or add one."""
+    """Remove the preparatory motion before a note's breath if there is one, else add one."""
     event_id = f"preparation:{note_id}"
     if any(event.id == event_id for event in plan.breaths):
         return Edited(remove(project, plan, (event_id,)), ())
@@ -184,7 +184,7 @@ def add_expression(
     fade_in_s: float = 0.2,
     fade_out_s: float = 0.3,
 ) -> Edited:
-    """Add an expression of the animator's."""
+    """Add a facial expression by hand."""
     end_tick = max(end_tick, start_tick + 1)
     name, fades = _new_name(project, player_id), (fade_in_s, fade_out_s)
     added = AddExpression(name, expression, start_tick, end_tick, 1.0, *fades)
@@ -226,7 +226,7 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
 
 def give_back(project: Project, player_id: str, event_ids: Iterable[str] = (), note_ids: Iterable[str] = ()) -> Project:
     """Reset events, and fingering, embouchure and marks of notes, to their generated values. Added events are
-    deleted.
+    removed.
     """
     notes = tuple(note_ids)
     project = take_back(project, player_id, corrections_at(project, player_id, notes))
@@ -318,12 +318,12 @@ def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_
 
 
 def _current(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> list[Placed]:
-    """Events of a plan, without those whose note or correction no longer exists, since plans lag behind the project."""
+    """Return the events of a plan that still exist in the project, since plans may be older than the project."""
     return placed_events(plan, [event_id for event_id in event_ids if is_there(project, plan.player_id, event_id)])
 
 
 def _new_name(project: Project, player_id: str) -> str:
-    """The first name ``own-n`` that no added event of the player has."""
+    """Return the first name ``own-n`` that no added event of the player has."""
     taken = {item.anchor for item in project.corrections.get(player_id, ())}
     number = 1
     while f"{OWN}{number}" in taken:
@@ -332,8 +332,8 @@ def _new_name(project: Project, player_id: str) -> str:
 
 
 def _changed(project: Project, plan: PlayerPlan, event: Placed, **values: object) -> list[Correction]:
-    """Corrections that give an event other values: the existing one or one of the generated event; empty if a generated
-    event has these values already.
+    """Return corrections that give an event other values, based on its existing correction if there is one; empty if a
+    generated event has these values already.
     """
     said = corrections_of(project, plan.player_id, (event.id,))
     if not said and not event.corrected and all(_same(getattr(event, name), value) for name, value in values.items()):
@@ -354,7 +354,7 @@ def _same(now: object, value: object) -> bool:
 def _all_changed(
     project: Project, plan: PlayerPlan, event_ids: Iterable[str], kind: type[Placed], **values: object
 ) -> Project:
-    """Return the project with the events of a kind changed."""
+    """Set fields of the chosen events that are of one kind; other events stay."""
     chosen = [event for event in _current(project, plan, event_ids) if isinstance(event, kind)]
     return with_corrections(
         project, plan.player_id, [item for one in chosen for item in _changed(project, plan, one, **values)]

@@ -50,7 +50,7 @@ def follow_recording(project: Project, following: Following, path: str | os.Path
 
 
 def _leaves_no_time(project: Project, following: Following, span: UnmatchedSpan) -> bool:
-    """Return whether the recording continues directly after missing bars, so that they would have no time."""
+    """Return whether the recording continues without a gap where it lacks bars, so that these would have no time."""
     # Beats before the first note and after the last one are no bars that would have to wait for those left out.
     sounding = following.confidence >= SURE
     earlier = np.flatnonzero(sounding & (following.ticks < span.start))
@@ -65,15 +65,16 @@ def _leaves_no_time(project: Project, following: Following, span: UnmatchedSpan)
 
 
 def pins_for(project: Project, path: str | os.PathLike[str]) -> tuple[BeatPin, ...]:
-    """Beats that the user has pinned to the recording at ``path``, for following it again; empty for another
-    recording."""
+    """Return the beats pinned to the recording at ``path``, which following again keeps; empty for another
+    recording.
+    """
     audio = project.audio
     same = audio is not None and audio.path == os.path.abspath(path)  # noqa: PTH100 - as `set_audio` has it
     return audio.pins if audio is not None and same else ()
 
 
 def _doubts(project: Project, following: Following) -> tuple[Doubt, ...]:
-    """Bars to be checked by ear, and bars missing in the recording."""
+    """Return the bars whose alignment must be checked by ear, and bars missing in the recording."""
     metre_map = project.metre_map
     last = int(following.ticks[-1])
     there = dict(following.bars(metre_map))

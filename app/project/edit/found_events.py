@@ -1,4 +1,4 @@
-"""Finds the events of a plan that an edit is about, and the corrections of them."""
+"""Lookup of events in a plan by id, and of their corrections."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ _OF_NOTES: Final = ("fingering", "embouchure", "tongue", *BREATH_KINDS, "cue")
 
 
 def corrections_of(project: Project, player_id: str, event_ids: Iterable[str]) -> tuple[Correction, ...]:
-    """The corrections of a player that added or changed the events with the given ids."""
+    """Return the corrections of a player that added or changed the events with the given ids."""
     requested = frozenset(event_ids)
     return tuple(item for item in project.corrections.get(player_id, ()) if item.about in requested)
 
 
 def events_of(plan: PlayerPlan) -> dict[str, Event]:
-    """All selectable events of a plan, by id."""
+    """Return all selectable events of a plan, by id."""
     groups: tuple[Sequence[Event], ...] = (
         plan.fingerings, plan.breaths, plan.embouchures, plan.cues, plan.gestures, plan.expressions, plan.poses,
         plan.styles,
@@ -85,7 +85,7 @@ def is_there(project: Project, player_id: str, event_id: str) -> bool:
 
 
 def placed_events(plan: PlayerPlan, event_ids: Iterable[str]) -> list[Placed]:
-    """Events of these ids that have a place of their own, in the order of the ids."""
+    """Return the events with the given ids that have start and end, in the order of the ids."""
     requested = tuple(event_ids)
     among = frozenset(requested)
     groups: tuple[Sequence[Placed], ...] = (

@@ -1,4 +1,4 @@
-"""Creates another random variation: new seeds for all, some players, or some bars. Corrections stay."""
+"""Edits that make another random variation: new seeds for all players, some players, or some bars. Corrections stay."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ def vary_players(project: Project, player_ids: Iterable[str]) -> Project:
 
 
 def vary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_tick: int) -> Project:
-    """Add a random variation for some players from one tick to another; repeating it for the span gives another
-    variation.
+    """Add a random variation for some players from one tick to another; repeating it for the same span gives yet
+    another.
     """
     for player_id in player_ids:
         said = variations(project, player_id)
@@ -53,7 +53,7 @@ def vary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_
 
 
 def unvary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_tick: int) -> Project:
-    """Remove every variation that overlaps a span, restoring the original performance there."""
+    """Remove every variation that overlaps a span, so that the original performance returns there."""
     for player_id in player_ids:
         there = variations(project, player_id, start_tick, end_tick)
         if there:
@@ -64,7 +64,7 @@ def unvary_span(project: Project, player_ids: Iterable[str], start_tick: int, en
 def variations(
     project: Project, player_id: str, start_tick: int | None = None, end_tick: int | None = None
 ) -> tuple[Vary, ...]:
-    """The variations of a player: all, or those that overlap the span from ``start_tick`` to ``end_tick``."""
+    """Return the variations of a player: all, or those that overlap the span from ``start_tick`` to ``end_tick``."""
     return tuple(
         item
         for item in project.corrections.get(player_id, ())
@@ -75,7 +75,7 @@ def variations(
 
 
 def by_hand(project: Project, player_ids: Iterable[str]) -> tuple[Correction, ...]:
-    """All corrections that the user made for the given players by hand; variations are left out."""
+    """Return all corrections of the given players other than random variations of bars."""
     return tuple(
         item
         for player_id in player_ids

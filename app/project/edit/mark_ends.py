@@ -1,5 +1,5 @@
-"""Adapts the ends of slurs and other marks when notes are deleted, split or joined, for marks of the score and by
-hand.
+"""Adapts the ends of slurs and other marks when notes are deleted, split or joined, both for marks of the score and for
+those set by hand.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ Ends: TypeAlias = Callable[[str, str, str], tuple[str, str]]
 
 
 def drawn_in(project: Project, gone: Collection[str]) -> Project:
-    """Shorten slurs to the nearest remaining notes when notes are deleted; slurs left with one note stay unchanged."""
+    """Shorten slurs to the nearest remaining notes when notes are deleted; slurs that would keep only one note are not
+    changed.
+    """
 
     lost = frozenset(gone)
 
@@ -42,7 +44,9 @@ def drawn_in(project: Project, gone: Collection[str]) -> Project:
 
 
 def carried_on(project: Project, seconds: Mapping[str, str]) -> Project:
-    """Move the ends of slurs, and breath marks, to other notes, given by the ids of the old ones."""
+    """Move ends of slurs, and breath marks, from one note to another; ``seconds`` has the new note's id by the old
+    one's.
+    """
 
     def ends(kind: str, first: str, last: str) -> tuple[str, str]:
         if kind in AFTER:
@@ -59,8 +63,9 @@ def _spans(kind: str) -> bool:
 
 
 def _anchored(project: Project, note_ids: Collection[str], ends_of: Callable[[Part], Ends]) -> Project:
-    """Return the project with the marks at the given notes, in score and corrections, attached to other notes:
-    ``ends_of`` returns for a part the function that replaces a mark's first and last note."""
+    """Attach the marks at the given notes, in score and corrections, to other notes: ``ends_of`` returns for a part the
+    function that replaces a mark's first and last note.
+    """
     parts, corrections = [], dict(project.corrections)
     for part in project.score.parts:
         players = [player.id for player in project.players if player.part_id == part.id]

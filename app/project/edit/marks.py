@@ -1,4 +1,4 @@
-"""Writes, deletes and moves marks of a part: slurs, articulations, breaths, dynamics, hairpins.
+"""Edits that write, delete and move marks of a part: slurs, articulations, breaths, dynamics, hairpins.
 
 Changing a mark of the score removes it and writes a new one. In a part from MIDI a dynamic written over several notes
 applies to those; over one note, and always in a part from a score, it applies until the next dynamic.
@@ -49,7 +49,9 @@ class Marked(NamedTuple):
 
 
 def set_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Project:
-    """Write marks; each replaces one of its kind at the same place. A mark equal to one of the score restores that."""
+    """Write marks; each replaces one of its kind at the same place. A mark equal to one of the score that was removed
+    restores it.
+    """
     chosen = tuple(marks)
     read = frozenset(project.part(project.player(player_id)).marks)
     project = give_back_marks(project, player_id, chosen)
@@ -89,7 +91,7 @@ def toggle_marks(project: Project, notes: Mapping[str, Sequence[Note]], kind: st
     """Write a mark over the selected notes, or remove it if all of them have it.
 
     A mark of notes extends from a player's first selected note to the last. A breath mark or caesura follows the last
-    one, a dynamic is at the first one, and a hairpin lasts to the end of the last one.
+    note, a dynamic is at the first note, and a hairpin lasts to the end of the last note.
 
     Parameters
     ----------
@@ -128,7 +130,7 @@ def next_dynamic_tick(marks: Iterable[Mark], mark: Mark) -> int | None:
 
 
 def marks_at(marks: Collection[Mark], notes: Sequence[Note], order: Mapping[str, int]) -> list[Mark]:
-    """Return the marks at these notes, over some of them, or at their ticks.
+    """Return the marks at the given notes, over some of them, or at ticks within them.
 
     Parameters
     ----------
@@ -173,7 +175,7 @@ def _marks_over(project: Project, player_id: str, notes: Sequence[Note], kind: s
 
 
 def _excluded(there: Collection[Mark], fresh: Sequence[Mark]) -> list[Mark]:
-    """Existing marks that cannot be combined with new ones."""
+    """Return the marks among ``there`` that cannot be combined with new ones."""
     others: dict[str, frozenset[str]] = {kind: kinds - {kind} for kinds in EXCLUDING for kind in kinds}
     places = {(other, *_place(mark)) for mark in fresh for other in others.get(mark.kind, ())}
     return [mark for mark in there if (mark.kind, *_place(mark)) in places]

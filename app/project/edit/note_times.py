@@ -1,4 +1,4 @@
-"""Moves note onsets to the times at which they were played. Notes keep their ids and so their corrections."""
+"""Edit that moves note onsets to the times at which they were played. Notes keep their ids and so their corrections."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from app.score.tempo import TempoMap
 
 
 def shift_onsets(project: Project, seconds: Mapping[str, float]) -> Project:
-    """Delay the onsets of notes (by id) by these seconds; ends stay. A note that lasted until the next one still does,
-    none gets shorter than a tick, and none moves before the previous note or the start of the piece.
+    """Delay the onsets of notes by ``seconds`` (by note id); ends stay. A note that lasted until the next one still
+    does, none gets shorter than a tick, and none moves before the previous note or the start of the piece.
     """
     clock = project.score.tempo_map
     parts = tuple(_shifted(part, seconds, clock) for part in project.score.parts)
@@ -45,5 +45,7 @@ def _shifted(part: Part, seconds: Mapping[str, float], clock: TempoMap) -> Part:
 
 
 def _goes_on(was_end: int, end: int, note: Note, onset: int) -> bool:
-    """Return whether the previous note should end at this note's new onset: it did so before, or would now overlap."""
+    """Return whether the previous note, which ended at ``was_end`` and would end at ``end``, should end at the new
+    onset of ``note``: it did so before, or would now overlap.
+    """
     return was_end == note.onset_tick or (was_end < note.onset_tick and end > onset)

@@ -32,7 +32,7 @@ LOW_VELOCITY, HIGH_VELOCITY = 1, 127
 
 
 def chosen_notes(project: Project, note_ids: Collection[str]) -> Iterator[tuple[Part, list[Note]]]:
-    """Yield each part that contains any of the given notes, with those notes in order of onset."""
+    """Yield each part that contains any of the given notes, together with these notes in order of onset."""
     requested = frozenset(note_ids)
     for part in project.score.parts:
         if not requested.isdisjoint(part.note_ids):
@@ -56,7 +56,7 @@ def add_note(
 
 
 def reach_of_move(project: Project, note_ids: Collection[str], by_tick: int, by_pitch: int) -> tuple[int, int]:
-    """Return the largest possible move of these notes together, up to (by_tick, by_pitch)."""
+    """Return the largest move (ticks, semitones) that all given notes can make together, up to (by_tick, by_pitch)."""
     notes = [note for _, mine in chosen_notes(project, note_ids) for note in mine]
     if not notes:
         return 0, 0
@@ -91,7 +91,7 @@ def resize(project: Project, note_ids: Collection[str], by_tick: int, *, at_star
 
 
 def erase(project: Project, note_ids: Collection[str]) -> Project:
-    """Delete notes and their corrections. A slur that ended at one ends at the nearest remaining note."""
+    """Delete notes and their corrections. A slur that ended at a deleted note ends at the nearest remaining one."""
     gone = {note.id for _, mine in chosen_notes(project, note_ids) for note in mine}
     if not gone:
         return project
@@ -108,7 +108,9 @@ def erase(project: Project, note_ids: Collection[str]) -> Project:
 
 
 def split(project: Project, note_ids: Collection[str], tick: int) -> tuple[Project, tuple[str, ...]]:
-    """Cut notes in two at a place; the first half keeps the id. The ids of the second halves come with the project."""
+    """Split notes in two at a tick; the first half keeps the id. Return the project and the ids of the second
+    halves.
+    """
     ids = new_note_ids(project)
     seconds: dict[str, Note] = {}
     for _, mine in chosen_notes(project, note_ids):
@@ -127,7 +129,7 @@ def split(project: Project, note_ids: Collection[str], tick: int) -> tuple[Proje
 
 
 def join(project: Project, note_ids: Collection[str]) -> Project:
-    """Join selected consecutive notes of one pitch in their part into one, keeping the first id."""
+    """Join selected consecutive notes of equal pitch in a part into one note, which keeps the first id."""
     longer: dict[str, int] = {}
     absorbed: dict[str, str] = {}
     requested = frozenset(note_ids)
@@ -147,8 +149,9 @@ def join(project: Project, note_ids: Collection[str]) -> Project:
 
 
 def _runs(part: Part, requested: Collection[str]) -> Iterator[tuple[int, Note]]:
-    """Yield a part's notes with the number of the run of adjacent selected notes of one pitch to which each belongs; 0
-    for notes not selected."""
+    """Yield a part's notes with the number of their run; 0 for notes not selected. A run is a series of adjacent
+    selected notes of one pitch.
+    """
     run = 0
     before: Note | None = None
     for note in part.notes:
@@ -165,7 +168,7 @@ def _runs(part: Part, requested: Collection[str]) -> Iterator[tuple[int, Note]]:
 def duplicate(
     project: Project, note_ids: Collection[str], by_tick: int, by_pitch: int = 0
 ) -> tuple[Project, tuple[str, ...]]:
-    """Copy notes within their parts, moved by a distance; returns the project and the ids of the copies."""
+    """Copy notes within their parts, moved by ticks and semitones; return the project and the ids of the copies."""
     ids = new_note_ids(project)
     copies = {
         note.id: _checked(
@@ -210,10 +213,10 @@ def quantise(
     quarters : Fraction
         The grid's step.
     strength : float
-        0..1: the share of the way to the line.
+        Share of the way to the nearest grid line, 0..1.
     onsets, ends : bool
-        Which ends of the notes to move. If only the onset moves, the length stays; if only the end moves, at least a
-        tick remains.
+        Whether to move onsets, and whether to move ends. If only onsets move, lengths stay; if only ends move, at least
+        a tick remains.
     """
     grid, score = Grid(quarters), project.score
 
@@ -233,7 +236,7 @@ def quantise(
 
 
 class CopiedNote(msgspec.Struct, frozen=True):
-    """A note on the clipboard; its onset is relative to the first one."""
+    """A note on the clipboard; its onset is relative to that of the first note there."""
 
     offset_tick: int
     duration_tick: int
@@ -256,7 +259,7 @@ class ClipboardNotes(msgspec.Struct, frozen=True):
 
 
 def read_clip(data: bytes) -> ClipboardNotes | None:
-    """Decode notes from the clipboard; None if its data is not valid, although it has this program's format name."""
+    """Decode notes from the clipboard; None if the data is invalid."""
     try:
         return decode_json(data, ClipboardNotes, "")
     except FileError:
@@ -264,7 +267,7 @@ def read_clip(data: bytes) -> ClipboardNotes | None:
 
 
 def copied(project: Project, note_ids: Collection[str]) -> ClipboardNotes:
-    """Copy notes to a value that can be pasted elsewhere, with times relative to the first one."""
+    """Return a copy of notes for the clipboard, with onsets relative to the first one."""
     chosen = list(chosen_notes(project, note_ids))
     first = min((notes[0].onset_tick for _, notes in chosen), default=0)
     lines = tuple(
@@ -278,7 +281,7 @@ def copied(project: Project, note_ids: Collection[str]) -> ClipboardNotes:
 
 
 def paste(project: Project, part_id: str, clip: ClipboardNotes, at_tick: int) -> tuple[Project, tuple[str, ...]]:
-    """Insert copied notes at a place; returns the project and the new ids.
+    """Insert copied notes at a tick; returns the project and the new ids.
 
     Notes of a single part go to ``part_id``; notes of several parts go to their own parts, or to ``part_id`` if a part
     no longer exists.
@@ -319,7 +322,7 @@ def _checked(note: Note) -> Note:
 
 
 def _notes_of(item: Correction) -> set[str]:
-    """Ids of the notes of a correction, including the note of an event, ``"breath:<note>"``."""
+    """Return the ids of the notes of a correction, including the note of its event, as in ``"breath:<note>"``."""
     return {item.anchor, EventId.parse(item.anchor).of, *notes_of(item)}
 
 
@@ -330,7 +333,7 @@ def _each(project: Project, note_ids: Iterable[str], edit: Callable[[Note], Note
 
 
 def _with_more(project: Project, beside: dict[str, Note]) -> Project:
-    """Return the project with a new note in the part of each note named."""
+    """Add to the project, in the same part, the new note given for each note id."""
 
     def more(notes: tuple[Note, ...]) -> list[Note]:
         return [*notes, *(beside[note.id] for note in notes if note.id in beside)]
@@ -339,7 +342,9 @@ def _with_more(project: Project, beside: dict[str, Note]) -> Project:
 
 
 def _edited(project: Project, part_ids: Collection[str], edit: Callable[[tuple[Note, ...]], list[Note]]) -> Project:
-    """Return the project with the notes of these parts edited and sorted; `project` itself if nothing changes."""
+    """Return the project with ``edit`` applied to the notes of the given parts, and the result sorted; `project` itself
+    if nothing changes.
+    """
     parts = []
     for part in project.score.parts:
         if part.id in part_ids:

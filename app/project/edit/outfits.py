@@ -22,33 +22,33 @@ P = TypeVar("P", bound=Player | Dancer)
 
 
 def give_outfit(project: Project, performer_ids: Collection[str], outfit_id: str) -> Project:
-    """Give an outfit to players and dancers, in its own colours; an empty id is their own clothes."""
+    """Give an outfit to players and dancers, in its own colours; an empty id gives them their own clothes."""
     return _worn(project, performer_ids, lambda worn: worn if worn.id == outfit_id else OutfitChoice(outfit_id))
 
 
 def colour_outfit(project: Project, performer_ids: Collection[str], tint: Tint, colour: str) -> Project:
-    """Give a part of the outfits of players and dancers a colour, ``#rrggbb``; empty: the outfit's own."""
+    """Set the colour ``#rrggbb`` of a part of the outfits of players and dancers; empty for the outfit's own colour."""
     return _worn(project, performer_ids, lambda worn: msgspec.structs.replace(worn, **{tint: colour}))
 
 
 def dress_everyone(project: Project, choice: OutfitChoice) -> Project:
-    """Give everyone on the stage the same outfit in the same colours."""
+    """Give all players and dancers the same outfit in the same colours."""
     return _wearing(project, [one.id for one in project.performers], choice)
 
 
 def with_outfits(project: Project, texts: Iterable[str]) -> Project:
-    """Dress players and dancers as texts say, one after the other.
+    """Set outfits of players and dancers from command-line texts, one after the other.
 
     Parameters
     ----------
     texts : iterable of str
-        ``[NAME=]OUTFIT[,COLOUR...]``: a name or pattern of players and dancers, everyone without one; the id of an
-        outfit, or ``own`` for clothes of their own; its colours, ``#rrggbb``, in the order of `TINTS`.
+        ``[NAME=]OUTFIT[,COLOUR...]``: name or pattern of players and dancers (all if absent); id of an outfit, or
+        ``own`` for their own clothes; its colours, ``#rrggbb``, in the order of `TINTS`.
 
     Raises
     ------
     UsageError
-        There is no one of that name, no such outfit, or no such colour of it.
+        No performer has such a name, or there is no such outfit or colour.
     """
     names = [one.name for one in project.performers]
     for text in texts:
@@ -76,7 +76,9 @@ def _wearing(project: Project, performer_ids: Collection[str], choice: OutfitCho
 
 
 def _worn(project: Project, performer_ids: Collection[str], change: Callable[[OutfitChoice], OutfitChoice]) -> Project:
-    """The project with the outfits of some performers changed; one musician's are the same for all instruments."""
+    """Return the project with the outfits of some performers changed; a musician with several instruments has one
+    outfit.
+    """
     ids = {*performer_ids, *musicians_of(project, performer_ids)}
 
     def changed(one: P) -> P:

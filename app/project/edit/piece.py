@@ -57,7 +57,7 @@ def set_preroll(project: Project, beats: float) -> Project:
 
 
 def set_section_intensity(project: Project, intensity: float) -> Project:
-    """Set the factor for the acting of all players."""
+    """Set the factor for the acting of all players (1 leaves it unchanged)."""
     _check("section_intensity", intensity, limits.SECTION_INTENSITY)
     return _with(project, section_intensity=float(intensity))
 
@@ -71,7 +71,7 @@ def set_conductor(project: Project, place: ConductorPlace | None) -> Project:
 
 
 def set_felt_beat(project: Project, quarters: float | None) -> Project:
-    """Set the felt beat in quarters; None: derived from metre and tempo."""
+    """Set the length of the felt beat in quarters; None derives it from metre and tempo."""
     if quarters is None:
         return _with(project, felt_beat_quarters=None)
     _check("felt_beat_quarters", quarters, limits.FELT_BEAT_QUARTERS)
@@ -103,7 +103,9 @@ def piece_settings(project: Project) -> PieceSettings:
 
 
 def usual_settings(title: str, project: Project | None = None) -> PieceSettings:
-    """Default settings of a new piece of this title; the pre-roll follows the music of ``project`` if given."""
+    """Return the default settings of a new piece with a title; the pre-roll follows the tempo of ``project``
+    if given.
+    """
     usual = piece_settings(new_piece(title))
     if project is None:
         return usual
@@ -125,7 +127,7 @@ def set_piece_settings(project: Project, settings: PieceSettings) -> Project:
 
 
 def set_audio(project: Project, path: str | os.PathLike[str] | None) -> Project:
-    """Set the recording to play with the piece; None: the built-in synthesiser. A new recording starts with the
+    """Set the recording to play with the piece; None for the built-in synthesiser. A new recording starts with the
     previous one's offset.
     """
     if path is None:
@@ -144,8 +146,10 @@ def set_offset(project: Project, offset_s: float, confidence: float | None = Non
 
 
 def set_video(project: Project, path: str | os.PathLike[str] | None) -> Project:
-    """Set the reference video; None: none. A new one starts with the previous one's offset, the first one with the
-    recording's if that is the video's own sound.
+    """Set the reference video; None removes it.
+
+    A new video starts with the previous one's offset; the first one starts with the recording's offset if that is its
+    own sound.
     """
     if path is None:
         return _with(project, video=None)
@@ -165,7 +169,7 @@ def set_video_offset(project: Project, offset_s: float, confidence: float | None
 
 
 def relocate(project: Project, before: str | os.PathLike[str], after: str | os.PathLike[str] | None) -> Project:
-    """Change the path of a recording or reference video, keeping its offset; None: remove it."""
+    """Change the path of a recording or reference video, keeping its offset; None removes it."""
     path, gone = None if after is None else _path(after), os.fspath(before)
     for name in ("audio", "video"):
         track = getattr(project, name)
@@ -182,7 +186,7 @@ def _path(path: str | os.PathLike[str]) -> str:
 
 
 def _placed(project: Project, path: str, offset_s: float, confidence: float | None) -> Project:
-    """Set the offset of a file, for both sound and picture if they are one file."""
+    """Set the offset of a file, for both recording and video if they are the same file."""
     _check("offset_s", offset_s, limits.OFFSET_S)
     if confidence is not None:
         _check("confidence", confidence, (0.0, 1.0))
@@ -201,7 +205,7 @@ def put_expression(project: Project, expression: Expression, former_name: str | 
     Parameters
     ----------
     expression : Expression
-        Replaces one of the same name; overrides a bundled expression of that name in this project.
+        Expression; it replaces one of the same name, and in this project overrides a bundled one of that name.
     former_name : str, optional
         Previous name: the expression of that name is removed, and corrections that use it are renamed.
     """

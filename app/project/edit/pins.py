@@ -32,13 +32,13 @@ def recording_second(project: Project, tick: int) -> float:
 def pin_beat(project: Project, tick: int, recording_s: float | None = None) -> Project:
     """Move a beat to its time in the recording and keep it there.
 
-    Beats around it move along, less with distance, up to the next pin or `_REACH_BEATS`; the start of the piece stays
-    unless it is pinned. The move is limited by the time that neighbouring beats need.
+    Neighbouring beats move along, the farther the less, up to the next pin or `_REACH_BEATS` beats away; the start of
+    the piece stays unless it is pinned. The move is limited by the time that neighbouring beats need.
 
     Parameters
     ----------
     recording_s : float, optional
-        Time from the recording's first sample; None: where the beat is now.
+        Time from the recording's first sample; None for the beat's present time.
     """
     audio = _audio(project)
     if not 0 <= tick <= limits.LAST_TICK:
@@ -61,7 +61,9 @@ def pin_beat(project: Project, tick: int, recording_s: float | None = None) -> P
 
 
 def remove_pins(project: Project, ticks: Collection[int] | None = None) -> Project:
-    """Unpin beats (None: all), so that following may move them again; until then they stay where they are."""
+    """Unpin the beats at ``ticks`` (None for all), so that following the recording may move them; they do not
+    move now.
+    """
     audio = _audio(project)
     kept = tuple(pin for pin in audio.pins if ticks is not None and pin.tick not in ticks)
     if len(kept) == len(audio.pins):
@@ -71,7 +73,9 @@ def remove_pins(project: Project, ticks: Collection[int] | None = None) -> Proje
 
 @dataclass(frozen=True)
 class _Room:
-    """Span in which beats move with a pin, in seconds of the score, and the limits of the pinned beat."""
+    """Span in which beats move with a pinned beat, and the least and greatest time of that beat, in seconds of the
+    score.
+    """
 
     start_s: float
     end_s: float

@@ -1,4 +1,4 @@
-"""Maps a take's notes and curves to the score."""
+"""Conversion of a take's notes and curves to the score."""
 
 from __future__ import annotations
 
@@ -25,16 +25,18 @@ from app.score.take import Cleaning, Take
 
 @dataclass(frozen=True, eq=False)
 class _Placed:
-    """Notes of a take placed in the piece, and the map of their onsets: ticks as played, ascending, to ticks in the
-    score."""
+    """Notes of a take placed in the piece, and their onsets as arrays (N,): in ticks as played, ascending, and in ticks
+    of the score.
+    """
 
     notes: tuple[Note, ...]
     played: FloatArray
     here: FloatArray
 
     def moved(self, ticks: FloatArray) -> FloatArray:
-        """Return the new ticks (N,) of moments of the take: shifted as the notes around them, linearly between two
-        onsets, so that order is kept."""
+        """Return the new ticks (N,) of moments of the take: shifted like the notes around them, interpolated linearly
+        between onsets, so that order is kept.
+        """
         if not len(self.played):
             return ticks
         # An aligned note may pass another: a breath never runs backwards.
@@ -50,7 +52,7 @@ _CURVES: Final[IdentityCache[tuple[ControllerCurve, ...]]] = IdentityCache(64)
 
 
 def recorded_of(project: Project, player_id: str) -> PlayerTakes:
-    """Takes of a player; for one without takes, an empty list with the part as it is."""
+    """Return the takes of a player; without takes, an empty list that stores the part as it is."""
     recorded = project.takes.get(player_id)
     if recorded is not None:
         return recorded
@@ -68,7 +70,7 @@ def take_notes(project: Project, player_id: str, take_id: str) -> tuple[Note, ..
 
 
 def take_cleaned(project: Project, player_id: str, take_id: str) -> Cleaned:
-    """Notes removed by the cleaning of a take, with reasons."""
+    """Return the result of cleaning a take: the remaining notes, and the omitted ones with reasons."""
     return cleaned(recorded_with(project, player_id, take_id).take(take_id))
 
 
@@ -87,7 +89,7 @@ def recorded_with(project: Project, player_id: str, take_id: str) -> PlayerTakes
 
 
 def source_of(project: Project, player_id: str, take_id: str) -> tuple[tuple[Note, ...], tuple[ControllerCurve, ...]]:
-    """Notes and curves of a take, or of the part before the first take."""
+    """Return the notes and curves of a take, or those of the part before the first take."""
     if take_id == BEFORE:
         recorded = recorded_of(project, player_id)
         return recorded.before_notes, recorded.before_curves
@@ -137,9 +139,11 @@ def _aligned(
     before: tuple[Note, ...],
     metre_map: MetreMap,
 ) -> tuple[FloatArray, FloatArray, list[str], list[int]]:
-    """Return the notes of a take with onsets and ends (ticks), ids and pitches aligned with the score ``before`` by
-    ``strength`` 0..1: matched notes take the score's pitch and id, and the others move with their neighbours, so that
-    order is kept."""
+    """Align the notes of a take with those of the score ``before``, by ``strength`` 0..1.
+
+    Return onsets and ends in ticks, ids and pitches. Matched notes get pitch and id of the score's note; the others
+    move with their neighbours, so that order is kept.
+    """
     quarter = metre_map.ticks_per_quarter
     order = np.lexsort((np.array(pitches), onsets))
     played = AlignmentPart(
@@ -165,8 +169,9 @@ def _aligned(
 def _quantised(
     cleaning: Cleaning, onsets: FloatArray, ends: FloatArray, metre_map: MetreMap
 ) -> tuple[FloatArray, FloatArray]:
-    """Move onsets (ticks) towards the grid by the strength of the cleaning settings; returns onsets and ends (N,),
-    where the end of a legato note moves with the next onset."""
+    """Move onsets (ticks) towards the grid by the strength in the cleaning settings. Return onsets and ends (N,); the
+    end of a legato note moves with the next onset.
+    """
     grid = Grid(Fraction(cleaning.grid_quarters).limit_denominator(960))
     by = cleaning.quantise * np.array([grid.snap(metre_map, onset) - onset for onset in onsets.tolist()])
     if not len(onsets):

@@ -46,7 +46,7 @@ HABIT_CHANCES: Final = (0.7, 0.3)
 
 
 def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:
-    """Initial parameters of a player; with an instrument, in a posture that it allows."""
+    """Return the initial parameters of a player; with an instrument, in a posture in which it can be played."""
     usual = usual_posture(len(project.bodies))
     return PlayerParameters(
         amplitude=amplitude(project.seed, player_id),
@@ -56,7 +56,7 @@ def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap 
 
 
 def instrument_of(player: Player) -> InstrumentMap | None:
-    """Instrument map of a player; None if there is none or it cannot be read."""
+    """Return the instrument map of a player; None if it is missing or cannot be read."""
     try:
         return find_map(player.instrument_id)
     except MapError:
@@ -64,13 +64,13 @@ def instrument_of(player: Player) -> InstrumentMap | None:
 
 
 def postures_of(player: Player) -> tuple[Posture, ...]:
-    """Postures that a player's instrument allows; both if it has no map."""
+    """Return the postures in which a player's instrument can be played; both if it has no map."""
     instrument = instrument_of(player)
     return ("standing", "seated") if instrument is None else instrument.hold.postures
 
 
 def posture_of(player: Player) -> Posture:
-    """Posture of a player: as set, or the only one that the instrument allows."""
+    """Return the posture of a player: as set, or the only one in which the instrument can be played."""
     instrument = instrument_of(player)
     return player.parameters.posture if instrument is None else instrument.hold.possible(player.parameters.posture)
 
@@ -78,12 +78,12 @@ def posture_of(player: Player) -> Posture:
 def change(project: Project, player_ids: Collection[str], **fields: object) -> Project:
     """Set fields of `Player` (``instrument_id``, ``muted`` ...) for several players; see `rename` for names.
 
-    Character and outfit are shared by all players of a musician.
+    Character and outfit are changed for all players of the same musician.
 
     Raises
     ------
     AppError
-        A musician would have instruments that no posture fits.
+        A musician would have instruments that cannot be played in one posture.
     """
     if {"character_id", "outfit"} & fields.keys():
         player_ids = {*player_ids, *musicians_of(project, player_ids)}
@@ -92,7 +92,7 @@ def change(project: Project, player_ids: Collection[str], **fields: object) -> P
 
 
 def _in_one_posture(project: Project, player_ids: Collection[str]) -> Project:
-    """Set the musicians of some players to a posture that all their instruments allow."""
+    """Set the musicians of some players to a posture in which all their instruments can be played."""
     for musician_id in sorted(musicians_of(project, player_ids)):
         first, *others = project.played_by(project.player(musician_id))
         for other in others:
@@ -116,7 +116,7 @@ def set_parameters(project: Project, player_ids: Collection[str], **values: Valu
 
 
 def reset_parameters(project: Project, player_ids: Collection[str], names: Collection[str] | None = None) -> Project:
-    """Reset parameters to the musicians' initial ones; all parameters if no names are given."""
+    """Reset parameters of the players' musicians to their initial values; all parameters if no names are given."""
 
     def reset(player: Player) -> Player:
         cast = cast_parameters(project, player.id, instrument_of(player))
@@ -130,13 +130,13 @@ def reset_parameters(project: Project, player_ids: Collection[str], names: Colle
 
 
 def randomise(project: Project, player_ids: Collection[str], spread: float) -> Project:
-    """Make players differ: parameters with a spread vary randomly around the current mean; each gets own habits and a
-    seed.
+    """Make players differ from each other: parameters vary randomly around their present mean, and each player gets
+    habits and a seed of its own.
 
     Parameters
     ----------
     spread : float
-        0: all equal; 1: as different as is sensible.
+        Amount of variation, from 0 (all equal) to 1 (as different as is sensible).
     """
     player_ids = musicians_of(project, player_ids)
     chosen = [player for player in project.bodies if player.id in player_ids]
@@ -163,7 +163,7 @@ def randomise(project: Project, player_ids: Collection[str], spread: float) -> P
 
 
 def _thrown_habits(player_id: str, roll: int, spread: float) -> str:
-    """Choose up to two habits at random; a larger spread gives habits to more players."""
+    """Return up to two habits chosen at random for a player; more often for a larger ``spread``."""
     known = sorted(HABITS.now().items)
     found = [
         known[int(chance("habit", str(number), roll, player_id) * len(known))]
@@ -174,7 +174,7 @@ def _thrown_habits(player_id: str, roll: int, spread: float) -> str:
 
 
 def set_habit(project: Project, player_ids: Collection[str], habit: str, has: bool) -> Project:
-    """Give players a habit or remove it; other habits stay."""
+    """Give players a habit or take it from them; other habits stay."""
 
     def changed(player: Player) -> Player:
         others = [name for name in names_in(player.parameters.habits) if name != habit]
@@ -200,7 +200,7 @@ def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
 
 
 def arc_of(project: Project) -> tuple[StagePosition, ...]:
-    """The places of the usual seating, in the order of the players."""
+    """Return the places of the usual seating, in the order of the players."""
     rooms = [together(footprint(instrument_of(one)) for one in project.played_by(body)) for body in project.bodies]
     seats = dict(zip((body.id for body in project.bodies), stage_seats(rooms), strict=True))
     return tuple(seats[project.musician(player).id] for player in project.players)
@@ -316,8 +316,10 @@ def assign(
 def newcomer(
     project: Project, player_id: str, part: Part, name: str, playing: Sequence[InstrumentMap], doubles: str = ""
 ) -> Player:
-    """Create a player for a part with the casting of a new piece; ``playing`` has the maps of all players with the new
-    one last; ``doubles`` is the player whose body is shared.
+    """Return a new player for a part, cast as in a new piece.
+
+    ``playing`` has the instrument maps of all players, the new one's last; ``doubles`` is the player whose body also
+    plays this part, if any.
     """
     return Player(
         id=player_id,
@@ -333,8 +335,9 @@ def newcomer(
 
 
 def remove_players(project: Project, player_ids: Collection[str]) -> Project:
-    """Remove players and their corrections. A file's part without a player stays in the score for reassignment; empty
-    parts and parts made here are removed. If a musician's first player is removed, the next one becomes the first.
+    """Remove players and their corrections. A part from the MIDI file then stays in the score without a player; empty
+    parts and parts made in the editor are removed. If a musician's first player is removed, the next one becomes the
+    first.
     """
     on_arc = _on_arc(project)
     kept = promote_remaining(player for player in project.players if player.id not in player_ids)
@@ -378,7 +381,7 @@ def _with_players(project: Project, players: Iterable[Player]) -> Project:
 
 
 def _each(project: Project, player_ids: Container[str], edit: Callable[[Player], Player]) -> Project:
-    """Apply an edit to these players; an unchanged player stays the same object."""
+    """Return the project with ``edit`` applied to the given players; an unchanged player stays the same object."""
     edited = {player.id: edit(player) for player in project.players if player.id in player_ids}
     return _with_players(
         project,
@@ -391,7 +394,7 @@ def _with_parameters(player: Player, values: Mapping[str, Value]) -> Player:
 
 
 def moved_before(performers: Sequence[P], ids: Container[str], before: int) -> list[P]:
-    """Performers reordered: those of these ids, in their order, are moved before index ``before``."""
+    """Return the performers with those of the given ids moved, in their order, before index ``before``."""
     ahead = [one for one in performers[:before] if one.id not in ids]
     behind = [one for one in performers[before:] if one.id not in ids]
     return [*ahead, *(one for one in performers if one.id in ids), *behind]
@@ -406,23 +409,26 @@ def visible_name(name: str) -> str:
 
 
 def musicians_of(project: Project, player_ids: Collection[str]) -> frozenset[str]:
-    """Ids of the musicians who play the parts of the given players."""
+    """Return the ids of the musicians who play the parts of the given players."""
     return frozenset(project.musician(player).id for player in project.players if player.id in player_ids)
 
 
 def postures_of_musician(project: Project, player: Player) -> tuple[Posture, ...]:
-    """Postures in which a musician can play all their instruments; if none fits all, those of the first instrument."""
+    """Return the postures in which a musician can play all their instruments; if there is none, those of the first
+    instrument.
+    """
     played = [postures_of(one) for one in project.played_by(player)]
     return tuple(one for one in played[0] if all(one in postures for postures in played)) or played[0]
 
 
 def join(project: Project, player_id: str, musician_id: str) -> Project:
-    """Make the body of another player also play this instrument, and everything this player's own body plays.
+    """Make one musician of two: the musician ``musician_id`` also plays the instrument of ``player_id``, and everything
+    that player's body has played.
 
     Raises
     ------
     AppError
-        No posture fits all instruments, or they sound at the same time (see `app.project.doubling`).
+        The instruments cannot be played in one posture, or sound at the same time (see `app.project.doubling`).
     """
     joining, musician = project.player(player_id), project.musician(project.player(musician_id))
     coming = project.played_by(joining) if project.musician(joining) is joining else (joining,)
@@ -445,7 +451,7 @@ def join(project: Project, player_id: str, musician_id: str) -> Project:
 
 
 def separate(project: Project, player_ids: Collection[str]) -> Project:
-    """Give doubling players their own body and place; the character stays."""
+    """Give doubling players a body and place of their own; the character stays."""
     apart = [player for player in project.players if player.id in player_ids and player.doubles]
     on_arc, order = _on_arc(project), [player.id for player in project.players]
     alone = tuple(
@@ -462,7 +468,9 @@ def separate(project: Project, player_ids: Collection[str]) -> Project:
 
 
 def with_newcomers(project: Project, newcomers: tuple[Player, ...]) -> Project:
-    """Add players for existing parts: on the arc if all others are, else to the right of all other performers."""
+    """Add players for existing parts: on the usual arc if all others are there, else to the right of all other
+    performers.
+    """
     if len(project.players) + len(newcomers) > limits.MOST_PLAYERS:
         raise AppError("player.too_many", most=limits.MOST_PLAYERS)
     on_arc = _on_arc(project)
@@ -486,7 +494,7 @@ def _on_arc(project: Project) -> bool:
 
 
 def free_name(requested: str, taken: Iterable[str]) -> str:
-    """The name itself, or with the next free number added if it is taken."""
+    """Return the name, with the next free number added if it is taken."""
     keys = {name.casefold() for name in taken}
     if requested.casefold() not in keys:
         return requested
@@ -499,6 +507,6 @@ def free_name(requested: str, taken: Iterable[str]) -> str:
 
 
 def free_channel(parts: Sequence[Part]) -> int:
-    """A channel that no part uses, except the percussion channel; 0 if all are taken."""
+    """Return a MIDI channel that no part uses, other than the percussion channel; 0 if all are used."""
     used = {part.channel for part in parts}
     return next((channel for channel in range(16) if channel != DRUM_CHANNEL and channel not in used), 0)

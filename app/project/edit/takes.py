@@ -1,8 +1,8 @@
 """Edits of takes: adding, cleaning, and combining them into the part (the comp).
 
-Takes are stored as played. The comp is the list of spans of the part with the take each came from. Comping changes only
-its span, so corrections elsewhere stay; a note of a take has the same id each time it is inserted, so that its
-corrections apply again.
+Takes are stored as played. The comp is a list of spans of the part, each with the take that its notes came from. Using
+a take in a span changes only that span, so corrections elsewhere stay; a note of a take has the same id each time it is
+inserted, so that its corrections apply again.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def rename_take(project: Project, player_id: str, take_id: str, name: str) -> Pr
 
 
 def colour_take(project: Project, player_id: str, take_id: str, colour: str) -> Project:
-    """Set the display colour of a take, ``"#rrggbb"``; empty: the player's."""
+    """Set the display colour of a take, ``"#rrggbb"``; empty for the player's colour."""
     return _changed(project, player_id, take_id, colour=colour)
 
 
@@ -107,7 +107,7 @@ def comp(project: Project, player_id: str, take_id: str, start_tick: int, end_ti
 
 
 def comp_whole(project: Project, player_id: str, take_id: str) -> Project:
-    """Use all of a take in the player's part."""
+    """Use a whole take in the player's part."""
     if take_id == BEFORE:
         return comp(project, player_id, take_id, 0, LAST_TICK)
     take = recorded_with(project, player_id, take_id).take(take_id)
@@ -118,8 +118,9 @@ def comp_whole(project: Project, player_id: str, take_id: str) -> Project:
 
 
 def comp_with(spans: tuple[CompSpan, ...], start_tick: int, end_tick: int, take_id: str) -> tuple[CompSpan, ...]:
-    """Return the comp (the part assembled from takes) with another span of a take added on top; adjacent spans of one
-    take are merged."""
+    """Return the comp (the part assembled from takes) with a span of a take inserted over existing ones; adjacent spans
+    of one take are merged.
+    """
     result = []
     for span in spans:
         if span.start_tick < start_tick:
@@ -192,7 +193,7 @@ def follow_beats(project: Project, player_id: str, take_id: str, beats_s: FloatA
 
 
 def _require_free(project: Project, player_id: str) -> None:
-    """Raise AppError if parts other than the player's have notes."""
+    """Raise AppError if any part other than the player's has notes."""
     for part in project.score.parts:
         if part.notes and part.id != project.player(player_id).part_id:
             raise AppError("take.not_free", part=part.name)
@@ -233,12 +234,14 @@ def _replaced(
 
 
 def _others(project: Project, part_id: str) -> set[str]:
-    """Ids of the notes of other parts; a copied player may share ids with a take."""
+    """Return the ids of the notes of other parts; a copied player may share ids with a take."""
     return {note.id for part in project.score.parts if part.id != part_id for note in part.notes}
 
 
 def _fitted(before: list[Note], after: list[Note]) -> list[Note]:
-    """Concatenate notes; those that overlap the first of the following ones are cut there."""
+    """Return ``before`` followed by ``after``, where notes of ``before`` end at the latest at the first onset of
+    ``after``.
+    """
     if not after:
         return before
     first = min(note.onset_tick for note in after)
@@ -264,7 +267,9 @@ def _with_part(project: Project, part_id: str, notes: Iterable[Note], curves: tu
 def _spliced(
     before: Sequence[ControllerCurve], given: Sequence[ControllerCurve], start_tick: int, end_tick: int
 ) -> tuple[ControllerCurve, ...]:
-    """Insert controller curves from ``start_tick`` to ``end_tick``; after the span the previous values continue."""
+    """Return the curves ``before`` with ``given`` ones inserted from ``start_tick`` to ``end_tick``; after the span the
+    previous values continue.
+    """
     old, new = {curve.kind: curve for curve in before}, {curve.kind: curve for curve in given}
     result = []
     for kind in (*old, *(kind for kind in new if kind not in old)):
@@ -305,7 +310,7 @@ def _arrays(curve: ControllerCurve) -> tuple[IntArray, FloatArray]:
 
 
 def _held(ticks: IntArray, values: FloatArray, tick: int) -> float:
-    """Value in force at a tick; 0 before the first one."""
+    """Return the value in effect at a tick; 0 before the first one."""
     index = int(np.searchsorted(ticks, tick, side="right")) - 1
     return float(values[index]) if index >= 0 else 0.0
 
@@ -313,7 +318,9 @@ def _held(ticks: IntArray, values: FloatArray, tick: int) -> float:
 def _recleaned(
     project: Project, player_id: str, before: dict[str, Note], after: tuple[Note, ...], span: CompSpan
 ) -> Project:
-    """Update a take's notes in the part after a change of cleaning; notes changed by hand stay."""
+    """Update the notes of a take in one span of the part after its cleaning changed from ``before`` to ``after``; notes
+    changed by hand stay.
+    """
     part = project.part(project.player(player_id))
     here = {note.id: note for note in part.notes}
     now = {note.id: note for note in after if span.start_tick <= note.onset_tick < span.end_tick}
@@ -333,7 +340,7 @@ def _recleaned(
 
 
 def _is_as_given(here: Note, given: Note) -> bool:
-    """Return whether a note of the part is unchanged since it came from the take, except that it may have been cut."""
+    """Return whether a note of the part is still as it came from the take, except that it may have been shortened."""
     return here == given or (
         here.duration_tick < given.duration_tick
         and here == msgspec.structs.replace(given, duration_tick=here.duration_tick)

@@ -55,7 +55,7 @@ def remove_tempo(project: Project, tick: int) -> Project:
 
 
 def scale_tempo(project: Project, ratio: float) -> Project:
-    """Scale all tempi (1.02: two percent faster), to match a recording.
+    """Multiply all tempi by a ratio (1.02 is two per cent faster), to match a recording.
 
     The recording's offset is not changed.
     """
@@ -77,9 +77,9 @@ def set_beats(project: Project, ticks: IntArray, seconds: FloatArray) -> Project
     Parameters
     ----------
     ticks : (N,) int64
-        Rising, the first is 0; N at least 2.
+        Ticks of N beats, ascending from 0; N is at least 2.
     seconds : (N,) float64
-        Rising, from any moment.
+        Times of the beats, ascending; only their differences matter.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def set_beats(project: Project, ticks: IntArray, seconds: FloatArray) -> Project
 
 def set_metre(project: Project, tick: int, numerator: int, denominator: int) -> Project:
     """Set the metre from a tick on, where a bar begins; the bar before may be cut short. A pickup and the bar after it
-    change together if they have one metre.
+    change together if they have the same metre.
     """
     _check_metre(numerator, denominator)
     _check_place(tick)
@@ -143,7 +143,7 @@ def remove_metre(project: Project, tick: int) -> Project:
 
 
 def set_pickup(project: Project, ticks: int) -> Project:
-    """Set the length in ticks of an incomplete first bar; 0: none."""
+    """Set the length in ticks of an incomplete first bar; 0 for none."""
     score = project.score
     if ticks == score.pickup_ticks:
         return project
