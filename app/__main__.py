@@ -24,7 +24,7 @@ OPENED = (".suisou", *MUSIC)
 
 
 def main() -> int:
-    """Run with the process's arguments and return the exit status."""
+    """Run the program with the process's arguments, and return the exit status."""
     # While modules load nothing has to be cleared up. The commands and the editor, which have something, take Ctrl-C
     # over for as long as they run.
     signal.signal(signal.SIGINT, end_at_once)
@@ -42,15 +42,15 @@ def main() -> int:
 
 
 def begin_again_in_utf8() -> None:
-    """Replace this process by one in which file names are UTF-8 regardless of the locale, as in Qt; a terminal keeps
-    its encoding.
+    """Restart this process in a mode in which Python's file names are UTF-8 regardless of the locale, as in Qt; a
+    terminal keeps its encoding.
     """
     encoding = {"PYTHONIOENCODING": f"{sys.stderr.encoding}:backslashreplace"} if sys.stderr.isatty() else {}
     os.execve(sys.executable, sys.orig_argv, {**os.environ, UTF8_MODE: "1", **encoding})
 
 
 def end_at_once(number: int, frame: FrameType | None) -> None:
-    """End the process without output and with the exit status of a program killed by a signal."""
+    """Signal handler that ends the process without output, with the exit status of a program killed by the signal."""
     os._exit(128 + number)
 
 

@@ -23,7 +23,9 @@ ComplexArray: TypeAlias = npt.NDArray[np.complex128]
 
 
 def rows_of(values: npt.NDArray[Any], count: int) -> npt.NDArray[Any]:
-    """(count, N - count + 1): in each column ``count`` neighbouring values; N is at least ``count``."""
+    """View of shape (count, N - count + 1) in which each column has ``count`` neighbouring values of an array (N,); N
+    is at least ``count``.
+    """
     return np.array([values[place : len(values) - count + 1 + place] for place in range(count)])
 
 

@@ -26,18 +26,20 @@ def next_seed(name: str, seed: int) -> int:
 
 
 def performed_seed(seed: int, piece_seed: int) -> int:
-    """The seed of a performer within a piece: a change of the piece's seed changes all performers."""
+    """Combine the seeds of a performer and of the piece, so that a change of the piece's seed changes all
+    performers.
+    """
     return (seed + piece_seed) % 2**63
 
 
 @lru_cache(maxsize=4096)
 def partial_digest(parts: tuple[str | int, ...]) -> hashlib.blake2b:
-    """Return the digest of all parts but the last, which thousands of positions share. Copy it and add the last part;
-    `share_of` then gives the same number as `chance`.
+    """Hash all parts but the last, which thousands of positions share. Copy the result and add the last part;
+    `share_of` then gives the same number as `chance` for all parts.
     """
     return hashlib.blake2b(_BETWEEN.join([*map(str, parts), ""]).encode(), digest_size=8)
 
 
 def share_of(digest: bytes) -> float:
-    """A digest of eight bytes as a number in [0, 1)."""
+    """Convert a digest of eight bytes to a number in [0, 1)."""
     return int.from_bytes(digest, "big") / 2.0**64

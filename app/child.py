@@ -38,6 +38,7 @@ class MessageChannel(Generic[T]):
     kind : type
         Type of received messages; may be a union of tagged structs.
     incoming, outgoing : binary stream
+        Streams from and to the other process.
     """
 
     def __init__(self, kind: Any, incoming: IO[bytes], outgoing: IO[bytes]) -> None:
@@ -69,7 +70,7 @@ class MessageChannel(Generic[T]):
         return self._decoder.decode(self._exactly(length))
 
     def hang_up(self) -> None:
-        """End the input of the other side."""
+        """Close the stream to the other process, which ends its input."""
         # It may have been killed with something unsaid; the stream is closed all the same.
         _close(self.outgoing)
 
@@ -133,7 +134,9 @@ class StartedChild(Child[T]):
         self.ended()
 
     def ended(self, within_s: float | None = None) -> int:
-        """End the process's input and return its exit status; kill it if it does not end in time."""
+        """Close the process's input, wait and return its exit status; kill it if it does not end within ``within_s``
+        seconds.
+        """
         self.hang_up()
         try:
             status = self.process.wait(within_s)
@@ -149,7 +152,9 @@ class StartedChild(Child[T]):
 def ended_on_request(
     process: subprocess.Popen[bytes], stop_requested: StopRequested, end: Callable[[], None]
 ) -> Iterator[None]:
-    """Call ``end`` if a stop is requested during the block. The process must end after that call."""
+    """Context manager that calls ``end`` if a stop is requested during the block. The process must end
+    after that call.
+    """
 
     def watch() -> None:
         while process.poll() is None:
@@ -174,7 +179,7 @@ class ForkedChild(Child[T]):
     kind : type
         Type of its answers.
     work : callable
-        Function that the copy runs with a channel to this process before it ends.
+        Function that the copy runs, with a channel to this process as argument; the copy ends afterwards.
     asked : type
         Type of messages sent to the copy.
     others : sequence of Child
@@ -244,7 +249,7 @@ def can_fork() -> bool:
 
 
 def own_process(module: str, *arguments: str) -> dict[str, Any]:
-    """Return arguments of `subprocess` for a module of this program: command, environment and process group.
+    """Arguments for `subprocess` that run a module of this program: command, environment and process group.
 
     The child finds the same packages as this process and does not import from the current folder, which may contain
     downloaded files. Ctrl-C in the terminal is not sent to it; this process ends it.

@@ -25,7 +25,7 @@ _GB: Final = 2**30
 
 @dataclass(frozen=True)
 class ChildLimits:
-    """Limits of a kind of child; None for no limit, with the reason in `LIMITS`.
+    """Limits of a kind of child process; None for no limit, with the reason in `LIMITS`.
 
     Attributes
     ----------
@@ -89,12 +89,12 @@ LIMITS: Final[Mapping[str, ChildLimits]] = MappingProxyType(
 
 
 def limited_command(name: str, command: Sequence[str], size: int = 0) -> list[str]:
-    """Return a command that runs another one within limits; on Windows the command itself, see `confine`.
+    """Wrap a command so that it runs within limits; on Windows the command is returned unchanged, see `confine`.
 
     Parameters
     ----------
     name : str
-        Of the row of `LIMITS`.
+        Name of a row of `LIMITS`.
     size : int
         Size of the input in bytes.
     """
@@ -119,7 +119,7 @@ def confine(name: str, process: subprocess.Popen[bytes], size: int = 0) -> Windo
     Returns
     -------
     WindowsJob or None
-        To be kept as long as the process.
+        Job that must be kept as long as the process runs; None elsewhere.
 
     Raises
     ------
@@ -158,7 +158,7 @@ def confine_this_process(name: str, size: int = 0) -> None:
 
 
 def _lower(which: int, value: int) -> None:
-    """Set a limit unless the system's is lower already."""
+    """Set the limit ``which`` of this process, unless the system's limit is lower already."""
     import resource
 
     _, hard = resource.getrlimit(which)
@@ -219,10 +219,11 @@ class WindowsJob:
     Parameters
     ----------
     kernel32 : library
-        Of Windows.
+        The Windows library kernel32.
     memory : int, optional
-        Bytes.
+        Largest memory of a process in bytes.
     cpu_s : int, optional
+        Processor time in seconds.
 
     Raises
     ------

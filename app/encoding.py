@@ -85,7 +85,7 @@ def restored(text: str) -> str:
 
 
 def shown(path: str | os.PathLike[str]) -> str:
-    """Return a path, or a text containing one, as a single line for users: names that are not UTF-8 are guessed, and
+    """Format a path, or a text containing one, as a single line for users: names that are not UTF-8 are guessed, and
     `HIDDEN` characters are escaped as in Python.
     """
     text = os.fspath(path)

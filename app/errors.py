@@ -67,7 +67,7 @@ TOO_DEEP: Final = "lists or objects nested too deeply"
 
 
 def shortened(detail: object, most: int = 200) -> str:
-    """Return a library's description of a fault, shortened for a message, since it may quote any amount of the file."""
+    """Shorten a library's description of a fault for a message, since it may quote any amount of the file."""
     text = TOO_DEEP if isinstance(detail, RecursionError) else str(detail)
     return text if len(text) <= most else f"{text[: most - 1]}…"
 
@@ -87,7 +87,7 @@ class UsageError(AppError):
 
 
 class Cancelled(AppError):
-    """The user stopped the work; nothing half-written stays."""
+    """The user stopped the work; nothing half-finished is left."""
 
 
 def raise_if_stopped(stop_requested: StopRequested) -> None:
@@ -97,7 +97,7 @@ def raise_if_stopped(stop_requested: StopRequested) -> None:
 
 
 def stoppable(progress: Callable[[float], None], stop_requested: StopRequested) -> Callable[[float], None]:
-    """Return a progress function that raises `Cancelled` if the work must stop."""
+    """Wrap a progress function so that it raises `Cancelled` if the work must stop."""
 
     def report(share: float) -> None:
         raise_if_stopped(stop_requested)

@@ -103,13 +103,14 @@ class LargeResults:
         self._lock = Lock()
 
     def use(self, forget: Callable[[], None], size_bytes: int) -> None:
-        """Register the use of a result of a size; drop the least recently used results if the total is too large.
+        """Record that a result was used, and drop the least recently used results if the total size is too large.
 
         Parameters
         ----------
         forget : bound method
             Method that frees the result; its object identifies the result and is held weakly.
         size_bytes : int
+            Size of the result.
         """
         with self._lock:
             for gone in [one for one in self._sizes if one() is None]:

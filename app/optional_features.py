@@ -87,7 +87,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
 
 
 def modules(column: str) -> Iterator[tuple[Feature, ModuleType]]:
-    """Yield the rows with a module in a column of the table, and these modules."""
+    """Yield each feature that has a module in a column of the table, with the module."""
     for feature in FEATURES:
         name: str = getattr(feature, column)
         if name:
@@ -95,7 +95,7 @@ def modules(column: str) -> Iterator[tuple[Feature, ModuleType]]:
 
 
 def extended(own: Iterable[T], column: str, id_of: Callable[[T], str]) -> list[T]:
-    """Return a table with the rows that features add after the rows they name.
+    """Insert the rows that optional features add to a table, each after the row it names.
 
     Parameters
     ----------

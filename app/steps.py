@@ -21,14 +21,17 @@ BEFORE: Final = "before"
 
 
 class StepInputs(NamedTuple):
-    """A step whose parameters have other names than the values: names of values by parameter."""
+    """A function as a step whose parameters are filled from values of other names: the names of the values by
+    parameter.
+    """
 
     function: Callable[..., object]
     names: Mapping[str, str | tuple[str, ...]]
 
 
 def reading(function: Callable[..., object], **names: str | tuple[str, ...]) -> StepInputs:
-    """Return a step of a function with other names for some parameters' values; several names: a tuple.
+    """Declare a step whose parameters are filled from values of other names; a tuple of names fills one parameter with
+    several values.
 
     Raises
     ------
@@ -48,8 +51,9 @@ class StepTable:
     Attributes
     ----------
     functions : dict of str to callable
+        Function of each step, by the name of its result.
     paths : dict of str to str
-        Of the attributes.
+        Path of each value that is an attribute of another result.
     getters : dict of str to (str, callable)
         For each attribute, the result that has it and a function that gets it.
     parameters, reads : dict of str to tuple
@@ -93,14 +97,14 @@ class StepTable:
         self.given: Final = frozenset(one for reads in names.values() for one in reads if one not in steps)
 
     def begin(self, before: StepResults | None = None, /, **given: object) -> StepResults:
-        """Return a run of the steps, which are computed when their results are requested.
+        """Begin a run of the steps; each is computed when its result is first requested.
 
         Parameters
         ----------
         before : StepResults, optional
             Previous run of the same steps.
         given : object
-            Every value of the attribute `given`; there may be more.
+            Values by name: at least those in the attribute `given`.
 
         Raises
         ------
@@ -139,7 +143,7 @@ class StepResults:
             self._done, self._values = {}, dict(given)
 
     def of(self, function: Callable[..., T]) -> T:
-        """Return the result of the only step with a function."""
+        """Return the result of the step that uses this function; there must be only one."""
         result: T = self[self._steps.names[function]]
         return result
 
@@ -177,7 +181,8 @@ class StepResults:
 
 
 class StepRuns:
-    """Runs of tables by subject, such as players; each continues from the previous run of the same subject.
+    """Current runs of step tables by subject, such as a player; each continues from the previous run of the same
+    subject.
 
     Parameters
     ----------
@@ -190,13 +195,15 @@ class StepRuns:
         self._runs: dict[tuple[StepTable, str], StepResults] = {}
 
     def begin(self, table: StepTable, about: str = "", /, **given: object) -> StepResults:
-        """Return a new run as `StepTable.begin`, replacing an earlier one of the same table and subject."""
+        """Begin a run as `StepTable.begin` does, continuing from and replacing the earlier run of the same table and
+        subject ``about``.
+        """
         key = table, about
         self._runs[key] = results = table.begin(self._former.get(key), **given)
         return results
 
     def of(self, table: StepTable, about: str = "") -> StepResults:
-        """Return the run of a table that was begun for ``about``. Raises KeyError if there is none."""
+        """Return the current run of a table for the subject ``about``. Raises KeyError if there is none."""
         return self._runs[table, about]
 
     def close(self) -> None:

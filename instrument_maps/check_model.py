@@ -21,7 +21,7 @@ SURFACE_M = 0.001
 
 
 def model_problems(instrument: InstrumentMap, path: Path) -> Iterator[Problem]:
-    """Yield the faults of a map's model, as key paths of the map."""
+    """Yield the faults in a map's model as problems, each with the key path in the map."""
     if not os.path.isfile(path):
         yield "model", f"there is no file '{instrument.model}' beside the map or among the bundled models"
         return

@@ -14,7 +14,7 @@ _OF_EACH = ("controls", "chart")
 
 
 def extended(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a map's tables merged with those of the map it extends.
+    """Merge a map's tables into those of the map it extends.
 
     Tables are merged key by key, and lists of named tables (controls, their chart) by name. Own fingerings replace all
     of the base's for the same written pitch; base fingerings outside the own range and omitted controls are dropped.
@@ -36,7 +36,9 @@ def extended(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def not_there(base: Mapping[str, Any], own: Mapping[str, Any]) -> str | None:
-    """Return the fault in the list of omitted controls; None if there is none."""
+    """Return the fault in a map's list of omitted controls, such as a control that the base map lacks; None if there is
+    none.
+    """
     names = own.get(WITHOUT, [])
     if not isinstance(names, list):
         return "is not a list of names of controls"

@@ -35,7 +35,9 @@ def says_words(controls: Iterable[Control]) -> bool:
 
 
 def controls_of(label: str, controls: Iterable[Control]) -> dict[str, float] | None:
-    """Return the values in a label by name of control; None if it is incomplete (a slide) or has an unknown sign."""
+    """Convert a label to control values 0..1 by control name; None if it is incomplete (as for a slide) or has an
+    unknown sign.
+    """
     pitch = [control for control in controls if control.role == "pitch"]
     if any(control.kind == "slide" for control in pitch):
         return None
@@ -56,7 +58,7 @@ def controls_of(label: str, controls: Iterable[Control]) -> dict[str, float] | N
 
 
 def words_of(values: Mapping[str, float], controls: Iterable[Control]) -> str:
-    """Return the label of keys and holes for values by name of control."""
+    """Convert control values to the label of an instrument with keys and holes."""
     signs = []
     for control in controls:
         value = values.get(control.name, control.rest_value)
@@ -67,7 +69,7 @@ def words_of(values: Mapping[str, float], controls: Iterable[Control]) -> str:
 
 
 def written_choice(text: str, choices: Sequence[Fingering], controls: Iterable[Control]) -> int | None:
-    """Return the index among a note's fingerings of the one written by a composer; None if there is none.
+    """Find the fingering that a composer wrote as ``text``: its index among a note's ``choices``, or None.
 
     Valves may be separated by signs (``"1-2"``, ``"1+2"``); a lever may be omitted if no other fingering of the note
     has these valves. A slide's position may be a Roman number and have an accidental (``"b4"``).
@@ -104,10 +106,10 @@ def _only(places: Iterable[int]) -> int | None:
 
 
 def _words(label: str) -> list[str]:
-    """Return the signs in a label of keys and holes, separated by `_BETWEEN`."""
+    """Split a label of keys and holes into its signs, at spaces and the separators `_BETWEEN`."""
     return [part for part in _BETWEEN.split(label.casefold()) if part]
 
 
 def _signs(label: str) -> list[str]:
-    """Return the signs of valves and levers in order; "0" is none."""
+    """Split a label of valves and levers into its signs, in order; "0" has none."""
     return sorted(label.replace(NONE, ""))

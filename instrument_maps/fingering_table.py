@@ -89,7 +89,9 @@ def with_label(instrument: InstrumentMap, table: Table, written: int, rank: int,
 
 
 def pressed_label(instrument: InstrumentMap, one: Fingering, name: str) -> str:
-    """Return the label of a fingering with one control at its next value: down, half down if possible, up again."""
+    """Return the label of a fingering after a click on one of its controls, which cycles from up to down, half down (if
+    possible) and up again.
+    """
     control = instrument.control(name)
     value = one.controls.get(name, control.rest_value)
     steps = [0.0, 1.0] if control.half_value is None else [0.0, 1.0, control.half_value]
@@ -116,7 +118,7 @@ def read_cents(text: str) -> float:
 
 
 def free_label(instrument: InstrumentMap, table: Table, written: int) -> str | None:
-    """Return a label that is valid for a note and that it lacks, the most common first; None if there is none."""
+    """Return a valid label that no fingering of a note has yet, the most common one; None if there is none."""
     own = {one.label for one in of_pitch(table, written)}
     counts = Counter(one.label for one in instrument.fingerings)
     for label, _ in counts.most_common():
@@ -128,12 +130,12 @@ def free_label(instrument: InstrumentMap, table: Table, written: int) -> str | N
 
 
 def with_cents(table: Table, written: int, rank: int, cents: float) -> Table:
-    """Return the fingering table with another deviation in cents for the fingering of a written pitch and rank."""
+    """Return the table with a new deviation in cents for the fingering with this written pitch and rank."""
     return _changed(table, written, rank, cents=float(cents))
 
 
 def with_tags(table: Table, written: int, rank: int, tags: Iterable[str]) -> Table:
-    """Return the fingering table with other tags for the fingering of a written pitch and rank."""
+    """Return the table with new tags for the fingering with this written pitch and rank."""
     return _changed(table, written, rank, tags=tuple(dict.fromkeys(tag.strip() for tag in tags if tag.strip())))
 
 
@@ -166,7 +168,7 @@ def removed(table: Table, written: int, rank: int) -> Table:
 
 
 def reverted(table: Table, base: Table, written: int) -> Table:
-    """Return the table with the fingerings of another table for a note."""
+    """Return the table with the fingerings of one note replaced by those of ``base``."""
     return _with_pitch(table, written, list(of_pitch(base, written)))
 
 
@@ -197,7 +199,7 @@ def _with_pitch(table: Table, written: int, own: Sequence[Fingering]) -> Table:
 
 
 def base_table(instrument: InstrumentMap, path: Path | None) -> Table:
-    """Return the fingerings that a user's map has from the one it extends; for a bundled map its own; empty if it
+    """Fingerings of the map that a user's map extends; for a bundled map its own fingerings; empty if the user's map
     extends none.
     """
     if path is None:
@@ -211,13 +213,15 @@ def base_table(instrument: InstrumentMap, path: Path | None) -> Table:
 
 
 def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: str) -> str | None:
-    """Return the text of the user's map with a fingering table; None if it equals the extended map.
+    """Return the text of the user's map file with a changed fingering table; None if the table equals that of the
+    extended map, so that no file is needed.
 
     Parameters
     ----------
     instrument : InstrumentMap
-        Present map.
+        Map before the change.
     table : tuple of Fingering
+        The changed fingerings.
     text : str or None
         Present text of the user's file, whose other lines are kept; None if there is none, so that the bundled map is
         extended.
@@ -262,8 +266,8 @@ def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: st
 
 
 def save_own(instrument: InstrumentMap, table: Table, folder: Path) -> Path | None:
-    """Write the user's map with a fingering table, and return its path; None if it was removed since it had no
-    differences.
+    """Write the user's map file with a changed fingering table, and return its path; None if the table has no
+    differences from the extended map, so that the file was deleted.
 
     Raises
     ------
@@ -335,7 +339,7 @@ def _with_block(text: str, block: str) -> str:
 
 
 def _closing(text: str, at: int) -> int:
-    """Return the end of the list whose opening bracket is before ``at``, ignoring strings and comments."""
+    """Return the index of the bracket that closes the list opened before ``at``, ignoring strings and comments."""
     depth, quote = 1, ""
     while at < len(text) and depth:
         sign = text[at]

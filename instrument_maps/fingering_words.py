@@ -60,7 +60,7 @@ def fingering_words(instrument: InstrumentMap, label: str, language: str) -> str
 
 
 def in_words(message: Message, instrument: InstrumentMap | None, language: str) -> Message:
-    """The message with fingerings and controls in words instead of the map's signs."""
+    """Replace fingerings and controls in a message by words for players."""
     if instrument is None:
         return message
     named: dict[str, Argument] = {
@@ -73,7 +73,7 @@ def in_words(message: Message, instrument: InstrumentMap | None, language: str) 
 
 
 def _joined(names: list[str]) -> list[str]:
-    """Return names with adjacent ones that differ only in their number joined."""
+    """Join adjacent names that differ only in their number, as "L1·2" for "L1" and "L2"."""
     joined: list[str] = []
     for stem, run in groupby(names, lambda name: found[1] if (found := _NUMBERED.fullmatch(name)) else ""):
         own = list(run)

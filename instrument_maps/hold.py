@@ -47,7 +47,7 @@ class Contact(MapTable, frozen=True):
 
 
 class HandSeed(MapTable, frozen=True):
-    """Initial pose of a hand for the solver: plausible for a medium hand, not a contact.
+    """Initial pose of a hand from which the solver finds the grip: plausible for a medium hand, without exact contacts.
 
     ``palm_position_m`` is the middle of the palm's skin, ``palm_normal`` points out of the palm, ``finger_direction``
     from the wrist to the knuckles; in the frame of ``node``. ``curl`` is the bend of fingers without contact: 0
@@ -65,7 +65,9 @@ class HandSeed(MapTable, frozen=True):
 
 
 class Capsule(MapTable, frozen=True, tag="capsule", tag_field="shape"):
-    """A tube or bar: all points within ``radius_m`` of the segment ``a_m``..``b_m``."""
+    """A solid shape in the frame of a node: all points within ``radius_m`` of the segment ``a_m``..``b_m``, for tubes
+    and bars.
+    """
 
     node: str
     a_m: Vector
@@ -74,7 +76,7 @@ class Capsule(MapTable, frozen=True, tag="capsule", tag_field="shape"):
 
 
 class Cylinder(MapTable, frozen=True, tag="cylinder", tag_field="shape"):
-    """A flat-ended round body of the instrument between the points ``a_m`` and ``b_m`` of a node."""
+    """A solid cylinder with flat ends at the points ``a_m`` and ``b_m``, in the frame of a node."""
 
     node: str
     a_m: Vector
@@ -83,7 +85,9 @@ class Cylinder(MapTable, frozen=True, tag="cylinder", tag_field="shape"):
 
 
 class Cone(MapTable, frozen=True, tag="cone", tag_field="shape"):
-    """A flat-ended round body whose radius changes from ``radius_a_m`` to ``radius_b_m``."""
+    """A solid cone with flat ends, whose radius changes from ``radius_a_m`` to ``radius_b_m``, in the frame
+    of a node.
+    """
 
     node: str
     a_m: Vector
@@ -93,8 +97,9 @@ class Cone(MapTable, frozen=True, tag="cone", tag_field="shape"):
 
 
 class Ring(MapTable, frozen=True, tag="ring", tag_field="shape"):
-    """A ring-shaped body of the instrument (torus) about ``axis``: ``radius_m`` to the middle of its tube,
-    ``tube_radius_m`` of the tube."""
+    """A solid ring (torus) about ``axis``, in the frame of a node: ``radius_m`` is from the centre to the middle of its
+    tube, ``tube_radius_m`` the tube's radius.
+    """
 
     node: str
     centre_m: Vector
@@ -104,8 +109,9 @@ class Ring(MapTable, frozen=True, tag="ring", tag_field="shape"):
 
 
 class Box(MapTable, frozen=True, tag="box", tag_field="shape"):
-    """A box-shaped body of the instrument with half sizes ``half_m`` along the unit vectors ``x_axis``, ``y_axis`` and
-    their cross product."""
+    """A solid box, in the frame of a node, with half sizes ``half_m`` along the unit vectors ``x_axis``, ``y_axis`` and
+    their cross product.
+    """
 
     node: str
     centre_m: Vector
@@ -119,7 +125,8 @@ Proxy: TypeAlias = Capsule | Cylinder | Cone | Ring | Box
 
 
 class Carriage(MapTable, frozen=True):
-    """Carriage of the instrument during playing, as (lowest, usual, highest) angles in degrees.
+    """Orientation of the instrument and of the player's body while playing; each field is (lowest, usual, highest) in
+    degrees.
 
     From the horizontal, straight ahead of the player: ``pitch_down_deg`` bell below the mouthpiece, ``yaw_left_deg``
     bell to the player's left, ``roll_left_deg`` the instrument's up axis leaning to the left. Applied in the order yaw,
@@ -158,7 +165,8 @@ SupportKind: TypeAlias = Literal["neck_strap", "harness", "seat_strap"]
 class Support(MapTable, frozen=True):
     """A strap or band that bears the instrument.
 
-    ``hook_m`` is where it is hooked in, in the root frame; ``postures`` those it is worn in.
+    ``hook_m`` is the point of the instrument where it is attached, in the root frame; ``postures`` are the postures in
+    which it is used.
     """
 
     kind: SupportKind
@@ -192,7 +200,9 @@ class Hold(MapTable, frozen=True):
 
     @property
     def leaving_hand(self) -> Hand | None:
-        """Return the hand that can leave the lowered instrument while the rest supports it; None if neither can."""
+        """Return the hand that can leave the lowered instrument, which the other hand or a strap still carries; None if
+        neither can.
+        """
         if self.free_hand is None:
             return "left" if self.support_hand == "right" else "right"
         return None if self.free_hand == "none" else self.free_hand
@@ -204,15 +214,17 @@ class Hold(MapTable, frozen=True):
         return tuple(posture for posture, carriage in both if carriage is not None)
 
     def possible(self, posture: Posture) -> Posture:
-        """Return a posture if the instrument is played in it, else the only possible one."""
+        """Return ``posture`` if the instrument is played in it, else the only possible one."""
         return posture if posture in self.postures else self.postures[0]
 
     def carriage(self, posture: Posture) -> Carriage:
-        """Return the carriage in a posture, or in the only possible one."""
+        """Return the carriage for a posture; if the instrument is not played in it, for the only possible one."""
         return self._either(posture, self.standing, self.seated)
 
     def lowered(self, posture: Posture) -> LoweredPlace:
-        """Return the place in a long rest in a posture, or in the only possible one."""
+        """Return the place of the lowered instrument for a posture; if the instrument is not played in it, for the only
+        possible one.
+        """
         return self._either(posture, self.lowered_standing, self.lowered_seated)
 
     @staticmethod

@@ -64,6 +64,7 @@ class Vocabulary(InstrumentRelations):
     Parameters
     ----------
     table : VocabularyTable
+        The names of all instruments.
     file : str
         The table's name for messages.
     words_known : mapping of str to tuple of str
@@ -121,7 +122,7 @@ class Vocabulary(InstrumentRelations):
         self._longest_mark = max(map(len, self._marks), default=0)
 
     def stroke(self, text: str) -> int | None:
-        """Return the key of a drum kit for percussion of a name."""
+        """Return the drum kit key (MIDI number) for percussion with this name; None if it is unknown."""
         found = self.by_name(text)
         return None if found is None else self._strokes.get(found.id)
 
@@ -225,8 +226,8 @@ class Vocabulary(InstrumentRelations):
         return None if best is None else best[1]
 
     def _is_whole(self, tokens: tuple[str, ...], start: int, end: int) -> bool:
-        """Return whether a name is not merely some kana of a longer word: beside a short one there may only be words of
-        the table.
+        """Return whether tokens of kana form a complete name instead of part of a longer word: a short name may only be
+        next to words of the table.
         """
         if tokens[start:end] not in self._short_kana:
             return True
@@ -241,15 +242,17 @@ class Vocabulary(InstrumentRelations):
         return words in self._by_tokens or words in self._marks or words in self._prefixes
 
     def _with_key(self, own: tuple[str, ...], marks: Mapping[str, int]) -> Instrument | None:
-        """Return the instrument that the words name only together with one of the keys beside them."""
+        """Find an instrument whose name counts only together with a key beside it, given the keys found there
+        (``marks``).
+        """
         keyed = self._keyed.get(own)
         if keyed is None or marks.keys().isdisjoint({keyed.key, *self._form_keys(keyed)}):
             return None
         return keyed
 
     def _is_loose(self, marks: Mapping[str, int], beside: tuple[str, ...]) -> bool:
-        """Return whether the keys beside a name are single letters, as in "Bass B", which are ambiguous; not beside a
-        clef.
+        """Return whether the keys beside a name are only single letters, as in "Bass B", and so may mean something
+        else; a clef beside the name makes them certain.
         """
         written = any(len(word) > 1 and (word,) in self._marks for word in beside)
         return not written and _IN.isdisjoint(beside) and max(marks.values()) == 1
@@ -258,7 +261,7 @@ class Vocabulary(InstrumentRelations):
         return self._keys.intersection(mark for form in self._forms.get(instrument.id, ()) for mark in form.marks)
 
     def _singular(self, word: str) -> str:
-        """Return the word of the table of which a word is the plural; the word itself if there is none."""
+        """Return the word of the table whose plural a word is; the word itself if there is none."""
         if len(word) >= _LEAST_PLURAL and not is_wide(word) and (word,) not in self._marks:
             for plural, singular in _PLURALS:
                 if word.endswith(plural) and (one := word.removesuffix(plural) + singular) in self._words:
@@ -281,8 +284,8 @@ class Vocabulary(InstrumentRelations):
         return (token,)
 
     def _form(self, instrument: Instrument, marks: Set[str]) -> tuple[Instrument, frozenset[str]]:
-        """Return the form of an instrument that marks name, and these marks: by most marks, by its size before its key;
-        the instrument itself if there is none.
+        """Choose the form of an instrument that sizes and keys (``marks``) beside its name select, and return it with
+        the marks used: the form with most marks, sizes before keys; the instrument itself if none fits.
         """
         found, reported_by, best = instrument, frozenset[str](), (0, False)
         for form in self._forms.get(instrument.id, ()):

@@ -20,6 +20,7 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     kind : {"wind", "percussion", "other"}
+        Kind of the instrument; only winds have players.
     names : tuple of str
         Names; the first is the English name for users, the first in kana or kanji the Japanese one. Comparison ignores
         case, diacritics, width and punctuation.
@@ -102,7 +103,9 @@ class Ensemble(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Compass(NamedTuple):
-    """Concert pitches as MIDI numbers, both ends included: all that occur in parts, and the range of most parts."""
+    """Range of concert pitches as MIDI numbers, both ends included: of all notes that occur in parts, and of most
+    parts.
+    """
 
     low: int
     easy_low: int
@@ -111,7 +114,7 @@ class Compass(NamedTuple):
 
 
 class VocabularyTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """Contents of the file.
+    """Contents of the file `instrument_names.toml`.
 
     Attributes
     ----------
@@ -132,9 +135,9 @@ class VocabularyTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, k
     prefixes : tuple of str
         Words that may be joined to a name without changing its meaning ("Soloflöte", "ソロホルン").
     sounds : mapping of str to str
-        Instruments of the standard list of sounds.
+        Instrument by its id in MusicXML's standard list of sounds.
     strokes : mapping of str to int
-        Keys of a drum kit by such sounds and by ids of percussion.
+        Drum kit key (MIDI number) by such a sound, or by the id of a percussion instrument.
     """
 
     instruments: tuple[Instrument, ...]
@@ -152,11 +155,12 @@ class VocabularyTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, k
 
 
 class InstrumentRelations:
-    """Instruments of a vocabulary with sorts and forms; immutable.
+    """Relations between the instruments of a vocabulary: more general instruments, forms and families; immutable.
 
     Parameters
     ----------
     table : VocabularyTable
+        The instruments.
     file : str
         The table's name for messages.
 
@@ -185,7 +189,7 @@ class InstrumentRelations:
                 self._forms.setdefault(general, []).append(instrument)
 
     def _of_forms(self, table: VocabularyTable) -> Iterator[str]:
-        """Yield the faults in forms and sounds."""
+        """Yield descriptions of faults in the table's forms and sounds."""
         marks = {*table.sizes, *table.keys, *table.clefs}
         for instrument in self.instruments.values():
             own = {part for mark in instrument.marks for part in mark.split("+")}
@@ -220,16 +224,20 @@ class InstrumentRelations:
                 above.append(more.sort_of)
 
     def by_program(self, program: int) -> Instrument | None:
-        """The instrument of a General MIDI program, 0..127."""
+        """Return the instrument with a General MIDI program, 0..127; None if there is none."""
         return self._by_program.get(program)
 
     def by_sound(self, sound: str) -> Instrument | None:
-        """Return the instrument of an id in the standard list of sounds, or the nearest of which it is a sort."""
+        """Return the instrument with an id in MusicXML's standard list of sounds, or with the longest matching
+        beginning of the id; None if there is none.
+        """
         id = _nearest(self._sounds, sound)
         return None if id is None else self.instruments[id]
 
     def stroke_by_sound(self, sound: str) -> int | None:
-        """Return the key of a drum kit for percussion in the standard list of sounds."""
+        """Return the drum kit key (MIDI number) for a percussion sound in MusicXML's standard list; None if it is
+        unknown.
+        """
         return _nearest(self._strokes, sound)
 
     def is_sort(self, id: str, general: str) -> bool:
@@ -246,8 +254,8 @@ class InstrumentRelations:
         return general.id in named.form_of or self.is_sort(named.id, general.id)
 
     def relatives(self, instrument: Instrument) -> list[tuple[Instrument, ...]]:
-        """Return the other winds that a part for an instrument may mean, the likeliest first: its sizes and keys; among
-        those chosen by range, the ones whose English names end in the same word, its section, any.
+        """Return groups of other winds that a part named for an instrument may mean, the likeliest first: its sizes and
+        keys; those chosen by range whose English names end in the same word; its section; any.
         """
         general = instrument
         while general.sort_of:
@@ -275,7 +283,7 @@ def invalid(file: str, detail: str) -> MapError:
 
 
 def _nearest(table: Mapping[str, T], sound: str) -> T | None:
-    """Return the value of a dotted id, or of the longest beginning of it in the table."""
+    """Look up a dotted id in a table, or the longest beginning of it that the table contains; None if there is none."""
     while sound and sound not in table:
         sound = sound.rpartition(".")[0]
     return table.get(sound)

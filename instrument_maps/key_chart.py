@@ -1,5 +1,5 @@
-"""Places of holes and keys in a fingering chart as in method books: a column for the fingers' home places, the left
-hand above the right, with other keys beside it. Places missing in the map follow from the fingers.
+"""Fingering charts as in method books: a column of holes at the fingers' home positions, the left hand above the right,
+with other keys beside it. Positions missing in the map follow from the fingers.
 
 The unit of length is the distance of adjacent holes in the column.
 """
@@ -29,7 +29,7 @@ _OPEN, _HALF, _CLOSED = "○", "◐", "●"
 
 @dataclass(frozen=True)
 class ChartedKey:
-    """A hole or key with its place.
+    """A hole or key with its position in the chart.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class ChartedKey:
 
     @property
     def in_column(self) -> bool:
-        """True if it is a hole of the column."""
+        """True if it is a hole in the column of home positions."""
         return self.is_round and abs(self.x) < COLUMN
 
     @property
@@ -78,7 +78,7 @@ class KeyChart:
 
     @cached_property
     def top(self) -> float:
-        """Return the highest position, 0 or less."""
+        """Return the topmost extent of the chart in its units; 0, or less if keys are above the column."""
         return min((key.y - key.size[1] / 2.0 for key in self.keys), default=0.0)
 
     @cached_property
@@ -88,7 +88,9 @@ class KeyChart:
 
     @cached_property
     def between_hands(self) -> float | None:
-        """Return the position of the line between the hands; None if one hand has no hole in the column."""
+        """Return the height of the line between the left hand's and the right hand's holes; None if one hand has no
+        hole in the column.
+        """
         left = [key.y for key in self.column if key.control.finger.startswith("left.")]
         right = [key.y for key in self.column if key.control.finger.startswith("right.")]
         return (max(left) + min(right)) / 2.0 if left and right else None
@@ -142,7 +144,9 @@ def _chart(instrument: InstrumentMap) -> KeyChart:
 
 
 def _homes(instrument: InstrumentMap) -> frozenset[str]:
-    """Return the controls at the fingers' home: the first that a contact of each works."""
+    """Return the names of the controls at the fingers' home: the first control that each finger works according to its
+    contacts.
+    """
     found: dict[str, str] = {}
     fingers = {control.name: control.finger for control in instrument.controls}
     for contact in instrument.contacts:

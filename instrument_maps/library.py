@@ -38,7 +38,7 @@ class Library(Shelf[InstrumentMap]):
         return self.files
 
     def find(self, id: str) -> InstrumentMap:
-        """Return the map of an id; MapError if there is none."""
+        """Return the map with an id. Raises MapError if there is none."""
         try:
             return self.maps[id]
         except KeyError:
@@ -60,7 +60,7 @@ class Library(Shelf[InstrumentMap]):
 
 
 def _own_map(path: Path) -> Read[InstrumentMap]:
-    """Return a map in the user's folder, or all its faults. Raises AppError."""
+    """Read a map in the user's folder: the map, or all its faults. Raises AppError."""
     instrument = named_map(path)
     beside = path.parent / instrument.model
     wrong = model_problems(instrument, beside if os.path.isfile(beside) else MODELS / instrument.model)
@@ -77,7 +77,7 @@ own_folder, begin, library, reload = LIBRARY.folder, LIBRARY.begin, LIBRARY.now,
 
 
 def find_map(id: str) -> InstrumentMap:
-    """Return the map of an id; MapError if there is none."""
+    """Return the map with an id. Raises MapError if there is none."""
     return library().find(id)
 
 

@@ -32,12 +32,12 @@ MOST_BASES = 16
 
 
 def parse_map(text: str, file: str) -> InstrumentMap:
-    """Return the map in the text of a file.
+    """Parse the text of a map file.
 
     Parameters
     ----------
     text : str
-        TOML.
+        Content of the file, TOML.
     file : str
         The file's name for messages.
 
@@ -93,7 +93,7 @@ def bundled_maps() -> Mapping[str, InstrumentMap]:
 
 
 def model_path(instrument: InstrumentMap) -> Path:
-    """Return the file of a bundled map's model; MapError if there is none."""
+    """Return the file of a bundled map's model. Raises MapError if there is none."""
     path = MODELS / instrument.model
     if not os.path.isfile(path):
         raise MapError("map.unreadable", file=instrument.model, detail="no such model")
@@ -105,7 +105,7 @@ def _folder_maps(folder: Path) -> dict[str, InstrumentMap]:
 
 
 def named_map(path: Path) -> InstrumentMap:
-    """Return the map in a file whose name must be the map's id. Raises as `load_map`."""
+    """Read a map file whose name must equal the map's id. Raises as `load_map`."""
     instrument = load_map(path)
     if instrument.id != path.stem:
         detail = f"'{instrument.id}' is not the file's name, '{path.stem}'"
@@ -114,7 +114,7 @@ def named_map(path: Path) -> InstrumentMap:
 
 
 def _shaped(text: str, file: str) -> InstrumentMap:
-    """Return a parsed, extended and converted map, checked only by types."""
+    """Parse, extend and convert a map, checking only the types of its values."""
     instrument = shaped(_extended(parse_table(text, file), file, ()), InstrumentMap, file)
     reported = [
         msgspec.structs.replace(fingering, controls=controls_of(fingering.label, instrument.controls) or {})
@@ -132,8 +132,9 @@ def parse_table(text: str, file: str) -> dict[str, Any]:
 
 
 def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict[str, Any]:
-    """Return a map's table merged with the one it extends, which is looked for beside it and then among bundled maps;
-    ``above`` are the files that extend this one."""
+    """Merge a map's table with the map that it extends, which is searched for in the same folder and then among the
+    bundled maps; ``above`` are the files that extend this one.
+    """
     if BASE not in table:
         return table
     base, own = table[BASE], Path(file).absolute()

@@ -12,4 +12,4 @@ Posture: TypeAlias = Literal["standing", "seated"]
 
 
 class MapTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """A table of the file: immutable, without unknown keys."""
+    """Base class of the tables in a map file: immutable, and refusing unknown keys."""

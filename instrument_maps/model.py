@@ -93,7 +93,7 @@ class Control(MapTable, frozen=True):
     Attributes
     ----------
     name : str
-        Unique; also the bone's name in an exported file.
+        Unique name; also that of the bone in an exported file.
     kind : str
         ``"press"`` goes down under a finger, ``"lever"`` turns under one, ``"slide"`` is pushed and pulled; ``"key"``
         is a woodwind's key, ``"hole"`` a hole that the finger itself closes (with or without a ring that goes down).
@@ -152,7 +152,7 @@ class Control(MapTable, frozen=True):
 
     @property
     def travel_m(self) -> float:
-        """Distance in metres that its node is pushed or pulled; 0 if it rotates or does not move."""
+        """Distance in metres over which the control's node moves from 0 to 1; 0 if it rotates or does not move."""
         return 0.0 if self.motion is None or self.motion.travel_m is None else self.motion.travel_m
 
 
@@ -186,7 +186,7 @@ class Endpin(MapTable, frozen=True):
     node : str
         Sliding node of the model, pushed in at rest.
     axis : vector
-        The way out, in the root frame.
+        Direction in which the pin is drawn out, in the root frame.
     tip_m : vector
         Tip at rest in the root frame.
     most_m : float
@@ -219,11 +219,11 @@ class ChartKey(MapTable, frozen=True):
     Attributes
     ----------
     name : str
-        The control's.
+        Name of the control.
     en, ja : str
-        Names, unique among the instrument's controls.
+        English and Japanese name for players, unique among the instrument's controls.
     sign : str
-        A few letters for its picture.
+        A few letters shown on its symbol.
     at : (float, float) or None
         Centre in units of holes from the left hand's first, to the right and down; None for the place of its finger.
     round : bool
@@ -284,13 +284,13 @@ class InstrumentMap(MapTable, frozen=True):
     Attributes
     ----------
     schema_version : int
-        `SCHEMA_VERSION`.
+        Version of the file format, `SCHEMA_VERSION`.
     id : str
-        The file's stem.
+        Id, equal to the file name without suffix.
     name : InstrumentName
-        For people.
+        Name for users, in English and Japanese.
     short_name : str
-        For a file name or a narrow column.
+        Short name for file names and narrow columns.
     plays : tuple of str
         Ids of the instrument vocabulary whose parts this instrument plays.
     substitutes_for : tuple of str
@@ -298,7 +298,7 @@ class InstrumentMap(MapTable, frozen=True):
     transposition_semitones : int
         Written minus concert pitch.
     range : Range
-        Concert pitches.
+        Range in concert pitches.
     model : str
         File name of the glTF binary.
     clef : str
@@ -306,7 +306,7 @@ class InstrumentMap(MapTable, frozen=True):
     breaks : tuple of int
         Written pitches at which a new register begins; a line crosses the break between such a note and the one below.
     air : Air or None
-        Length of a breath; None for that of the body, independent of the instrument.
+        Duration of a breath on the instrument; None if the body alone determines it.
     water : Water or None
         Letting out of water; None if it is not visible.
     stopped : Stopped or None
@@ -349,7 +349,7 @@ class InstrumentMap(MapTable, frozen=True):
     size: float = 1.0
 
     def control(self, name: str) -> Control:
-        """Return the control of a name; `KeyError` if there is none."""
+        """Return the control with a name. Raises KeyError if there is none."""
         for control in self.controls:
             if control.name == name:
                 return control
@@ -357,7 +357,7 @@ class InstrumentMap(MapTable, frozen=True):
 
     @property
     def moving_parts(self) -> tuple[MovingPart, ...]:
-        """Return the moving parts of the model: those of controls, linked ones, the endpin."""
+        """Return the moving parts of the model: those of controls, those linked to controls, and the endpin."""
         own = [
             MovingPart(control.name, control.node, control.motion, (control.name,))
             for control in self.controls
@@ -398,6 +398,8 @@ class InstrumentMap(MapTable, frozen=True):
         return tuple(item for item in every if not item.is_obsolete or item.label == shown)
 
     def values(self, fingering: Fingering, *, held: bool = False) -> dict[str, float]:
-        """Return the value of every control under a fingering; ``held`` adds the intonation controls."""
+        """Return the value 0..1 of every control in a fingering; ``held`` adds the tuning corrections for a
+        held note.
+        """
         chosen = {**fingering.controls, **(fingering.correction if held else {})}
         return {control.name: chosen.get(control.name, control.rest_value) for control in self.controls}

@@ -45,12 +45,14 @@ _KANA_SPELLED = {
 
 
 def is_wide(word: str) -> bool:
-    """Return whether a word is a kana, kanji or hangul."""
+    """Return whether a word begins with a Japanese, Chinese or Korean character, in scripts without spaces between
+    words.
+    """
     return _WIDE.match(word) is not None
 
 
 def is_katakana(word: str) -> bool:
-    """Return whether a word is a katakana."""
+    """Return whether a word begins with a katakana."""
     return "\u30a1" <= word <= "\u30fa"
 
 
@@ -64,14 +66,14 @@ def words_of(text: str) -> tuple[str, ...]:
 
 
 def _spelled(word: str) -> str:
-    """Return a word in the normalised spelling."""
+    """Normalise spelling variants of a word."""
     if len(word) < _LEAST_SPELLED:
         return word
     return _SPELLING.sub(lambda found: found[1] or _SPELLED[found[0]], word)
 
 
 def _unmarked(found: re.Match[str]) -> str:
-    """Return a letter without its diacritics; voicing marks of kana are kept, since they distinguish names."""
+    """Remove the diacritics from a letter; voicing marks of kana are kept, since they distinguish names."""
     if _WIDE.match(found[0]):
         return found[0]
     # "Bässe" are no "Basse"; ö and ü are more often written without their dots than as two letters.

@@ -8,17 +8,19 @@ from app.arrays import FloatArray
 
 
 def nearest_point(triangles: FloatArray, point: FloatArray) -> tuple[float, FloatArray]:
-    """Return the distance of a point from a mesh, and the nearest point.
+    """Return the distance of a point from a mesh, and the surface normal at the nearest point of the mesh.
 
     Parameters
     ----------
     triangles : (T, 3, 3) float64
         Corners, counter-clockwise seen from outside.
     point : (3,) float64
+        The given point, in metres.
 
     Returns
     -------
     distance_m : float
+        Distance of the point from the mesh.
     normal : (3,) float64
         Unit normal of the nearest triangle.
 

@@ -70,7 +70,9 @@ def _fingering(path: str, fingering: Fingering, instrument: InstrumentMap) -> It
 
 
 def _fingers(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
-    """Check that no finger is needed for two things at once, unless a contact is for both."""
+    """Yield a problem for each finger that no contact lets work all the controls it needs, such as two keys at once,
+    and for unknown fingers.
+    """
     asked: dict[str, set[str]] = defaultdict(set)
     for control in instrument.controls:
         finger = fingering.fingers.get(control.name, control.finger)
@@ -92,8 +94,8 @@ def _fingers(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iter
 
 
 def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
-    """Check that the label contains the moving controls: their signs in any order, the position of a slide, or 0 for
-    none.
+    """Yield a problem unless the label matches the moved controls: their signs in any order, the position of a slide,
+    or 0 for none.
     """
     pitch = [control for control in instrument.controls if control.role == "pitch"]
     if says_words(pitch):
@@ -115,8 +117,8 @@ def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterat
 
 
 def _harmonic(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
-    """Check that the note is near a harmonic of the tube with these controls; not for slides, which have positions
-    between.
+    """Yield a problem unless the note is near a harmonic of the tube with these controls; not checked for slides, which
+    have positions in between.
     """
     acoustics = instrument.acoustics
     if acoustics is None or acoustics.slide_control is not None:

@@ -37,7 +37,7 @@ class Embouchure(MapTable, frozen=True):
 
 
 class Mouthpiece(MapTable, frozen=True):
-    """The frame of the mouthpiece at the lips, in the model's root frame.
+    """Position and orientation of the mouthpiece at the lips, in the model's root frame.
 
     ``position_m`` is the centre of the rim plane, ``air_axis`` the direction of the air stream, ``up_axis`` up during
     playing (unit vectors, orthogonal); ``rim_radius_m`` is the crest of the rim, where it presses on the lips,
@@ -56,7 +56,7 @@ class Mouthpiece(MapTable, frozen=True):
 
 
 class Acoustics(MapTable, frozen=True):
-    """Acoustics of the tube, by which a test can check the fingering table.
+    """Acoustics of the tube, by which tests check the fingering table.
 
     Attributes
     ----------
@@ -121,7 +121,7 @@ class Stopped(MapTable, frozen=True):
 
 
 class Air(MapTable, frozen=True):
-    """Duration of one full breath of an adult on the instrument, in seconds of playing by dynamic."""
+    """Duration of one full breath of an adult on the instrument, in seconds of playing, for each dynamic."""
 
     piano_s: float
     mezzoforte_s: float

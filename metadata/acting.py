@@ -40,7 +40,7 @@ AMOUNTS = Factors.__struct_fields__
 
 
 class Style(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A kind of player.
+    """A style of playing: factors for the amounts of a player's motion layers.
 
     Attributes
     ----------

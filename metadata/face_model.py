@@ -19,21 +19,21 @@ class EmbouchureWeights(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
     Attributes
     ----------
     relaxed, tight : dict of str to float
-        Low notes, fully relaxed, and high notes, drawn tight.
+        Weights of the lips on low notes, fully relaxed, and on high notes, drawn tight.
     air, effort : dict of str to float
-        Full air and full effort.
+        Weights at full air and at full effort.
     tongue_stroke, tongue_back : dict of str to float
-        A plain stroke of the tongue's tip before an attack, and one of its back in double and triple tonguing (shown at
-        half its size there).
+        Weights in a plain stroke of the tongue's tip before an attack, and in one of its back in double and triple
+        tonguing (shown at half size).
     push : dict of str to float
-        Marcato attack with breath pressure.
+        Weights in a marcato attack with breath pressure.
     inhale : dict of str to float
-        The mouth in a full breath.
+        Weights of the mouth in a full breath.
     opening_m : float
         Height in metres of the opening between the lips beside the mouthpiece; 0 if the weights alone determine the
         lips.
     soft : dict of str to float
-        The softest playing: a smaller, firmer opening.
+        Weights in the softest playing: a smaller, firmer opening.
     onset : dict of str to float
         Additional weights just before an attack, which fade soon after it.
     corners, chin : dict of str to float
@@ -41,7 +41,7 @@ class EmbouchureWeights(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
     give : float
         Random variation of the tension during a held note (root mean square).
     tired : dict of str to float
-        After a long time without a rest.
+        Weights after a long time without a rest.
     vibrato : dict of str to float
         Amplitude of each weight in a full vibrato.
     vibrato_hz : (float, float)
@@ -68,7 +68,7 @@ class EmbouchureWeights(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
 
     @property
     def usual(self) -> dict[str, float]:
-        """Weight of each morph at middling tension: the mean of `relaxed` and `tight`."""
+        """Weight of each morph at medium tension: the mean of `relaxed` and `tight`."""
         names = sorted(self.relaxed.keys() | self.tight.keys())
         return {name: 0.5 * (self.relaxed.get(name, 0.0) + self.tight.get(name, 0.0)) for name in names}
 
@@ -78,7 +78,9 @@ EmbouchureKind: TypeAlias = Literal["cup", "single_reed", "double_reed", "air_je
 
 
 class Load(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Cost of a note: weights of its tension (register), air (loudness) and effort, minus an easy level."""
+    """Formula for the load of a note: weights of its tension (register), air (loudness) and effort, minus a level that
+    is easy.
+    """
 
     tension: NotNegative
     air: NotNegative
@@ -97,12 +99,13 @@ class FaceMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Least and greatest difference of left and right as a share of their size; each player has an individual
         difference.
     load : Load
+        Formula of the load of a note.
     rise_s, decay_s : float
-        A strain grows in the first and passes in the second.
+        Seconds in which strain grows under a lasting load, and in which it passes afterwards.
     lid_per_rad : float
         Weight by which lids are lowered when the eyes look down by a radian.
     working : dict of str to float
-        At once with the load of a note.
+        Weights that follow the load of a note immediately.
     strain : dict of str to float
         Weights for a lasting load.
     rising, falling : dict of str to float
@@ -110,11 +113,11 @@ class FaceMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     louder, softer : dict of str to float
         Weights for a dynamic above or below its recent level.
     emptying : dict of str to float
-        The air of the last breath used up.
+        Weights when the air of the last breath is used up.
     phrase : dict of str to float
         Weights two thirds into a phrase with a direction.
     inhale : dict of str to float
-        A full breath.
+        Weights in a full breath.
     brows, lids, nose : dict of str to float
         Random variation of each (root mean square).
     """

@@ -39,6 +39,7 @@ class AngleKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     at : float
         Share of the gesture's length.
     deg : float
+        The angle in degrees.
     slope : float or None
         Tangent in degrees per length of the gesture; None for automatic: horizontal at an extreme, else towards the
         neighbours.
@@ -79,7 +80,8 @@ class HandKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     m : tuple of float
         Offset to the left, up and forward in metres of an adult.
     shape : str
-        ``"held"``: the fingers as on the instrument; ``"open"``, ``"pinch"`` with thumb and forefinger, ``"point"``.
+        Shape of the fingers. ``"held"``: as on the instrument; ``"open"``; ``"pinch"``: with thumb and forefinger;
+        ``"point"``.
     """
 
     at: Fraction01
@@ -102,14 +104,16 @@ class HandTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class ShareKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Share of something at a time: both 0..1."""
+    """Key of a curve whose value is a share: time as a share of the gesture's length, and value, both 0..1."""
 
     at: Fraction01
     share: Fraction01
 
 
 class GazeTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Direction of the eyes meanwhile: shares of the gesture's length, and degrees from straight ahead."""
+    """Gaze during a gesture: start and end as shares of the gesture's length, and direction in degrees from straight
+    ahead.
+    """
 
     start: Fraction01
     end: Fraction01
@@ -118,7 +122,7 @@ class GazeTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Gesture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A gesture.
+    """A gesture that rules or the animator place: keyframed angles, hand, gaze, and conditions for its use.
 
     Attributes
     ----------

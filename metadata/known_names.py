@@ -37,13 +37,13 @@ class BoneNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     name : str
-        Id; the file's name.
+        Id, equal to the file name.
     title : str
         Programs that use these names.
     source : str
         Source of the names.
     left, right : tuple of str
-        Texts that ``{side}`` represents.
+        Texts for which ``{side}`` stands in the names.
     spine : tuple of tuple of str
         Names of every bone between hips and neck, upwards; their number in a figure determines which are spine, chest
         and upper chest.
@@ -63,8 +63,8 @@ class BoneNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     sides: dict[str, tuple[str, ...]]
 
     def keys(self) -> dict[str, tuple[str, ...]]:
-        """Return the `bone_key` of each name by joint; the spine's bones are ``spine.0``, ``spine.1`` and so on
-        upwards.
+        """Return for each joint the `bone_key` of its possible names; the spine's bones are ``spine.0``, ``spine.1``
+        and so on upwards.
         """
         found = {f"spine.{index}": names for index, names in enumerate(self.spine)} | self.middle
         for side, words in (("left", self.left), ("right", self.right)):
@@ -74,8 +74,9 @@ class BoneNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def morph_key(name: str) -> str:
-    """Reduce as `bone_key` does, and drop the name of a mesh or blend shape node before a dot, or ExPlus's number
-    (``A14_``)."""
+    """Return a morph's name reduced for comparison: as `bone_key` does, without the name of a mesh or blend shape node
+    before a dot, and without ExPlus's number (``A14_``).
+    """
     return bone_key(re.sub(r"^A\d\d[_ ]", "", unicodedata.normalize("NFKC", name).rsplit(".", 1)[-1]))
 
 
@@ -89,7 +90,7 @@ class FaceNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_de
     Attributes
     ----------
     name : str
-        Id; the file's name.
+        Id, equal to the file name.
     title, source : str
         As in `BoneNames`.
     of : str
@@ -106,6 +107,6 @@ class FaceNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_de
     of: Literal["morphs", "expressions"] = "morphs"
 
     def ways(self, shape: str) -> tuple[Parts, ...]:
-        """Return the alternatives for a shape as weights by comparison keys."""
+        """Return the alternatives for an ARKit shape, best first, each as weights by `morph_key`."""
         ways = ({way: 1.0} if isinstance(way, str) else way for way in self.morphs.get(shape, ()))
         return tuple({morph_key(name): weight for name, weight in way.items()} for way in ways)

@@ -49,8 +49,9 @@ READERS: Final[Mapping[str, Callable[[Path], object]]] = {
 
 
 class MetadataLibrary(NamedTuple):
-    """All tables of acting (styles, habits, expressions, gestures and more) in the state of the last reading; the
-    shelves stay the same objects until the next one."""
+    """All tables of acting (styles, habits, expressions, gestures, rules) as they were last read; until the next
+    reading the values stay the same objects.
+    """
 
     styles: Shelf[Style]
     habits: Shelf[Habit]
@@ -72,7 +73,7 @@ class MetadataLibrary(NamedTuple):
         return load_expressions() | {expression.name: expression for expression in own}
 
     def is_still(self, other: MetadataLibrary) -> bool:
-        """Return whether both are from the same reading of the files."""
+        """Return whether another library is from the same reading of the files."""
         return all(mine is others for mine, others in zip(self, other, strict=True))
 
     @property
@@ -97,18 +98,19 @@ def _rules_of(sets: tuple[RuleSet, ...]) -> tuple[Rule, ...]:
 
 
 def _all_rules(sets: Mapping[str, RuleSet], own: Collection[str] = ()) -> tuple[Rule, ...]:
-    """Return the rules of every file in the order of file names, files in ``own`` last; of two rules with the same name
-    the later one is used, in the place of the earlier."""
+    """Merge the rules of all files in the order of file names, files in ``own`` last; of two rules with the same name
+    the later one replaces the earlier in its position.
+    """
     return _rules_of(tuple(sets[name] for name in sorted(sets, key=lambda name: (name in own, name))))
 
 
 def metadata_library() -> MetadataLibrary:
-    """Return everything in the state of the last reading, reading it at the first call."""
+    """Return the tables of acting as they were last read; the first call reads them."""
     return MetadataLibrary(*(folder.now() for folder in FOLDERS))
 
 
 def begin_metadata() -> None:
-    """Use only bundled tables for now, in a program that reads the user's folders in the background."""
+    """Use only bundled tables for now, in a program that will read the user's folders in the background."""
     for folder in FOLDERS:
         folder.begin()
 

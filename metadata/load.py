@@ -76,7 +76,7 @@ def load_controllers() -> Mapping[str, Controller]:
 
 
 def recognised_controller(port: str) -> Controller:
-    """Return the controller with a MIDI port name; the generic one if it is unknown."""
+    """Return the wind controller to which a MIDI port name belongs; the generic one if it is unknown."""
     for controller in load_controllers().values():
         if any(re.search(pattern, port, re.IGNORECASE) for pattern in controller.ports):
             return controller

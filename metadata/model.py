@@ -50,7 +50,7 @@ BREATH_MORPHS: tuple[str, str] = ("chestExpand", "bellyExpand")
 
 
 class Expression(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A face as ARKit weights. Events of the plan blend it in by their strength.
+    """A facial expression as ARKit weights; events of the plan blend it in by their strength.
 
     Attributes
     ----------
@@ -93,13 +93,14 @@ class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defa
     foot_forward_m : float
         Distance of the left foot in front of the right in metres.
     toes_out_deg, knee_bend_deg, hip_flexion_deg : float
-        ``hip_flexion_deg`` is the thigh's angle before the vertical; seated about 85.
+        Angle of the toes outwards, bend of the knees, and forward angle of the thigh from the vertical (seated about
+        85).
     spine_deg : dict of str to float
         Flexion (forward positive) of each joint of spine and neck; the sum over the spine is the trunk's lean.
     spine_left_deg, spine_turn_deg : dict of str to float
         Lean to the left and turn to the left of the same joints; see `Body.turned_to`.
     shoulder_lift_deg, elbow_off_ribs_deg : float
-        ``elbow_off_ribs_deg``: angle between the hanging upper arm and the trunk, sideways.
+        Lift of the shoulders, and sideways angle between the hanging upper arm and the trunk.
     head_down_deg : float
         Greatest angle by which the head follows the instrument downwards.
     seat_height_shank : float
@@ -138,13 +139,13 @@ class PhraseMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     lean_deg, head_deg : AmplitudeScale
-        Trunk forward at a phrase's climax, and the head in the world.
+        Forward lean of the trunk, and forward tilt of the head in the world, at a phrase's climax.
     accent_deg, accent_head_deg : AmplitudeScale
         The same angles on an accent.
     ahead_m : AmplitudeScale
-        Hips back as the trunk leans forward.
+        Backward motion of the hips as the trunk leans forward.
     pelvis_deg : AmplitudeScale
-        Pelvis forward with the trunk.
+        Forward tilt of the pelvis with the trunk.
     seated_share, seated_pelvis : float
         Factors of the motion of trunk and pelvis of a seated player relative to a standing one.
     """
@@ -168,7 +169,7 @@ class Overlap(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Footwork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Steps and taps.
+    """Size and duration of steps and toe taps.
 
     Attributes
     ----------
@@ -223,7 +224,7 @@ class CueMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Motion outside of playing, scaled by gestures of the plan.
+    """Motion outside of playing (bowing, looking up, counting, settling), scaled by the plan's gestures.
 
     Attributes
     ----------
@@ -232,15 +233,15 @@ class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     bow_hips_deg, bow_back_m : AmplitudeScale
         Forward tilt and backward displacement of the pelvis while standing.
     look_up_deg : AmplitudeScale
-        The head up to the audience.
+        Upward angle of the head for looking at the audience.
     look_trunk_share : float
         Share of the head's turn added by the trunk while the instrument is lowered.
     count_head_deg : AmplitudeScale
-        The head on each counted beat.
+        Nod of the head on each counted beat.
     settle_share : float
         Share of the way up by which the instrument is lifted as the hands settle.
     settle_shoulders_deg, settle_elbows_deg : AmplitudeScale
-        Shoulders up and elbows out meanwhile.
+        Lift of the shoulders and outward turn of the elbows as the hands settle.
     """
 
     bow_trunk_deg: AmplitudeScale
@@ -257,11 +258,11 @@ class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """An inhalation of depth 1; a shallower one scales it. Players become more upright and the arms neutral (Frontiers
-    in Psychology 2024, 1394035). The mouth is described by the embouchure's `EmbouchureWeights.inhale`. ``shown`` is
-    the visible share by amplitude; ``chest_share`` and ``belly_share`` are weights of the shapes `BREATH_MORPHS`, for
-    characters that have them. ``push_forward_deg`` and ``push_share`` are the forward motion of the chest and the
-    contraction of the belly in a marcato attack.
+    """Body motion in an inhalation of depth 1; a shallower one scales it. Players become more upright and the arms
+    neutral (Frontiers in Psychology 2024, 1394035). The mouth is described by the embouchure's
+    `EmbouchureWeights.inhale`. ``shown`` is the visible share by amplitude; ``chest_share`` and ``belly_share`` are
+    weights of the shapes `BREATH_MORPHS`, for characters that have them. ``push_forward_deg`` and ``push_share`` are
+    the forward motion of the chest and the contraction of the belly in a marcato attack.
     """
 
     shown: AmplitudeScale
@@ -321,10 +322,11 @@ class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Parameters
         ----------
         posture : str
+            Posture to turn.
         pitch_down_deg : float
             Downward angle of the instrument, which the head follows in part.
         head_left_deg, head_lean_left_deg, trunk_left_deg : float
-            As in an instrument map's carriage; shared among the joints as their ranges are.
+            Angles as in an instrument map's carriage, divided among the joints in proportion to their ranges.
         """
         still = self.postures[posture]
         spine_deg = dict(still.spine_deg)
@@ -367,12 +369,12 @@ class ControllerName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Controller(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Messages that an electronic wind instrument sends in its factory settings.
+    """An electronic wind instrument, with the MIDI messages that it sends in its factory settings.
 
     Attributes
     ----------
     name : str
-        Id; the file's name.
+        Id, equal to the file name.
     ports : tuple of str
         Regular expressions, one of which matches the name of its MIDI port, ignoring case; empty for the default
         controller.

@@ -22,7 +22,7 @@ OWN: Final = "my_rules"
 
 
 class Listed(NamedTuple):
-    """A rule in effect.
+    """A rule in the list of the rules editor, with its origin.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ def added(draft: Draft, expression: str) -> Draft:
 
 
 def duplicated(draft: Draft, index: int) -> Draft:
-    """Return the draft with a copy of a rule after it, without corrections in pieces."""
+    """Return the draft with a copy of a rule placed after it; corrections in pieces stay with the original rule."""
     rule = draft[index].rule
     copy = msgspec.structs.replace(rule, name=_free(rule.name.rstrip("0123456789_"), draft), events="")
     return (*draft[: index + 1], Listed(copy, OWN), *draft[index + 1 :])
@@ -87,7 +87,7 @@ def removed(draft: Draft, index: int) -> Draft:
 
 
 def sets_of(draft: Draft, sets: Mapping[str, RuleSet], own: Collection[str]) -> dict[str, RuleSet]:
-    """Return the user's files of a draft by name; unchanged ones are the same objects. A file without rules is
+    """Convert a draft to the user's files by name; unchanged ones are the same objects, and files without rules are
     omitted.
     """
     effective = {one.rule.name: one.file for one in draft}
@@ -104,7 +104,9 @@ def sets_of(draft: Draft, sets: Mapping[str, RuleSet], own: Collection[str]) -> 
 
 
 def write(made: Mapping[str, RuleSet], before: Mapping[str, RuleSet], folder: Path) -> list[Path]:
-    """Write changed files, and delete the user's file without rules; return the written files. Raises FileError."""
+    """Write the changed files, and delete those that no longer have rules; returns the paths of the written files.
+    Raises FileError.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     written = []
     for name, rules in made.items():
@@ -121,7 +123,7 @@ def write(made: Mapping[str, RuleSet], before: Mapping[str, RuleSet], folder: Pa
 
 
 def text_of(rules: RuleSet) -> str:
-    """Return a file of rules without fields at their default."""
+    """Return the text of a file with these rules; fields at their default are omitted."""
     text = toml({"name": rules.name, "description": rules.description})
     if not rules.rules:
         text += "rules = []\n"

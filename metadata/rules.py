@@ -26,19 +26,19 @@ class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     loudness_above, loudness_below : float
-        0..1; mezzoforte is 0.63.
+        Least and greatest loudness, 0..1; mezzoforte is 0.63.
     semitones_above_easy, semitones_below_easy : float
         Least distance in semitones above or below the instrument's easy range.
     longer_s, shorter_s : float
-        Least and greatest duration of the note.
+        Least and greatest duration of the note in seconds.
     rest_longer_s, rest_after_longer_s : float
-        Least silence before the note, and after it.
+        Least silence in seconds before the note, and after it.
     played_longer_s : float
-        Least time that the player has played so far, including this note.
+        Least time in seconds that the player has played so far, including this note.
     accent : float
-        Loudness above that of surrounding notes, 0..1.
+        Least excess of the loudness over that of surrounding notes, 0..1.
     leap_up, leap_down : float
-        Semitones from the note before.
+        Least interval in semitones up or down from the note before.
     place : tuple of str
         Position, any of these: ``"first"`` or ``"last"`` of the part, ``"after_rest"``, ``"climax"`` (highest and
         loudest of its phrase), ``"phrase_end"``, ``"before_rest"`` (the same, with more to come).
@@ -47,9 +47,9 @@ class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     not_styles : tuple of str
         Styles that the player must not have.
     chance : float
-        Probability of applying.
+        Probability, 0..1, that the rule applies where all conditions hold.
     effort_above : float
-        Difficulty of the note, 0..1: by height, loudness and length.
+        Least difficulty of the note, 0..1, by height, loudness and length.
     moment : str or None
         A moment instead of a note: ``"gives_entry"``, a cue given by the player; ``"takes_entry"``, the breath before
         an entry cued by others, after a rest; ``"ending"``, from the lowering of the instrument after a bright ending.
@@ -85,7 +85,7 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     expression, gesture : str
         Name of an expression or of a gesture.
     strength : float
-        Of an expression, or the size of a gesture.
+        Strength of the expression, or size of the gesture.
     grows_with : str, tuple of str or None
         Quantity with which the strength grows to its maximum; several are combined by their geometric mean.
     grows_from : float
@@ -93,7 +93,7 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     scaled_by : str or None
         ``"puff"``: multiplied by the amount of air that the instrument lets into the cheeks.
     start, end : str
-        Reference of the offsets: onset or end of the note.
+        Onset or end of the note, from which the offsets count.
     start_s, end_s : float
         Offsets in seconds. A gesture without an end has its own duration.
     spread_s : float
@@ -128,7 +128,7 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Rule(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A rule.
+    """A rule of acting: conditions (`When`) and an effect (`Do`).
 
     Attributes
     ----------
@@ -158,7 +158,7 @@ class Rule(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class RuleSet(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The rules of acting in one file."""
+    """All rules in one file."""
 
     name: str
     description: str
@@ -183,7 +183,7 @@ def read_rules(path: Path) -> RuleSet:
 
 
 class RuleFault(NamedTuple):
-    """Fault of a rule: key, short name of the kind of fault, requirement, and growth that it concerns."""
+    """A fault in a rule: the wrong key, the kind of fault, the requirement, and the growth that it concerns."""
 
     key: str
     code: str

@@ -30,7 +30,7 @@ class Title(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def bundled(folder: str, read: Callable[[Path], T], kind: type[T]) -> Callable[[], Mapping[str, T]]:
-    """Return a function that returns the bundled tables of a kind by file name, read once."""
+    """Make a function that returns all bundled tables of a folder, by file name; they are read once."""
     # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
     decoder: msgspec.msgpack.Decoder[Any] = msgspec.msgpack.Decoder(dict[str, kind])  # type: ignore[valid-type]
 
@@ -45,12 +45,12 @@ def bundled(folder: str, read: Callable[[Path], T], kind: type[T]) -> Callable[[
 
 
 def label(path: Path) -> str:
-    """Return the name of a file in messages, with its folder since files in several folders have the same name."""
+    """Return a file's name for messages, with its folder, since files in several folders have the same name."""
     return f"{path.parent.name}/{path.name}"
 
 
 def decoded(path: Path, kind: type[T], file: str | None = None) -> T:
-    """A table as a typed value. Raises FileError, MapError."""
+    """Read a table from a file as a typed value. Raises FileError, MapError."""
     file = label(path) if file is None else file
     return shaped(read_toml(path, file), kind, file)
 
@@ -61,13 +61,13 @@ def invalid(path: Path, key: str, detail: str, file: str | None = None) -> MapEr
 
 
 def check_name(path: Path, name: str, file: str | None = None) -> None:
-    """Check that a table's name is that of its file. Raises MapError."""
+    """Raise MapError unless a table's name equals the name of its file."""
     if name != path.stem:
         raise invalid(path, "name", f"{name!r} is not the file's name {path.stem!r}", file)
 
 
 def check_title(path: Path, title: Title) -> None:
-    """Check that a title is a printable line. Raises MapError."""
+    """Raise MapError unless a title is a single printable line."""
     for language in ("en", "ja"):
         text = getattr(title, language)
         if not text.isprintable() or (language == "en" and not text.strip()):

@@ -24,7 +24,9 @@ Weights: TypeAlias = dict[str, Fraction01]
 
 
 def at_amplitude(scale: AmplitudeScale, amplitude: float) -> float:
-    """Return the value of a scale at a player's amplitude 0..1, linear between its three values."""
+    """Return the value of a scale (values at amplitude 0, 0.5 and 1) at a player's amplitude 0..1, interpolated
+    linearly.
+    """
     residual, natural, exaggerated = scale
     if amplitude <= 0.5:
         return residual + (natural - residual) * max(amplitude, 0.0) * 2.0

@@ -35,7 +35,7 @@ def click_track(project: Project, start_s: float, end_s: float) -> MixTrack:
 
 
 def steady_clicks(times_s: Iterable[float], high: int) -> MixTrack:
-    """Return clicks at given times, with a higher pitch for the first ones."""
+    """Return clicks at given times, with a higher pitch for the first ``high`` of them."""
     return MixTrack(
         AudioSegment(round(at_s * RATE_HZ), _click(_BAR_HZ if index < high else _BEAT_HZ))
         for index, at_s in enumerate(times_s)

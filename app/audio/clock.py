@@ -21,7 +21,7 @@ _AHEAD_S: Final = 0.03
 
 
 class DeviceClock:
-    """Seconds of sound played since the device was started.
+    """Clock of a sound device: seconds of sound played since it was started.
 
     Parameters
     ----------

@@ -41,13 +41,13 @@ class RecordingPlace:
 
 
 def is_other(one: RecordingPlace, other: RecordingPlace) -> bool:
-    """Return whether two positions differ by more than rounding."""
+    """Return whether two places of a score in a recording differ by more than rounding errors."""
     return abs(one.start_s - other.start_s) > LEAST_APART_S
 
 
 def usual_ratios(expected: ExpectedSound) -> list[float]:
-    """Return the tempo ratios within `TEMPO_RATIOS`, close enough that an error shifts no chord by a chord at the
-    piece's ends.
+    """Return the tempo ratios to try, within `TEMPO_RATIOS` and so close together that at the ends of the piece the
+    error in time is less than a chord.
     """
     length_s = float(expected.end_s.max())
     step = float(np.clip(0.25 / max(length_s, 1.0), 4e-4, 5e-3))
@@ -58,7 +58,7 @@ def usual_ratios(expected: ExpectedSound) -> list[float]:
 def places(
     recorded: RecordedSound, expected: ExpectedSound, ratios: Sequence[float], progress: Progress = lambda share: None
 ) -> list[RecordingPlace]:
-    """Return the likeliest positions, the best first; they are a second apart.
+    """Find the likeliest places of a score in a recording, at least a second apart, the best first.
 
     Parameters
     ----------

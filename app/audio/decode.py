@@ -90,6 +90,7 @@ def decode(
     FileError
         The file cannot be read, contains no sound, or is longer than `MOST_HOURS`.
     Cancelled
+        ``stop_requested`` returned true.
     """
     kind = media_kind(path)
     if kind is not MediaKind.SOUND:
@@ -107,7 +108,7 @@ def decode(
 
 
 def _most_s(size: int) -> float:
-    """Return the greatest number of seconds allowed for a file of a size."""
+    """Return the longest duration in seconds that is allowed for a file of a size in bytes."""
     return FREE_S + size / LEAST_BYTES_PER_S
 
 
@@ -119,8 +120,8 @@ def _check_length(path: str, seconds: float, most_s: float) -> None:
 
 
 def _check_said(path: str, file: _Forward, most_s: float) -> None:
-    """Refuse a file whose stated length is too long. Headers may be wrong, so they only count if the file's size
-    agrees; Ogg has no header, and its length is the position of the last page.
+    """Raise FileError if the length stated in the file's header is too long. Headers may be wrong, so the length only
+    counts if the file's size agrees; Ogg has no header, and its length is the position of the last page.
     """
     said_s = file.frames / file.samplerate
     if file.frames < _UNKNOWN and (file.format == "OGG" or said_s <= most_s):
@@ -128,8 +129,8 @@ def _check_said(path: str, file: _Forward, most_s: float) -> None:
 
 
 def _headless(path: str) -> MpegAudio | None:
-    """Return MPEG audio without a header (None for other files), whose length libsndfile guesses, omitting the end or
-    stating too much.
+    """Return the file as MPEG audio without a length in its header, of which libsndfile only guesses the length, so
+    that the end is missing or too much is stated; None for other files.
     """
     with open_file(path) as stream:
         if not os.fstat(stream.fileno()).st_size:

@@ -68,6 +68,7 @@ def loudness(samples: Samples, rate_hz: int) -> RecordingLoudness:
     Parameters
     ----------
     samples : int16 array, shape (n, channels)
+        Samples of the recording.
     """
     from scipy.ndimage import gaussian_filter1d  # heavy, and not needed to begin
     from scipy.signal import sosfilt
@@ -95,7 +96,7 @@ def dynamics(
     stems: Mapping[str, RecordingLoudness],
     parts: Collection[str],
 ) -> dict[str, ControllerCurve]:
-    """Return curves of the dynamics by part id.
+    """Derive the curves of the players' dynamics, by part id, from the loudness of a recording.
 
     Parameters
     ----------
@@ -169,7 +170,9 @@ class _Sounding:
         return cls(at_s, _count(start_s, end_s, at_s) > 0, pitches[last])
 
     def curve(self, score: Score, values: FloatArray, audible: BoolArray) -> ControllerCurve:
-        """Return the steps of a controller; during a rest it changes to the value of the next note."""
+        """Convert ``values`` on the grid to the steps of a controller; during a rest it changes to the value of the
+        next note.
+        """
         from scipy.ndimage import gaussian_filter1d
 
         values = np.interp(self.at_s, self.at_s[audible], values[audible])
@@ -211,8 +214,9 @@ def _of_pitches(pitch: IntArray, levels: FloatArray, audible: BoolArray) -> Floa
 
 
 def _scaled(levels: FloatArray, audible: BoolArray) -> FloatArray:
-    """Convert loudness in decibels (N,) to values (N,) of a MIDI controller, so that the levels of the audible frames
-    fill its usual range."""
+    """Convert loudness in decibels (N,) to controller values (N,), so that the levels at ``audible`` times fill the
+    controller's usual range.
+    """
     low, middle, high = np.quantile(levels[audible], [_SHARE, 0.5, 1.0 - _SHARE])
     slope = min(
         _PER_DB, (_MIDDLE - _QUIETEST) / max(middle - low, 1e-6), (_LOUDEST - _MIDDLE) / max(high - middle, 1e-6)

@@ -39,6 +39,7 @@ def tuning(sound: Sound, rate_hz: int) -> float:
     Parameters
     ----------
     sound : float32 array, shape (n,)
+        Samples of one channel.
 
     Returns
     -------
@@ -63,6 +64,7 @@ def chroma(sound: Sound, rate_hz: int, size: int, hop: int, tuned: float) -> Flo
     Parameters
     ----------
     sound : float32 array, shape (n,)
+        Samples of one channel.
     size, hop : int
         Samples of a spectrum, and distance of spectra; the first is centred on the first sample.
     tuned : float
@@ -89,6 +91,7 @@ def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> FloatArra
     Parameters
     ----------
     sound : float32 array, shape (n,)
+        Samples of one channel.
     size, hop : int
         Samples of a spectrum, and distance of spectra; the first is centred on the first sample.
 

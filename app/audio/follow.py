@@ -104,6 +104,7 @@ def follow(
     Parameters
     ----------
     samples : int16 array, shape (n, channels)
+        Samples of the recording.
     beat_ticks : (N,) int64
         Ascending ticks of the beats to find; at least 2.
     progress : callable
@@ -118,6 +119,7 @@ def follow(
     AppError
         The recording is silent, the score has no notes, or the recording seems to be of another piece.
     Cancelled
+        ``stop_requested`` returned true.
     """
     reached = stoppable(progress, stop_requested)
     reached(0.0)
@@ -169,8 +171,8 @@ def _found(prepared: _Prepared, reached: Callable[[float], None]) -> tuple[Follo
 
 
 def _with_lines(prepared: _Prepared, chosen: Following | None) -> tuple[Following | None, RunnerUp | None]:
-    """Return the most confident of the warping's result and the likeliest positions at a constant tempo, and the
-    runner-up.
+    """Choose the most confident among the warping's result and the likeliest places at a constant tempo; also return
+    the second likeliest place.
 
     A warping may slip by a note among equal notes; a constant tempo cannot.
     """
@@ -196,12 +198,12 @@ def _with_lines(prepared: _Prepared, chosen: Following | None) -> tuple[Followin
 
 
 def _margin(following: Following) -> float:
-    """Return the mean confidence minus the limit above which it is a recording of this piece."""
+    """Mean confidence minus the limit above which a recording is considered to be of this piece; negative below it."""
     return following.mean_confidence - float(np.interp(following.share, _SHARES, (_SOME_RECOGNISED, RECOGNISED)))
 
 
 def _line(prepared: _Prepared, place: RecordingPlace) -> Warped:
-    """Return the alignment of a recording played at one constant tempo from a known place."""
+    """Alignment of a recording with the score at one constant tempo, from a known place."""
     length_s = prepared.shapes.shape[1] * CHROMA_S
     ends_s = np.array([0.0, length_s])
     there_s = place.start_s + ends_s / place.ratio
@@ -227,7 +229,9 @@ def _as_sure_as(whole: Following | None) -> float:
 
 
 def _part_limit(played: Sequence[Passage], recorded: RecordedSound) -> float:
-    """Return the mean confidence below which passages are considered to be of another piece."""
+    """Mean confidence below which a recording that has only passages of the score is considered to be of
+    another piece.
+    """
     lengths_s = [one.recording_end_s - one.recording_start_s for one in played]
     short = float(np.interp(max(lengths_s, default=0.0), _SHORT_S, (_SHORT_RECOGNISED, 0.0)))
     sounding = np.linalg.norm(recorded.chroma, axis=0)
@@ -268,7 +272,7 @@ def _followed(prepared: _Prepared, part: slice, jumps: Sequence[Jump] = ()) -> F
 
 
 def _refined(prepared: _Prepared, rough: Warped, pins: Pins) -> Following:
-    """Return the beats near a rough alignment, determined by the recording's onsets."""
+    """Find the times of the beats near a rough alignment, from the recording's onsets."""
     score, recorded, expected = prepared.score, prepared.recorded, prepared.expected
     times, found = on_onsets(expected, recorded, prepared.shapes, rough, pins)
     beat_s = score.tempo_map.seconds(prepared.beat_ticks.astype(np.float64))
@@ -342,8 +346,8 @@ def _confidence(
     times: FloatArray,
     found: FloatArray,
 ) -> FloatArray:
-    """Return the confidence of each beat, 0..1: whether the sound around it is more similar to the score than to the
-    transposed score, and whether onsets are at the expected times.
+    """Return the confidence of each beat, 0..1: higher if the sound around it is more similar to the score than to the
+    transposed score, and if onsets are at the expected times.
     """
     frames = np.arange(shapes.shape[1])
     at = np.interp((frames + 0.5) * CHROMA_S, beat_s, recording_s, left=-1.0, right=-1.0) / CHROMA_S
@@ -369,8 +373,9 @@ def _confidence(
 
 
 def _lengths(beat_s: FloatArray, recording_s: FloatArray) -> FloatArray:
-    """Return the natural logarithm (N,) of the length of the recorded beats around each beat, relative to the score and
-    the average of the recording."""
+    """For each beat the natural logarithm (N,) of the length of the recorded beats around it, relative to the score and
+    to the average of the recording.
+    """
     wide = min(_EVEN_BEATS, len(beat_s) - 1)
     lengths = (recording_s[wide:] - recording_s[:-wide]) / np.maximum(beat_s[wide:] - beat_s[:-wide], 1e-6)
     places = np.clip(np.arange(len(beat_s)) - wide // 2, 0, len(lengths) - 1)
@@ -394,7 +399,7 @@ def _squeezed(beat_s: FloatArray, lengths: FloatArray) -> tuple[UnmatchedSpan, .
 
 
 def _joined(spans: Iterable[UnmatchedSpan]) -> tuple[UnmatchedSpan, ...]:
-    """Return spans in order of time; those less than `MISSING_S` apart become one."""
+    """Order spans by time, and merge those less than `MISSING_S` apart."""
     result: list[UnmatchedSpan] = []
     for span in sorted(spans, key=lambda one: one.start):
         if result and span.start <= result[-1].end + MISSING_S:

@@ -22,7 +22,7 @@ from app.score.model import ControllerCurve, Score
 
 @dataclass(frozen=True)
 class FollowOptions:
-    """Properties taken from a recording in addition to its beats.
+    """Options for following a recording: properties taken from it in addition to the times of the beats.
 
     Attributes
     ----------
@@ -66,12 +66,12 @@ def listen(
     stop_requested: StopRequested = lambda: False,
     begins_s: float = 0.0,
 ) -> Followed:
-    """Compute the requested properties from a recording.
+    """Follow a recording, and compute the requested properties.
 
     Parameters
     ----------
     samples : int16 array, shape (n, channels)
-        At `RATE_HZ`.
+        Samples of the recording at `RATE_HZ`.
     path : path-like
         Path of the recording.
     begins_s : float
@@ -83,6 +83,7 @@ def listen(
         The recording cannot be followed or gives no dynamics, a stem cannot be decoded, or the result cannot be
         applied.
     Cancelled
+        ``stop_requested`` returned true.
     """
     beats_share = 0.6 if options.dynamics or options.notes else 1.0
 
@@ -130,6 +131,6 @@ def _curves(
 
 
 def take_over(project: Project, followed: Followed, path: str | os.PathLike[str]) -> Project:
-    """Return the project with the recording's properties applied. Raises UsageError: see `follow_recording`."""
+    """Apply the result of following a recording to the project. Raises UsageError as `follow_recording` does."""
     project = follow_recording(project, followed.following, path)
     return set_dynamics(shift_onsets(project, followed.shifts_s), followed.curves)

@@ -85,7 +85,7 @@ def player_gains(project: Project) -> dict[str, tuple[float, float]]:
 
 
 def recording_track(recording: AudioRecording, offset_s: float) -> MixTrack:
-    """Return a recording as a track of the mix, shifted by its offset."""
+    """Make a track of the mix from a recording, shifted by its offset in seconds."""
     return MixTrack([AudioSegment(round(offset_s * RATE_HZ), recording.samples)])
 
 
@@ -136,6 +136,7 @@ def mixdown(
     FileError
         The recording cannot be read.
     Cancelled
+        ``stop_requested`` returned true.
     """
     if project.audio is not None:
         recording = decode(project.audio.path, lambda share: progress(0.9 * share), stop_requested)

@@ -43,11 +43,13 @@ _LEAST_NOTES: Final = 8
 def note_onsets(
     samples: Samples, rate_hz: int, score: Score, offset_s: float, progress: Progress = lambda share: None
 ) -> dict[str, float]:
-    """Return the delay in seconds of notes against the score by note id, only for those that are clear.
+    """Find the delay in seconds of single notes of a recording against the score, by note id; notes without a clear
+    onset are omitted.
 
     Parameters
     ----------
     samples : int16 array, shape (n, channels)
+        Samples of the recording.
     score : Score
         Score aligned with the recording.
     offset_s : float
@@ -100,7 +102,9 @@ def _without_lateness(score: Score, shifts: dict[str, float]) -> dict[str, float
 
 
 def _shift(sound: Sound, at_s: float, hz: FloatArray, floor: float) -> float | None:
-    """Return the time difference at which frequencies begin to sound around a moment; None if it is unclear."""
+    """Find the time, relative to the moment ``at_s``, at which the frequencies ``hz`` begin to sound; None if it is
+    unclear.
+    """
     reach = round((_REACH_S + 2 * _EDGE_S) / _STEP_S)
     centre = round(at_s * ANALYSIS_RATE_HZ)
     first = centre - reach * _HOP - _SIZE // 2

@@ -38,7 +38,7 @@ _SURE: Final = 0.6
 
 @dataclass(frozen=True)
 class Estimate:
-    """Position of a recording.
+    """Estimated position of a recording relative to the score.
 
     Attributes
     ----------
@@ -70,6 +70,7 @@ def estimate_offset(
     Parameters
     ----------
     samples : int16 array, shape (n, channels)
+        Samples of the recording.
     progress : callable
         Called with the share 0..1 that is done.
     stop_requested : callable
@@ -80,6 +81,7 @@ def estimate_offset(
     AppError
         The recording is silent, or the score has no notes.
     Cancelled
+        ``stop_requested`` returned true.
     """
     reached = stoppable(progress, stop_requested)
     reached(0.0)
@@ -148,7 +150,9 @@ def _by_onsets(recorded: RecordedSound, expected: ExpectedSound, rough: Recordin
 
 
 def _likeness(recorded: RecordedSound, expected: ExpectedSound, place: RecordingPlace) -> float:
-    """Return the similarity of both chroma at an offset minus that with the transposed score: 0 for another piece."""
+    """Similarity of the chroma of score and recording at a place, minus the similarity of the transposed score: about 0
+    for another piece.
+    """
     lag = int(np.floor(place.start_s / CHROMA_S))
     expected_chroma = score_chroma(expected, place.ratio, place.start_s / CHROMA_S - lag)
     first, last = max(lag, 0), min(lag + expected_chroma.shape[1], recorded.chroma.shape[1])

@@ -73,16 +73,16 @@ def chroma_similarity(
     Parameters
     ----------
     times, found : (N,) float64
-        Seconds of the score, rising, and of the recording.
+        Ascending seconds of the score, and corresponding seconds of the recording.
     shifts : (S,) float64
-        Seconds added to ``found``.
+        Shifts in seconds of ``found`` that are compared.
     shapes, chroma : (12, n) float64
-        Of the score and of the recording, a frame every `CHROMA_S`.
+        Chroma of the score and of the recording, a frame every `CHROMA_S`.
 
     Returns
     -------
     (N, S) float64
-        -1..1; 0 outside the recording.
+        Similarity -1..1 for each onset and shift; 0 outside the recording.
     """
     middles = np.minimum(np.diff(times, append=times[-1] + _HEARD_S), _HEARD_S) / 2.0
     result = np.empty((len(times), len(shifts)))
@@ -105,15 +105,16 @@ def _even_path(strength: FloatArray, shifts: FloatArray, gaps_s: FloatArray, une
     Parameters
     ----------
     strength : (N, S) float64
+        Onset strength for each onset and shift.
     shifts : (S,) float64
-        Seconds.
+        Possible shifts in seconds.
     gaps_s : (N - 1,) float64
         Distance of adjacent onsets in seconds: the shorter, the higher the cost of different shifts.
 
     Returns
     -------
     (N,) int64
-        Indices of ``shifts``.
+        Index in ``shifts`` for each onset.
     """
     apart = uneven * (shifts[:, None] - shifts[None, :]) ** 2
     best = strength[0]

@@ -58,6 +58,7 @@ class OutputSink:
     Raises
     ------
     miniaudio.MiniaudioError
+        No backend can open an output.
     """
 
     def __init__(self, backends: tuple[miniaudio.Backend, ...]) -> None:
@@ -183,7 +184,7 @@ class Queue:
             return (self._put - self._played()) / self._rate_hz
 
     def unfetched_s(self) -> float:
-        """Return the seconds since the device last fetched sound."""
+        """Return the seconds since the device last fetched sound, which grow if the device was lost."""
         return self._now() - self._fetched_s
 
     def _played(self) -> float:

@@ -41,14 +41,14 @@ class Passage:
 
 
 def passages(score: FloatArray, recording: FloatArray, frame_s: float = CHROMA_S) -> tuple[Passage, ...]:
-    """Return the played passages of a score in order; of a repeat only the first time.
+    """Find the passages of a score that a recording plays, in order; of a repeated passage only the first time.
 
     Parameters
     ----------
     score, recording : (n, 12) float64
-        Chroma as shapes.
+        Chroma of both, normalised by `app.audio.score_sound.shape`.
     frame_s : float
-        Seconds of a frame.
+        Length of a frame in seconds.
 
     Returns
     -------
@@ -76,7 +76,7 @@ def passages(score: FloatArray, recording: FloatArray, frame_s: float = CHROMA_S
 
 
 def _path(score: FloatArray, recording: FloatArray) -> IntArray:
-    """Return the frame of the score for every frame of the recording."""
+    """Find the best path: for every frame of the recording the corresponding frame of the score."""
     count = len(score)
     places = np.arange(count)
     how = np.empty((len(recording), count), np.int8)
@@ -102,8 +102,8 @@ def _path(score: FloatArray, recording: FloatArray) -> IntArray:
 
 
 def _rising(runs: list[tuple[int, int]], path: IntArray) -> list[tuple[int, int]]:
-    """Return the ascending runs of the recording with the greatest total length, without the beginnings that were
-    played already.
+    """Select the runs of the recording that ascend in the score with the greatest total length, without beginnings that
+    repeat what was played already.
     """
     # By the last run: length, runs as they are cut.
     found: list[tuple[int, list[tuple[int, int]]]] = []

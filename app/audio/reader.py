@@ -19,7 +19,7 @@ _LEAST_LOOP: Final = RATE_HZ // 50
 
 
 class Reader:
-    """Reads the sound that follows.
+    """Reads sound from a mix in sequence.
 
     Parameters
     ----------
@@ -30,6 +30,7 @@ class Reader:
     speed : float
         Speed factor, 0.25..2; the pitch does not change.
     loop_s : (float, float), optional
+        Start and end of a range in seconds that is repeated.
     silent : bool
         Whether only time is needed and no sound.
     """
@@ -74,9 +75,10 @@ class Reader:
         Returns
         -------
         block : float32 array, shape (count, 2)
+            The samples.
         marks : list of Mark
-            Marks of the moments that do not follow from the previous mark; samples are counted from the first one ever
-            read.
+            Performance times that do not follow from the previous mark, such as after a jump; each is given for a
+            sample, counted from the first one ever read.
         """
         parts, missing = [], count
         while missing:
@@ -121,7 +123,7 @@ class Reader:
         return self._stretch.step(self._speed)
 
     def _position(self) -> int:
-        """Return the performance sample that is processed next."""
+        """Return the position in the mix, in samples, that is processed next."""
         if self._speed == 1.0 or self.silent:
             return self._at - len(self._waiting) if self._speed == 1.0 else self._at
         stream = round(self._stretch.position) + self._lead

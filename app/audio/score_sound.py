@@ -45,7 +45,7 @@ class RecordedSound:
 
 @dataclass(frozen=True)
 class ExpectedSound:
-    """The sound that a score lets expect: onsets and ends of notes in seconds, pitches, weights, and timbre."""
+    """Sound expected from a score: onsets and ends of its notes in seconds, pitches, weights, and timbre."""
 
     onset_s: FloatArray
     end_s: FloatArray
@@ -88,6 +88,7 @@ def analysis_sound(samples: Samples, rate_hz: int) -> Sound:
     Parameters
     ----------
     samples : int16 array, shape (n, channels)
+        The sound to convert.
     """
     mono = np.empty(len(samples), np.float32)
     for first in range(0, len(samples), _BLOCK):  # All of an hour would take gigabytes.
@@ -102,6 +103,7 @@ def recorded_sound(samples: Samples, rate_hz: int, progress: Progress) -> Record
     Parameters
     ----------
     samples : int16 array, shape (n, channels)
+        Samples of the recording.
     progress : callable
         Called with the share 0..1 that is done.
     """
@@ -122,8 +124,9 @@ def recorded_sound(samples: Samples, rate_hz: int, progress: Progress) -> Record
 
 
 def shape(chroma: FloatArray) -> FloatArray:
-    """Return chroma (12, F) with every frame as a unit direction, so that loudness does not matter; frames near silence
-    are shorter."""
+    """Normalise chroma (12, F) so that every frame is a unit vector, independent of loudness; frames near silence are
+    shorter.
+    """
     level = np.sqrt(chroma.sum(axis=0))
     chroma = np.sqrt(chroma)
     chroma = chroma - chroma.mean(axis=0)
@@ -175,9 +178,9 @@ def onset_edges(onsets: FloatArray, width_s: float) -> FloatArray:
 
 
 def confidence_of(likeness: float, onsets: float) -> float:
-    """Return the confidence, 0..1. Correct positions of test pieces with noise, reverberation and applause had likeness
-    of at least 0.38 and onsets of 0.36; wrong and transposed pieces had at most 0.29, and 0.3 for onsets if likeness
-    was above 0.2.
+    """Convert the similarity of chroma and of onsets at a place to a confidence, 0..1. Correct places of test pieces
+    with noise, reverberation and applause had a likeness of at least 0.38 and onsets of 0.36; wrong and transposed
+    pieces had at most 0.29, and 0.3 for onsets if the likeness was above 0.2.
     """
     return float(_rising(12.0 * (likeness - 0.34)) * _rising(8.0 * (onsets - 0.28)))
 

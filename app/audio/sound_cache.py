@@ -1,4 +1,4 @@
-"""Cache of rendered sound in unnamed files, so that memory is available for other purposes."""
+"""Cache of rendered sound in temporary files instead of in memory."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Shelved:
     Parameters
     ----------
     render : callable
-        Renderer that may be called from any thread; so may this object.
+        Renderer; it and this object may be called from any thread.
     """
 
     def __init__(self, render: Callable[[bytes], Samples]) -> None:
@@ -61,7 +61,7 @@ class Shelved:
         self._file: _File | None = None
 
     def __call__(self, midi: bytes) -> Samples:
-        """Return the sound of a MIDI file as samples, which are kept for the next time."""
+        """Return the sound of a MIDI file as samples, rendered only the first time."""
         samples = self._render(midi)
         with self._lock:
             try:

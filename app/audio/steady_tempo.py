@@ -34,7 +34,7 @@ _LEAST_S: Final = 6.0
 
 
 def steady_line(times: FloatArray, found: FloatArray, onsets: FloatArray) -> tuple[float, float] | None:
-    """Return the line on which the onsets of a recording lie.
+    """Find the straight line (constant tempo) on which the onsets of a recording lie.
 
     Parameters
     ----------

@@ -45,7 +45,7 @@ class TimeStretcher:
 
     @property
     def position(self) -> float:
-        """Return the position in the stream of the next step's output."""
+        """Return the position in the input stream, in samples, that the next output corresponds to."""
         return self._ideal
 
     def step(self, speed: float) -> Block:
@@ -65,7 +65,7 @@ class TimeStretcher:
         return out
 
     def _best(self, ideal: int) -> int:
-        """Return the position near the ideal one at which the sound continues the previous frame most smoothly."""
+        """Return the position near ``ideal`` at which the input continues the previous output most smoothly."""
         assert self._before is not None
         goes_on = self._before + HOP
         low = max(ideal - _SEARCH, self._first)

@@ -1,8 +1,8 @@
 """The built-in synthesiser, which renders a player's part phrase by phrase.
 
 A part is cut into phrases of some bars that are rendered independently, so that a piece is audible as soon as its first
-phrases are ready, and an edit only requires its own phrases anew. A phrase is identified by the bytes of its MIDI file.
-midirenderer stops at the last event, so silence for the tail follows.
+phrases are ready, and after an edit only the changed phrases are rendered again. A phrase is identified by the bytes of
+its MIDI file. midirenderer stops at the last event, so silence for the tail follows.
 
 Parts are rendered independently of other players; loudness and pan are applied by the mixer.
 """
@@ -51,7 +51,7 @@ class RenderedPhrase:
     Attributes
     ----------
     start, end : int
-        Performance time in samples; the end is that of the last tail.
+        Performance time in samples; the end includes the decay of the last notes.
     midi : bytes
         MIDI file that begins at the start; equal bytes give equal sound.
     """
@@ -162,8 +162,8 @@ def drum_phrases(hits: Sequence[PercussionHit], tempo_map: TempoMap) -> tuple[Re
 def program_of(part: Part, instrument: InstrumentMap | None) -> int:
     """Return the General MIDI program for a player's part.
 
-    The file's program if it suits the instrument; else the program of the instrument in the vocabulary or of its
-    substitute; else the file's if it is a wind instrument.
+    It is the file's program if that suits the instrument; else the program that the vocabulary gives for the instrument
+    or its substitute; else the file's program if that is a wind instrument.
     """
     names = [] if instrument is None else [*instrument.plays, *instrument.substitutes_for]
     table = vocabulary().instruments

@@ -32,6 +32,7 @@ class AudioSegment:
     start : int
         Performance time of the first sample, in samples; may be negative.
     samples : int16 array, shape (n,) or (n, 2)
+        Mono or stereo samples.
     """
 
     start: int

@@ -53,12 +53,12 @@ class Pins:
     recording_s: FloatArray
 
     def inside(self, recording_s: float) -> Pins:
-        """Return the pins within a recording of a length."""
+        """Return only those pins that are within a recording of this length in seconds."""
         there = (self.recording_s >= 0.0) & (self.recording_s <= recording_s)
         return Pins(self.score_s[there], self.recording_s[there])
 
     def within(self, start_s: float, end_s: float) -> Pins:
-        """Return the pins in a section of the score, in seconds of that section."""
+        """Return only those pins that are in a section of the score, with times relative to the section's start."""
         there = (self.score_s >= start_s) & (self.score_s < end_s)
         return Pins(self.score_s[there] - start_s, self.recording_s[there])
 
@@ -77,7 +77,7 @@ class Jump:
     recording_to_s: float
 
     def later(self, score_s: float) -> Jump:
-        """Return the jump in a score that begins earlier by an offset in seconds."""
+        """Return the jump for a score that has ``score_s`` additional seconds at its beginning."""
         return replace(self, from_s=self.from_s + score_s, to_s=self.to_s + score_s)
 
     def agrees_with(self, pins: Pins) -> bool:
@@ -100,8 +100,8 @@ class Warped:
     """Duration of the score in seconds."""
 
     def later(self, score_s: float, end_s: float) -> Warped:
-        """Return the warping of a whole score of which this is the section from ``score_s`` on; the whole ends at
-        ``end_s``, and everything outside the section is missing.
+        """Convert the alignment of a section of the score to one of the whole score. The section begins at ``score_s``,
+        the whole score ends at ``end_s``, and everything outside the section counts as missing.
         """
         last_s = score_s + self.length_s
         missing = tuple(UnmatchedSpan(span.start + score_s, span.end + score_s) for span in self.missing)
@@ -123,12 +123,12 @@ class Warped:
 def dynamic_time_warping(
     score: FloatArray, recording: FloatArray, pins: Pins = NO_PINS, jumps: Sequence[Jump] = ()
 ) -> Warped:
-    """Return the corresponding frames by dynamic time warping.
+    """Align a score with a recording by dynamic time warping.
 
     Parameters
     ----------
     score, recording : (12, n) float64
-        Chroma as shapes, a frame every `CHROMA_S`.
+        Chroma of both, normalised by `app.audio.score_sound.shape`, a frame every `CHROMA_S`.
     jumps : sequence of Jump
         Jumps in order, in agreement with the pins.
     """
@@ -165,8 +165,8 @@ def played_passages(score: FloatArray, recording: FloatArray) -> tuple[Passage, 
 def _stretches(
     ours: FloatArray, theirs: FloatArray, pins: Pins, jumps: Sequence[Jump], frame_s: float
 ) -> list[tuple[int, int, int, int]]:
-    """Return first and last frames of both between which the path runs: from the beginning, a pin or a jump to the
-    next.
+    """Divide both chroma sequences at pins and jumps: for each section the first and last frame of ``ours`` and of
+    ``theirs``.
     """
     cuts = [(at, at, there, there) for at, there in zip(pins.score_s, pins.recording_s, strict=True)]
     cuts += [(jump.from_s, jump.to_s, jump.recording_from_s, jump.recording_to_s) for jump in jumps]
@@ -197,8 +197,9 @@ def _path(
 
 
 def _through(pins: Pins, x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return a curve of score seconds and recorded seconds (N,) that passes exactly through the user's pins and stays
-    ascending."""
+    """Bend the alignment ``x`` (score seconds), ``y`` (recorded seconds) so that it passes exactly through the user's
+    pins and still ascends; both (N,).
+    """
     if not len(pins.score_s):
         return x, y
     apart = np.abs(x[:, None] - pins.score_s).min(axis=1) > CHROMA_S
@@ -211,13 +212,13 @@ def _through(pins: Pins, x: FloatArray, y: FloatArray) -> tuple[FloatArray, Floa
 
 
 def _sounding(frames: FloatArray, least: float) -> BoolArray:
-    """Return for each frame (F,) of chroma (F, 12) whether it is louder than ``least``."""
+    """Mask (F,) of the frames of chroma (F, 12) that are louder than ``least``."""
     result: BoolArray = np.linalg.norm(frames, axis=1) > least
     return result
 
 
 def _alone(frames: FloatArray, matched: IntArray) -> BoolArray:
-    """Return for each frame (F,) of chroma (F, 12) whether it sounds but is not among the ``matched`` frames."""
+    """Mask (F,) of the frames of chroma (F, 12) that sound but are not among the ``matched`` frames."""
     alone = _sounding(frames, _LOUD)
     alone[matched] = False
     return alone
@@ -247,8 +248,8 @@ def _pooled(shapes: FloatArray, count: int) -> FloatArray:
 
 
 def _with_fillers(frames: FloatArray, step: int) -> tuple[FloatArray, IntArray]:
-    """Return frames with silence inserted before every group and at the end, and the original index of each (-1 for
-    inserted ones).
+    """Insert a frame of silence before every ``step`` frames and at the end; returns the frames, and the original index
+    of each (-1 for inserted ones).
     """
     places = np.append(np.arange(0, len(frames), step), len(frames))
     filled = np.insert(frames, places, 0.0, axis=0)
@@ -269,7 +270,7 @@ def _smoothed(x: FloatArray, y: FloatArray) -> FloatArray:
 
 
 def _line_at(x: FloatArray, y: FloatArray, weights: FloatArray) -> float:
-    """Return the value at 0 of the line through weighted points."""
+    """Fit a straight line to weighted points, and return its value at ``x`` = 0."""
     total = float(weights.sum())
     mean_x, mean_y = float((weights * x).sum()) / total, float((weights * y).sum()) / total
     spread = float((weights * (x - mean_x) ** 2).sum())
@@ -278,8 +279,8 @@ def _line_at(x: FloatArray, y: FloatArray, weights: FloatArray) -> float:
 
 
 def along(x: FloatArray, at: FloatArray, by: FloatArray, reach: float) -> FloatArray:
-    """Return the corrections of positions interpolated from those of ``at`` (ascending): smaller with distance, and 0
-    beyond a reach or the next of them.
+    """Interpolate corrections for the positions ``x`` from the corrections ``by`` given at the ascending positions
+    ``at``; they decrease with distance and are 0 beyond ``reach`` or the next given position.
     """
     if not len(at):
         return np.zeros(len(x))

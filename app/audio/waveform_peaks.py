@@ -20,12 +20,12 @@ _FULL_SCALE = np.float32(1.0 / 32768.0)
 
 
 class Peaks:
-    """A pyramid of least and greatest samples.
+    """Least and greatest samples of a recording, precomputed at several resolutions.
 
     Parameters
     ----------
     samples : int16 array, shape (samples, channels)
-        Samples, which are kept and not copied.
+        Samples of the recording; not copied.
     """
 
     def __init__(self, samples: Samples, rate_hz: int) -> None:
@@ -85,7 +85,7 @@ class Peaks:
 
 
 def _finest(samples: Samples) -> tuple[Samples, Samples]:
-    """Return extremes of every `BASE_SAMPLES`, computed in pieces that fit the processor's cache."""
+    """Least and greatest value of every `BASE_SAMPLES` samples, computed in pieces that fit the processor's cache."""
     lows, highs = [], []
     for start in range(0, len(samples), _PIECE):
         low, high = _over_channels(samples[start : start + _PIECE])
@@ -95,8 +95,8 @@ def _finest(samples: Samples) -> tuple[Samples, Samples]:
 
 
 def _over_channels(samples: Samples) -> tuple[Samples, Samples]:
-    """Return least and greatest samples over channels, one channel at a time, since numpy is slow along a short
-    axis.
+    """Least and greatest value over the channels for each sample, one channel at a time, since numpy is slow along a
+    short axis.
     """
     if not samples.shape[1]:
         return np.zeros(len(samples), np.int16), np.zeros(len(samples), np.int16)
@@ -107,14 +107,16 @@ def _over_channels(samples: Samples) -> tuple[Samples, Samples]:
 
 
 def _bins(values: Samples, size: int, of: np.ufunc) -> Samples:
-    """Return extremes of every ``size`` values; the last bin may be shorter."""
+    """Apply ``of`` (`np.minimum` or `np.maximum`) to every ``size`` values; the last bin may be shorter."""
     whole = len(values) // size * size
     result: Samples = of.reduce(values[:whole].reshape(-1, size), axis=1)
     return result if whole == len(values) else np.append(result, of.reduce(values[whole:]))
 
 
 def _reduced(values: Samples, first: IntArray, last: IntArray, of: np.ufunc) -> Samples:
-    """Return extremes of ``values[first:last]`` for every column; adjacent ones may share a value."""
+    """Apply ``of`` (`np.minimum` or `np.maximum`) to ``values[first:last]`` for every column; adjacent columns may
+    share a value.
+    """
     # reduceat takes pairs of indices; an end at the array's own end must be left to its padding.
     padded = np.append(values, values[-1:])
     indices = np.empty(2 * len(first), np.int64)

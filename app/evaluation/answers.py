@@ -39,12 +39,13 @@ class Answer(msgspec.Struct, frozen=True, kw_only=True, gc=False):
     position : int
         Number of the clip or pair in the order of this viewer, from 1.
     presentation : {"single", "pair"}
+        Whether the clip was shown alone or beside another one.
     side : {"left", "right", ""}
         Side within a pair; empty for a single clip.
     clip : str
         Code of the clip as in the key.
     aspect, scale : str
-        Question that was answered.
+        The question: the aspect that was judged, and the scale of the answer.
     answer : int or None
         1 (worst) to `STEPS` (best); None where the viewer chose "cannot judge".
     seconds : float
@@ -93,6 +94,7 @@ class ViewerFile(msgspec.Struct, frozen=True):
     Attributes
     ----------
     path : Path
+        The file that was read.
     answers : tuple of Answer
         Answers, at least one, all by the same viewer.
     lines : tuple of int
@@ -126,7 +128,7 @@ def read_answers(path: Path) -> ViewerFile:
 
 
 def decode_answers(content: bytes, path: Path) -> ViewerFile:
-    """Return the answers in a file's content; ``path`` is used in errors. Raises as `read_answers`."""
+    """Parse the content of a viewer's file; ``path`` names the file in errors. Raises as `read_answers`."""
     file = str(path)
     try:
         text = content.decode("utf-8-sig")
@@ -194,7 +196,7 @@ def _answer(row: Sequence[str], line: int, file: str) -> Answer:
 
 
 def _check_whole(found: ViewerFile) -> None:
-    """Check that the file is of one viewer and one evaluation, without repeated answers."""
+    """Raise FileError unless the file is of one viewer and one evaluation, without repeated answers."""
     known: dict[tuple[int, str, str, str, str], int] = {}
     for answer, line in zip(found.answers, found.lines, strict=True):
         if (answer.viewer, answer.evaluation) != (found.viewer, found.evaluation):

@@ -68,6 +68,7 @@ class ClipScene:
     Attributes
     ----------
     span : FrameSpan
+        Frames of the excerpt.
     sound : (N, 2) float32
         Sound at `RATE_HZ`.
     cameras : dict of float to object
@@ -103,7 +104,7 @@ def draw_ours(
 
 
 def cut_video(video: ImportedVideo, size: tuple[int, int], files: Mapping[Path, ClipScene], report: Progress) -> None:
-    """Cut the excerpts from a video, and add the sound common to all variants."""
+    """Cut the excerpts from a video, and give them the sound that all variants share."""
     drawn = _drawn(files, report)
     for path, scene in files.items():
         with pictures_of(video, scene.span.first_frame_s, size) as draw:

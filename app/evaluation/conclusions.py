@@ -21,7 +21,7 @@ RELIABLE_ALPHA: Final = 0.667
 
 
 class Conclusions(msgspec.Struct, frozen=True):
-    """Sentences in the order of the report."""
+    """Conclusions and warnings of an evaluation as messages, in the order of the report."""
 
     may: tuple[Message, ...]
     may_not: tuple[Message, ...]
@@ -75,7 +75,7 @@ def _may_not(results: EvaluationResults) -> Iterator[Message]:
 
 
 def _shown(steps: float) -> float:
-    """Return a value rounded to the reported precision, never "-0"."""
+    """Round a value in steps of the scale to the precision of the report; never "-0"."""
     return round(steps, 2) + 0.0
 
 

@@ -23,7 +23,7 @@ _FIRST_DIGITS: Final = "abcdf"
 
 @dataclass(frozen=True)
 class ClipPair:
-    """A clip, or two side by side, as shown to a viewer.
+    """One item shown to a viewer: a single clip, or two clips side by side.
 
     Attributes
     ----------
@@ -54,7 +54,8 @@ def codes(count: int, seed: int) -> tuple[str, ...]:
 
 
 def williams(count: int) -> tuple[tuple[int, ...], ...]:
-    """Return a square of orders of the numbers 0 to count - 1, with twice as many rows if the count is odd.
+    """Return a Williams square: orders (rows) of the numbers 0 to count - 1, with twice as many rows if the count is
+    odd.
 
     Every number is equally often at every position, and directly precedes every other number equally often.
     """
@@ -77,6 +78,7 @@ def pairs_of(clips: Sequence[tuple[str, Variant, int]]) -> tuple[tuple[str, str]
     Parameters
     ----------
     clips : sequence of (code, variant, excerpt)
+        All clips, with the number of the excerpt.
     """
     by_place = {(variant, excerpt): code for code, variant, excerpt in clips}
     variants = list(dict.fromkeys(variant for _, variant, _ in clips))

@@ -33,14 +33,15 @@ class Excerpt:
 def choose_excerpts(
     project: Project, count: int, length_s: float, within_s: tuple[float, float] | None = None
 ) -> tuple[Excerpt, ...]:
-    """Return excerpts with much playing in order: the piece is divided into as many parts as excerpts, and the fullest
-    span of each is chosen. Short pieces give fewer, or a single shorter one.
+    """Choose excerpts with much playing, in order: the piece is divided into ``count`` parts, and the span with most
+    notes of each is chosen. Short pieces give fewer excerpts, or a single shorter one.
 
     Parameters
     ----------
-    project : Project
     count : int
+        Number of excerpts.
     length_s : float
+        Length of each in seconds.
     within_s : (float, float), optional
         Span of seconds that is covered by a film.
 

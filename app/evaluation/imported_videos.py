@@ -40,6 +40,7 @@ class ImportedVideo:
     offset_s : float
         Performance time of the first picture in seconds.
     facts : VideoFacts
+        Size, frame rate and length of the video.
     samples : (N, 2) int16 or None
         Sound at `RATE_HZ`; None if there is none.
     confidence : float or None
@@ -93,7 +94,8 @@ def import_video(
     stop_requested: StopRequested,
     follow: bool = False,
 ) -> tuple[ImportedVideo, Project]:
-    """Return a video with its position, and the project, at the video's tempo if requested.
+    """Open a video and find its position in the piece; returns both the video and the project, changed to the video's
+    tempo if requested.
 
     Parameters
     ----------
@@ -109,6 +111,7 @@ def import_video(
     AppError
         The sound cannot be followed.
     Cancelled
+        ``stop_requested`` returned true.
     """
     facts = video_facts(str(path))
     if not facts.has_sound:
@@ -126,7 +129,7 @@ def import_video(
 
 @contextlib.contextmanager
 def _about(path: Path) -> Iterator[None]:
-    """Add the video's name to errors about its sound."""
+    """Context manager that adds the video's name to errors about its sound."""
     try:
         yield
     except AppError as error:
@@ -173,7 +176,9 @@ def _followed(
 
 @contextlib.contextmanager
 def pictures_of(video: ImportedVideo, from_s: float, size: tuple[int, int]) -> Iterator[Callable[[float], Picture]]:
-    """Yield a function that returns a video's whole picture, centred in a frame, at ascending performance times."""
+    """Context manager for a function that returns the video's picture at ascending performance times, whole and centred
+    in a frame of the given size.
+    """
     facts = video.facts
     share = min(size[0] / facts.width, size[1] / facts.height)
     inner = (max(round(facts.width * share / 2) * 2, 2), max(round(facts.height * share / 2) * 2, 2))

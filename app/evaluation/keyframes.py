@@ -67,10 +67,12 @@ class PlayerKeyframes:
     start_s, fps : float
         Performance time of the first frame in seconds, and frames per second.
     rotations : (F, J, 4) float64
-        NaN for eyes without bones in the file, which then move as in the performance.
+        Rotations of J joints in F frames; NaN for eyes without bones in the file, which then move as in the
+        performance.
     hips_m : (F, 3) float64
-        Place of the hips as in `app.motion.model.Motion`.
+        Position of the hips as in `app.motion.model.Motion`.
     performer : Performer
+        The player to whom the motion is applied.
     doubling : bool
         Whether the musician also plays other instruments.
     """
@@ -106,7 +108,9 @@ class PlayerKeyframes:
         return self._held(seen, pose)
 
     def _held(self, seen: Pose, pose: Pose) -> Pose:
-        """Return a pose with the instrument moved to the supporting hand, unless it is put aside."""
+        """Return the pose ``seen`` (from the file) with the instrument moved to the hand that supports it, unless it is
+        put aside.
+        """
         hold, instrument = self.performer.grip, self.performer.instrument
         side = instrument.hold.support_hand
         hand = next((one for one in hold.hands if one.side == side), hold.hands[0])
@@ -223,7 +227,9 @@ def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
 
 
 def _of_one(path: Path, stems: Mapping[str, str], requested: Sequence[str]) -> dict[str, Path]:
-    """Return the file with its player: by its name, else the only player of the evaluation."""
+    """Find the player of a single motion file by its name, or else the only player of the evaluation; returns the path
+    by player id.
+    """
     named = [player_id for player_id, stem in stems.items() if stem.casefold() == path.stem.casefold()]
     owners = named or (list(requested) if len(requested) == 1 else [])
     return {owners[0]: path} if owners else {}
@@ -299,7 +305,9 @@ def _hangs_on_hips(skeleton: Skeleton, joint: int) -> bool:
 
 
 def _hips(clip: BvhClip, hips: int) -> tuple[FloatArray, FloatArray]:
-    """Return places (F, 3) in metres and rotations (F, 4) of the hips, including all parents."""
+    """World positions (F, 3) in metres and rotations (F, 4) of the hips, with the motion of all their
+    parents included.
+    """
     frames = len(clip.rotations_xyzw)
     place_cm, turn = np.zeros((frames, 3)), np.tile(quaternion.IDENTITY, (frames, 1))
     joint = hips

@@ -78,6 +78,7 @@ def make_evaluation(
     AppError
         The request does not fit, a video cannot be used, no performer can be drawn, or files cannot be written.
     Cancelled
+        ``stop_requested`` returned true.
     """
     variants = variants_of(request)
     folder = Path(restored(request.folder))

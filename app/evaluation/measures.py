@@ -57,6 +57,7 @@ class BreathVisibility(msgspec.Struct, frozen=True):
     Attributes
     ----------
     breaths : int
+        Number of breaths that were measured.
     chest_mm, shoulders_mm : Visible
         Height in millimetres above the hips of the upper chest, and of the middle of the shoulders.
     ribs, mouth : Visible
@@ -76,9 +77,11 @@ class VariantPlayerMeasures(msgspec.Struct, frozen=True):
     Attributes
     ----------
     lag : LagMeasure
+        Lag of visible actions behind the sound.
     head_mm_s : float or None
         Quantity of motion in mm/s, see `quantity_of_motion_mm_s`.
     breath : BreathVisibility
+        Visibility of the player's breaths.
     notes : int
         Number of notes in the measured frames.
     contact : float or None
@@ -94,7 +97,7 @@ class VariantPlayerMeasures(msgspec.Struct, frozen=True):
 
 
 class VariantMeasures(msgspec.Struct, frozen=True):
-    """Measures of a variant, without players that cannot be shown."""
+    """Measures of all visible players of a variant."""
 
     variant: Variant
     players: tuple[VariantPlayerMeasures, ...]
@@ -164,7 +167,7 @@ def motions_of(performance: Performance) -> dict[str, Motion]:
 
 
 def measure_player(performance: Performance, performer: Performer, motion: Motion) -> VariantPlayerMeasures:
-    """Measure how well a motion plays the notes of its player, and how smoothly it moves."""
+    """Measure one player's motion: lag of the controls, quantity of head motion, visible breathing, and contacts."""
     plan = performance.plan(performer.player)
     fps = float(motion.fps)
     times_s = motion.first_frame_s + np.arange(motion.frames) / fps
@@ -193,6 +196,7 @@ def quantity_of_motion_mm_s(place_m: FloatArray, fps: float, counted: BoolArray)
     Parameters
     ----------
     place_m : (F, 3) float64
+        Position of the point in metres.
     counted : (F,) bool
         Frames to include, usually those with a note; the result is None if they are too few to filter.
     """

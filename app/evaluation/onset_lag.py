@@ -27,7 +27,7 @@ _PHRASE_S: Final = 0.15
 
 
 class LagMeasure(msgspec.Struct, frozen=True):
-    """Lags of notes within phrases for which a control moves.
+    """Lag of visible actions behind the sound, over the notes within phrases for which a control moves.
 
     Attributes
     ----------
@@ -67,6 +67,7 @@ def measure_lag(
     values : mapping of str to (F,)
         Value of each control in each frame.
     times_s : (F,) float64
+        Time of each frame in seconds.
     """
     last_s: dict[int, float] = {}
     for control in controls:

@@ -25,7 +25,7 @@ _RESOURCES: Final = "evaluation"
 
 
 def page(key: EvaluationKey, table: Sequence[Order], clips: Path) -> bytes:
-    """Return the page.
+    """Return the HTML page of the questionnaire.
 
     Parameters
     ----------

@@ -85,6 +85,7 @@ def made_by_process(
     AppError
         As `app.evaluation.make.make_evaluation`, or the process ended unexpectedly.
     Cancelled
+        ``stop_requested`` returned true.
     """
     with scratch_folder() as folder, (folder / "complaint.txt").open("w+b") as printed:
         job = EvaluationJob(encode(project, folder / _BESIDE), str(folder), request)

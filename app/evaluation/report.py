@@ -84,7 +84,7 @@ def _table(table: ResultTable) -> list[str]:
 
 
 def _plain(words: str) -> str:
-    """Return text with Markdown characters escaped, for names of pieces and players."""
+    """Escape characters with a meaning in Markdown, for names of pieces and players."""
     return "".join(f"\\{character}" if character in "\\|*_`<>[]#" else character for character in words)
 
 

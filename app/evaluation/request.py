@@ -49,9 +49,11 @@ class EvaluationRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
     bars : (int, int) or None
         First and last bar of a single excerpt; None to choose excerpts automatically.
     excerpts : int
+        Number of automatically chosen excerpts.
     excerpt_s : float
-        Number and length in seconds of automatically chosen excerpts.
+        Their length in seconds.
     view : str
+        View of the players as in ``suisou film --view``.
     player_ids : tuple of str
         Players that the view shows.
     size : (int, int)

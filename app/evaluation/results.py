@@ -32,7 +32,7 @@ PRESENTATIONS: Final[tuple[Presentation, ...]] = get_args(Presentation)
 
 
 class Question(msgspec.Struct, frozen=True):
-    """A question about every variant, for single clips or for pairs."""
+    """A question about the variants: presentation (single clips or pairs), aspect and scale."""
 
     presentation: Presentation
     aspect: Aspect
@@ -56,7 +56,8 @@ class Contrast(msgspec.Struct, frozen=True):
     Attributes
     ----------
     comparison : Comparison
-        First minus second variant: of clips shown side by side for pairs, else of clips of the same excerpt.
+        Test of the difference, first minus second variant: between clips shown side by side for pairs, else between
+        clips of the same excerpt.
     difference : Summary
         Summary of the same differences.
     corrected_p : float or None
@@ -72,7 +73,7 @@ class Contrast(msgspec.Struct, frozen=True):
 
     @property
     def significant(self) -> bool:
-        """True if the difference is significant."""
+        """True if the corrected probability is below `SIGNIFICANT`."""
         return self.corrected_p is not None and self.corrected_p < SIGNIFICANT
 
 
@@ -106,7 +107,9 @@ class ManipulationCheck(msgspec.Struct, frozen=True):
 
 
 class OrderEffect(msgspec.Struct, frozen=True):
-    """Increase of answers in the second half of a session that variants and questions do not explain."""
+    """Effect of tiredness or practice: change of the answers in the second half of a session that variants and
+    questions do not explain.
+    """
 
     presentation: Presentation
     later: Summary
@@ -118,7 +121,7 @@ class EvaluationResults(msgspec.Struct, frozen=True):
     Attributes
     ----------
     viewers : tuple of str
-        Sorted ids.
+        Ids of the viewers, sorted.
     incomplete : tuple of str
         Viewers with fewer answers than others.
     unvaried : tuple of str

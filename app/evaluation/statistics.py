@@ -27,7 +27,9 @@ class Summary(msgspec.Struct, frozen=True):
     Attributes
     ----------
     viewers : int
+        Number of viewers.
     mean, median : float
+        Mean and median over the viewers.
     deviation : float or None
         Standard deviation of the sample; None for a single viewer.
     low, high : float or None

@@ -38,7 +38,7 @@ def tables(results: EvaluationResults, measures: Sequence[VariantMeasures], lang
 
 
 def variant_name(variant: Variant, language: str) -> str:
-    """Return the name of a variant in a language."""
+    """Return the name of a variant for readers, in ``language``."""
     return text(Message(f"results.variant_{variant}"), language)
 
 

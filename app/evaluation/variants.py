@@ -36,7 +36,7 @@ class LateFingers(Performance):
 
 
 def performance_of(project: Project, variant: Variant) -> Performance:
-    """Return a project's performance in a generated variant."""
+    """Return the performance of a project as the given variant shows it."""
     if variant == "still":
         return Performance(_without_acting(project))
     return (LateFingers if variant == "shifted" else Performance)(project)

@@ -1,4 +1,4 @@
-"""Viewers' files, tabulated with the key and measures found beside them."""
+"""Reads viewers' files, with the key and the measures found beside them, and tabulates them."""
 
 from __future__ import annotations
 

@@ -87,8 +87,8 @@ class _Filling(Formatter):
 
 
 def _after(value: str, literal: str) -> str:
-    """Return the text after a value, with a space between Japanese and Latin letters or digits, and none within
-    Japanese.
+    """Return the template's text ``literal`` that follows a value, with a space between Japanese and Latin letters or
+    digits and none within Japanese.
     """
     words = literal.removeprefix(" ")
     if _JAPANESE_START.match(words):
@@ -100,7 +100,7 @@ def _after(value: str, literal: str) -> str:
 
 
 def _before(text: str, literal: str, value: str) -> str:
-    """Return the text followed by a value; spaces as in `_after`."""
+    """Return the text so far followed by a value; spaces as in `_after`."""
     words = text.removesuffix(" ")
     if _JAPANESE_END.search(literal.removesuffix(" ")):
         if _LATIN_START.match(value):

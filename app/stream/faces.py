@@ -32,7 +32,7 @@ VRM_PRESETS: Final[Mapping[str, Mapping[str, float]]] = {
 
 @dataclass(frozen=True, eq=False)
 class FaceLayout:
-    """Names of the sent face shapes, and the calculation of their values from morph weights.
+    """The N face shapes that a receiver expects by name, and the calculation of their values from morph weights.
 
     Attributes
     ----------

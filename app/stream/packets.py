@@ -44,7 +44,7 @@ class Head:
 
 
 class Packets:
-    """Messages of a frame as bundles in their order."""
+    """Prebuilt OSC bundles with all messages of a frame."""
 
     def __init__(self, heads: Sequence[Head]) -> None:
         self.floats = sum(head.floats for head in heads)

@@ -56,7 +56,7 @@ class SendOutcome(Enum):
 
 
 def is_loopback(host: str) -> bool:
-    """Return whether data sent to this host stays on this computer."""
+    """Return whether data sent to this host name or address stays on this computer."""
     if host.strip().casefold() == "localhost":
         return True
     try:
@@ -66,7 +66,7 @@ def is_loopback(host: str) -> bool:
 
 
 def checked_port(port: int) -> int:
-    """Return the port. Raises StreamError if no program may listen on it."""
+    """Return ``port`` if it is a valid port number. Raises StreamError otherwise."""
     if not LEAST_PORT <= port <= MOST_PORT:
         raise StreamError("stream.port", port=port, least=LEAST_PORT, most=MOST_PORT)
     return port

@@ -33,7 +33,7 @@ IN_THE_MIDDLE = StagePosition(0.0, 0.0, 0.0)
 
 
 class Sent:
-    """A performer in the form that is sent: bones with names, face and instrument.
+    """Converts a performer's poses to VMC messages: bones by name, face, and instrument.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ class Sent:
     def datagrams(
         self, pose: Pose, time_s: float, stage: StagePosition = IN_THE_MIDDLE, beside: Sequence[Pose] = ()
     ) -> list[bytes]:
-        """Return the packets of a pose.
+        """Convert a pose to the network packets to send.
 
         Parameters
         ----------

@@ -34,7 +34,7 @@ def _japanese() -> tuple[dict[str, str], tuple[tuple[re.Pattern[str], str], ...]
 
 
 def detail_text(detail: str, language: str, label: Label = lambda kind, name: name) -> str:
-    """Return the detail of a message in a language.
+    """Translate the detail of a message (the words of a library or of the operating system) to a language.
 
     Parameters
     ----------
