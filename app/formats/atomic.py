@@ -1,4 +1,4 @@
-"""Atomic file writing: a file appears complete or not at all."""
+"""Atomic writing of files: a file appears complete or not at all."""
 
 from __future__ import annotations
 
@@ -50,6 +50,7 @@ def atomic_write(
     Yields
     ------
     binary file
+        The temporary file, open for writing.
 
     Raises
     ------
@@ -113,7 +114,7 @@ def _new_partial(folder: Path) -> tuple[Path, BinaryIO]:
 
 
 def _rename(stream: BinaryIO, partial: Path, target: Path) -> None:
-    """Rename a written file to its final name; it stays locked until then."""
+    """Rename a written file to its final name; it stays locked until it is renamed."""
     if sys.platform == "win32":
         stream.close()
     partial.replace(target)

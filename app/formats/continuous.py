@@ -1,4 +1,4 @@
-"""Chooses the signs of quaternions so that sequences of rotations are continuous."""
+"""Choice of quaternion signs so that sequences of rotations are continuous."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from app.arrays import AnyFloatArray, SingleArray
 
 
 def continuous(rotations_xyzw: AnyFloatArray) -> SingleArray:
-    """Flip the signs of unit quaternions (F, ..., 4) so that each is close to the previous frame's.
+    """Return unit quaternions (F, ..., 4) with signs chosen so that each is close to the previous frame's.
 
-    Both signs mean the same rotation, but a reader that interpolates the numbers would rotate the long way round
+    Both signs mean the same rotation, but a program that interpolates the numbers would rotate the long way round
     between opposite signs.
     """
     values = np.array(rotations_xyzw, dtype=np.float64)

@@ -1,4 +1,5 @@
-"""Cubic curves through few keys: between two keys runs the cubic that best fits the motion's frames.
+"""Keyframe reduction with cubic curves: the curve between two keys is the cubic that best fits the motion's frames
+there.
 
 Each span starts and ends at the values of its keys, with slopes fitted by least squares to the frames in between. Keys
 are frames of a clip (`app.formats.keys`), and slopes follow from the clip. The basis is Hermite's; source: Khronos,
@@ -25,8 +26,11 @@ _PASSES = 8
 
 @cache
 def _basis(length: int) -> tuple[FloatArray, FloatArray]:
-    """Return the effects (length + 1, 2) of both slopes of a cubic relative to the straight line, and their least
-    squares inverse (2, length + 1); slopes are changes over the whole span."""
+    """Return two matrices for spans of ``length`` frames, by which slopes are fitted.
+
+    The first (length + 1, 2) converts the slopes at both ends to deviations from a straight line, the second (2, length
+    + 1) is its least-squares inverse. Slopes are changes over the whole span.
+    """
     share = np.arange(length + 1) / length
     effects = np.stack([share**3 - 2.0 * share**2 + share, share**3 - share**2], axis=1)
     if length == 1:
@@ -46,8 +50,9 @@ def span_slopes(values: AnyFloatArray, keys: AnyIntArray) -> FloatArray:
 
 
 def curved_values(values: AnyFloatArray, kept: BoolArray) -> FloatArray:
-    """Return the values (L, F, D) of L curves with D components in F frames: cubics between the kept frames (L, F),
-    constant after the last key."""
+    """Return the values (L, F, D) of L curves with D components in F frames if only the frames in the mask ``kept`` (L,
+    F) are keys: cubics between them, constant after the last one.
+    """
     frames = np.arange(values.shape[1])
     last = np.where(kept, frames, 0).max(axis=1)
     rows = np.arange(len(values))[:, None]
@@ -60,8 +65,8 @@ def curved_values(values: AnyFloatArray, kept: BoolArray) -> FloatArray:
 
 
 def cubic_values(values: FloatArray, slopes: FloatArray, keys: AnyIntArray, frames: int) -> FloatArray:
-    """Values (F,) at all frames of cubics with values (K,) and slopes (K - 1, 2) per frame at keys (K,); constant
-    before and after.
+    """Return the values (F,) at all frames of cubics through values (K,) with slopes (K - 1, 2) per frame at keys (K,);
+    constant before the first and after the last key.
     """
     at = np.arange(frames)
     before = np.clip(np.searchsorted(keys, at, side="right") - 1, 0, len(keys) - 2)
@@ -89,8 +94,8 @@ def cubic_keys(values: AnyFloatArray) -> BoolArray:
 
     Notes
     -----
-    Spans are halved until each is accurate enough, all of one length at once. Then keys are removed as long as the rest
-    is accurate enough: a single key, or two replaced by one in the middle.
+    Spans are halved until each is accurate enough; those of equal length are processed together. Then keys are removed
+    while the result stays accurate enough: single keys, or two keys replaced by one in the middle.
     """
     lanes, frames, _ = values.shape
     kept = np.zeros((lanes, frames), bool)
@@ -126,7 +131,9 @@ def _halved(values: AnyFloatArray) -> BoolArray:
 
 
 def _without_every_second(values: AnyFloatArray, kept: BoolArray, first: int) -> int:
-    """Remove every second key that is not needed, in place; returns their number."""
+    """Remove those keys that are not needed among every second one, counted from ``first``, in place; return their
+    number.
+    """
     lanes, frames = np.nonzero(kept)
     rank = np.arange(len(lanes)) - np.searchsorted(lanes, np.arange(len(kept)))[lanes]
     inner = np.zeros(len(lanes), bool)
@@ -140,8 +147,8 @@ def _without_every_second(values: AnyFloatArray, kept: BoolArray, first: int) ->
 
 
 def _with_one_of_two(values: AnyFloatArray, kept: BoolArray, first: int) -> int:
-    """Replace two of every three keys by one in the middle where that is accurate enough, in place; returns the number
-    of keys saved.
+    """Replace two of every three keys, counted from ``first``, by one in the middle if the result is accurate enough,
+    in place; return the number of keys saved.
     """
     lanes, frames = np.nonzero(kept)
     rank = np.arange(len(lanes)) - np.searchsorted(lanes, np.arange(len(kept)))[lanes]
@@ -161,7 +168,10 @@ def _with_one_of_two(values: AnyFloatArray, kept: BoolArray, first: int) -> int:
 
 
 def _far(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, lengths: AnyIntArray) -> BoolArray:
-    """Return a mask (S,) of those of S spans that deviate by more than 1 (the tolerance)."""
+    """Return a mask (S,) of the spans whose cubic deviates from ``values`` by more than 1 (the tolerance).
+
+    S spans are given by curve, first frame and length.
+    """
     result = np.zeros(len(lanes), bool)
     for length, some in _by_length(lengths):
         step = max(1, _AT_ONCE // ((length + 1) * values.shape[2]))
@@ -175,8 +185,10 @@ def _far(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, lengths
 def _fitted(
     values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, length: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Fit cubics to spans of ``length`` frames. Returns the values (S, length + 1, D) of S spans with D components, and
-    the slopes (S, 2, D) at their ends, per frame."""
+    """Fit cubics to S spans of ``length`` frames, given by curve and first frame.
+
+    Return the cubics' values (S, length + 1, D) with D components, and their slopes (S, 2, D) at both ends, per frame.
+    """
     effects, squares = _basis(length)
     own = values[lanes[:, None], starts[:, None] + np.arange(length + 1)]
     change = own[:, -1:] - own[:, :1]
@@ -186,7 +198,7 @@ def _fitted(
 
 
 def _spans(kept: BoolArray) -> tuple[IntArray, IntArray, IntArray]:
-    """Curve index, first frame and length of every span between two keys of a curve."""
+    """Return the curve index, first frame and length (S,) of all S spans between two keys of a curve."""
     lanes, frames = np.nonzero(kept)
     same = np.flatnonzero(lanes[1:] == lanes[:-1])
     return lanes[same], frames[same], frames[same + 1] - frames[same]

@@ -1,4 +1,4 @@
-"""Converts quaternions to continuous Euler angles and back, for whole clips at once.
+"""Conversion of quaternions to continuous Euler angles and back, for whole clips at once.
 
 An order names the three axes of a product from left to right: ``"ZYX"`` means the matrix Rz Ry Rx (FBX's default,
 called XYZ there), ``"ZXY"`` means Rz Rx Ry (usual for BVH channels). Source: K. Shoemake, "Euler Angle Conversion",
@@ -28,7 +28,7 @@ _JOINTS = 8
 
 
 def euler_degrees(rotations_xyzw: AnyFloatArray, order: str) -> FloatArray:
-    """Angles of every joint, without jumps along the frames.
+    """Return the Euler angles of every joint, without jumps between frames.
 
     Of the two equivalent angle triples the one nearer to the previous frame is used, and full turns are added to avoid
     jumps, so that interpolated angles stay near the rotation.
@@ -60,12 +60,12 @@ def euler_degrees(rotations_xyzw: AnyFloatArray, order: str) -> FloatArray:
 
 
 def quaternions(angles_degrees: AnyFloatArray, order: str) -> FloatArray:
-    """Inverse of `euler_degrees`.
+    """Return quaternions from Euler angles, the inverse of `euler_degrees`.
 
     Parameters
     ----------
     angles_degrees : ndarray, shape (..., 3)
-        In the order of `order`.
+        Angles for the axes of `order`.
 
     Returns
     -------
@@ -93,7 +93,7 @@ def quaternions(angles_degrees: AnyFloatArray, order: str) -> FloatArray:
 
 
 def matrices(rotations_xyzw: AnyFloatArray) -> FloatArray:
-    """Rotation matrices (..., 3, 3) for column vectors, from quaternions (..., 4) of any nonzero length."""
+    """Return rotation matrices (..., 3, 3), for column vectors, from quaternions (..., 4) of any nonzero length."""
     q = np.asarray(rotations_xyzw, dtype=np.float64)
     x, y, z, w = np.moveaxis(q, -1, 0)
     s = 2.0 / np.einsum("...i,...i->...", q, q)
@@ -111,7 +111,7 @@ def matrices(rotations_xyzw: AnyFloatArray) -> FloatArray:
 
 
 def _angles(q: FloatArray, order: str) -> FloatArray:
-    """Return the principal angles in radians (3, J, F) of quaternions (4, J, F) of J joints in F frames."""
+    """Return the principal Euler angles (3, J, F) in radians of quaternions (4, J, F) of J joints in F frames."""
     parts = [_part_angles(q[..., :_BLOCK], order)]
     for start in range(_BLOCK, q.shape[-1], _BLOCK):
         parts.append(_part_angles(q[..., start : start + _BLOCK], order, parts[-1][0, :, -1]))
@@ -119,8 +119,10 @@ def _angles(q: FloatArray, order: str) -> FloatArray:
 
 
 def _part_angles(q: FloatArray, order: str, before: FloatArray | None = None) -> FloatArray:
-    """Return the principal Euler angles of rotations; ``before`` has the first angles (J,) of J joints in the previous
-    frame, to which they are continuous."""
+    """Return the principal Euler angles (3, J, F) in radians of quaternions (4, J, F).
+
+    ``before`` has the first angle (J,) of each joint in the previous frame, which is kept at gimbal lock.
+    """
     i, j, k = ("XYZ".index(axis) for axis in order)
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
     w = q[3]
@@ -154,8 +156,9 @@ def _part_angles(q: FloatArray, order: str, before: FloatArray | None = None) ->
 
 
 def _unrolled(angles: FloatArray) -> FloatArray:
-    """Return angles in degrees without jumps along the frames, from principal angles in radians (3, J, F) of J
-    joints."""
+    """Return angles in degrees (J, 3, F) without jumps between frames, from principal angles in radians (3, J, F) of J
+    joints.
+    """
     turns = angles * (0.5 / np.pi)
     step = np.diff(turns, axis=-1)
     smooth = ((step > -_SMOOTH_TURNS) & (step < _SMOOTH_TURNS)).all(axis=(0, 2))
@@ -166,8 +169,9 @@ def _unrolled(angles: FloatArray) -> FloatArray:
 
 
 def _without_jumps(turns: FloatArray, step: FloatArray) -> FloatArray:
-    """Return turns (3, J, F) of J joints without jumps, given their differences between frames. Overwrites both
-    arrays."""
+    """Return angles (3, J, F), in turns, of J joints with their jumps removed; ``step`` are their differences between
+    frames. Overwrites both arrays.
+    """
     same = np.abs(step - np.rint(step)).sum(axis=0)
     # The other triple of a rotation is (first + half a turn, half a turn - middle, third + half a turn). The distance
     # between two triples is the same if both are exchanged, so only the places where to change over matter.

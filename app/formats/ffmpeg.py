@@ -1,4 +1,4 @@
-"""Runs the ffmpeg bundled with imageio-ffmpeg on one of the user's files.
+"""Running of the ffmpeg bundled with imageio-ffmpeg on one of the user's files.
 
 It is a separate process within the limits of `app.child_limits`; it opens only this file, not files named in it, and
 reads no input.
@@ -48,6 +48,7 @@ def ffmpeg_on(
     Parameters
     ----------
     path : str
+        The file.
     limits : str
         Name of a row of `app.child_limits.LIMITS`.
     before, after : tuple of str
@@ -58,7 +59,8 @@ def ffmpeg_on(
     Raises
     ------
     FileError
-        The file is an MPEG transport stream, or ffmpeg cannot be started; also as `app.formats.files.open_file`.
+        The file is an MPEG transport stream, or ffmpeg cannot be started; also the errors of
+        `app.formats.files.open_file`.
     """
     with open_file(path) as stream:
         size = os.fstat(stream.fileno()).st_size
@@ -102,7 +104,7 @@ def ffmpeg_on(
 
 
 def kinds_in(report: bytes) -> set[bytes]:
-    """Kinds of streams that ffmpeg found in a file: ``b"Video"`` and ``b"Audio"``."""
+    """Return the kinds of streams that ffmpeg found in a file: ``b"Video"`` and ``b"Audio"``."""
     return set(_STREAM.findall(report))
 
 
@@ -112,7 +114,7 @@ def was_ended(status: int) -> bool:
 
 
 def refusal(report: bytes, path: str, status: int) -> FileError:
-    """Make the error for a file that ffmpeg could not read, from its report and exit status."""
+    """Return the error for a file that ffmpeg could not read, from its report and exit status."""
     lines = report.decode(errors="replace").splitlines()
     if status in _OVER or any(reason in line for line in lines for reason in _NO_MEMORY):
         return FileError("video.too_costly", file=path)

@@ -1,4 +1,4 @@
-"""Opens files of any origin safely: only regular files, only up to a size, and without blocking.
+"""Safe opening of files of any origin: only regular files, only up to a size, and without blocking.
 
 Reading a pipe may block forever and a device may be endless, so the file's type is checked after opening.
 """
@@ -50,7 +50,7 @@ def read_file(path: str | os.PathLike[str], most_bytes: int) -> bytes:
     Raises
     ------
     FileError
-        As `open_file`, or the file is too large.
+        See `open_file`; or the file is too large.
     """
     with open_file(path) as stream:
         try:
@@ -67,8 +67,8 @@ def read_file(path: str | os.PathLike[str], most_bytes: int) -> bytes:
 
 
 def files_in(folder: Path, *suffixes: str) -> list[Path]:
-    """Entries of a folder with one of these suffixes (ignoring case), sorted by name; empty if the folder does not
-    exist.
+    """Return the files in a folder with one of some suffixes (ignoring case), sorted by name; empty if the folder does
+    not exist.
 
     Raises FileError if an existing folder cannot be listed.
     """
@@ -81,13 +81,13 @@ def files_in(folder: Path, *suffixes: str) -> list[Path]:
 
 
 def cannot_read(path: str | os.PathLike[str], error: OSError | ValueError) -> FileError:
-    """Make the error for a file that cannot be read."""
+    """Return the error for a file that cannot be read."""
     reason = error.strerror if isinstance(error, OSError) else None
     return FileError("file.cannot_read", file=os.fspath(path), reason=reason or str(error))
 
 
 def cannot_write(path: str | os.PathLike[str], error: OSError | ValueError) -> FileError:
-    """Make the error for a file that cannot be written."""
+    """Return the error for a file that cannot be written."""
     reason = error.strerror if isinstance(error, OSError) else None
     return FileError("file.cannot_write", file=os.fspath(path), reason=reason or str(error))
 

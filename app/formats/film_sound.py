@@ -1,8 +1,8 @@
-"""Reads the sound of a video, or of any file that ffmpeg decodes, in the video's time.
+"""Reading of the sound of a video, or of any file that ffmpeg decodes, aligned with the video's time.
 
-ffmpeg decodes the existing blocks and reports their start times, without filling gaps: a few bytes can claim that an
-hour passes, and filling would allocate that hour before it could be checked. Gaps are filled here after the total is
-known.
+ffmpeg decodes the existing blocks and reports their start times, without filling gaps: a few bytes of the file can
+state a gap of an hour, and filling it would allocate that hour before it could be checked. Gaps are filled here after
+the total is known.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class _Timing:
     Attributes
     ----------
     stretches : list of (float, float)
-        Seconds of sound before a stretch, and the time of the video at which the stretch begins.
+        For each stretch, the seconds of sound decoded before it, and the time of the video at which it begins.
     reached_s : float
         Time of the video reached so far.
     first_block_s : float
@@ -59,7 +59,7 @@ class _Timing:
         self.thread.start()
 
     def report(self) -> bytes:
-        """Lines of ffmpeg's output other than time stamps."""
+        """Return ffmpeg's output without the time stamps."""
         return b"".join([*self._first, *self._last])
 
     def _read(self) -> None:
@@ -100,14 +100,15 @@ def film_sound(
     Parameters
     ----------
     path : str
+        The video.
     rate_hz : int
         Samples per second of the result.
     check : callable
-        Called repeatedly with the length of the result in seconds so far; raises if that is too long.
+        Called repeatedly with the length of the result in seconds so far; raises an error if that is too long.
     stop_requested : callable
-        Called repeatedly; True cancels.
+        Called repeatedly; once it returns True, Cancelled is raised.
     delay_s : float or None
-        Seconds to remove from the start; None: the length of the first block, which transform codecs only need for
+        Seconds to remove from the start; None for the length of the first block, which transform codecs only need for
         start-up.
 
     Returns
@@ -118,7 +119,7 @@ def film_sound(
     Raises
     ------
     FileError
-        There is no sound; also as `app.formats.ffmpeg` and ``check``.
+        There is no sound; also the errors of `app.formats.ffmpeg` and ``check``.
     Cancelled
     """
     made, timing, status = _decoded(path, rate_hz, check, stop_requested)
@@ -139,8 +140,9 @@ def film_sound(
 def _decoded(
     path: str, rate_hz: int, check: Callable[[float], None], stop_requested: StopRequested
 ) -> tuple[bytearray, _Timing, int]:
-    """Decode the sound of a film with ffmpeg. Returns samples (16 bits, stereo), their timing, and ffmpeg's exit
-    status."""
+    """Decode the sound of a film with ffmpeg. Return samples (16 bits, stereo), their timing, and ffmpeg's
+    exit status.
+    """
     # ffmpeg would take a gap of more than thirty hours for a mistake and leave it out.
     exact = ("-dts_error_threshold", "1e12")
     heard = ("-map", "0:a:0", "-af", "ashowinfo", "-ac", "2", "-ar", str(rate_hz))
@@ -166,8 +168,9 @@ def _decoded(
 
 
 def _placed(sound: Samples, stretches: list[tuple[float, float]], rate_hz: int) -> tuple[Samples, int]:
-    """Place stretches of decoded sound at their times in the film; overlapping samples are dropped. Returns the sound
-    and the number of samples dropped."""
+    """Place stretches of decoded sound at their times in the film; overlapping samples are dropped. Return the sound
+    and the number of samples dropped.
+    """
     begins = [min(round(sound_s * rate_hz), len(sound)) for sound_s, _ in stretches]
     parts: list[Samples] = []
     length = heard = 0

@@ -1,4 +1,4 @@
-"""Formats tables of numbers as decimal text with array operations, many times faster than number by number."""
+"""Formatting of tables of numbers as decimal text with array operations, many times faster than number by number."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ _SCALE = 10**DECIMALS
 
 
 def _words(form: str) -> npt.NDArray[np.uint32]:
-    """Return the four-byte texts of the numbers 0 to 999 as words; padding bytes are removed from the text later."""
+    """Return the numbers 0 to 999 formatted by ``form`` as texts of four bytes, each in a 32-bit word; padding bytes
+    are removed from the final text.
+    """
     rows = [list((form % n).lstrip().rjust(4, "\0").encode()) for n in range(1000)]
     return np.array(rows, dtype=np.uint8).view("<u4")[:, 0]
 
@@ -81,6 +83,6 @@ def _block_text(values: FloatArray) -> bytearray:
 
 
 def _divided(numbers: IntArray) -> tuple[IntArray, IntArray]:
-    """Thousands and remainder of numbers >= 0; several times faster than NumPy's divmod."""
+    """Return non-negative numbers divided by 1000, and the remainders; several times faster than NumPy's divmod."""
     thousands = numbers // 1000
     return thousands, numbers - 1000 * thousands

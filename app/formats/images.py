@@ -1,4 +1,6 @@
-"""Reads untrusted images as textures, and decodes textures to pixels, within size limits. Pillow is imported on use."""
+"""Reading of untrusted images as textures, and decoding of textures to pixels, within size limits. Pillow is imported
+on first use.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +45,7 @@ class ImageReader:
     Parameters
     ----------
     size_bytes : int
-        Total size of all images.
+        Size of the file, to which the total size of its images is limited.
     own : bool
         Whether this program wrote the file, so that images need not be checked.
     """
@@ -54,7 +56,7 @@ class ImageReader:
         self._seen: dict[int, tuple[bytes, Texture | None]] = {}
 
     def texture(self, name: str, content: bytes) -> Texture | None:
-        """The texture of an image's bytes; None if the image is invalid, incomplete or too large."""
+        """Return the texture for an image's bytes; None if the image is invalid, incomplete or too large."""
         if id(content) not in self._seen:
             # The content is kept, so that its id is no other's.
             self._seen[id(content)] = content, self._read(name, content)
@@ -91,13 +93,13 @@ def small(texture: Texture) -> Pixels | None:
 
 
 def mean(texture: Texture) -> float:
-    """Mean of a grey texture, 0 to 1; 0.5 if it cannot be read."""
+    """Return the mean of a grey texture, 0..1; 0.5 if it cannot be read."""
     pixels = small(texture)
     return 0.5 if pixels is None else float(pixels[..., 0].mean()) / 255.0
 
 
 def resized(textures: MaterialTextures, most_px: int) -> MaterialTextures:
-    """Scale down textures so that no side exceeds ``most_px``."""
+    """Return textures scaled down so that no side exceeds ``most_px``."""
 
     def fit(use: TextureUse | None) -> TextureUse | None:
         return None if use is None else replace(use, texture=_resized(use.texture, most_px))
@@ -171,7 +173,7 @@ _UNREADABLE: Final[tuple[type[Exception], ...]] = (OSError, ValueError, SyntaxEr
 
 
 def _loaded(image: Any) -> bool:
-    """Decode the pixels; returns whether the image is complete."""
+    """Decode the pixels of an image; return whether it is complete."""
     try:
         image.load()
     except _UNREADABLE:
@@ -187,8 +189,8 @@ def _png(image: Image) -> bytes:
 
 @lru_cache(maxsize=128)
 def tinted(texture: Texture, factor: tuple[float, float, float], solid: bool) -> Texture:
-    """Multiply the linear colours of an sRGB texture, and drop its alpha if ``solid``; returns the texture itself if
-    nothing changes or it cannot be read.
+    """Return an sRGB texture with its linear colours multiplied by ``factor``, and without alpha if ``solid``; the
+    texture itself if nothing changes or it cannot be read.
     """
     image = _opened(texture.content)
     if image is None or (factor == (1.0, 1.0, 1.0) and not (solid and _has_alpha(image))):
@@ -221,7 +223,9 @@ def scaled_channel(texture: Texture, band: str, role: str, factor: float) -> Tex
 
 @lru_cache(maxsize=128)
 def opacity(texture: Texture, factor: float) -> Texture:
-    """The alpha of a texture multiplied by a factor, as grey and as alpha; the texture itself if it cannot be read."""
+    """Return the alpha of a texture, multiplied by a factor, as an image whose grey and alpha both have it; the texture
+    itself if it cannot be read.
+    """
     image = _smaller(texture.content, MOST_SIDE_PX)
     if image is None:
         return texture
@@ -231,7 +235,7 @@ def opacity(texture: Texture, factor: float) -> Texture:
 
 
 def with_opacity(color: Texture, mask: Texture) -> Texture:
-    """A colour texture with the alpha of another image, or with its brightness if it has no alpha."""
+    """Return a colour texture with the alpha of another image, or with that image's brightness if it has no alpha."""
     first, second = _smaller(color.content, MOST_SIDE_PX), _smaller(mask.content, MOST_SIDE_PX)
     if first is None or second is None or color == mask:
         return color
@@ -242,7 +246,9 @@ def with_opacity(color: Texture, mask: Texture) -> Texture:
 
 
 def packed_surface(roughness: Texture | None, metallic: Texture | None) -> Texture:
-    """Combine grey images of roughness and metallic as green and blue channels; a missing image counts as constant."""
+    """Return an image with roughness in the green and metallic in the blue channel, from grey images; a missing one is
+    white.
+    """
     first, second = (None if one is None else _smaller(one.content, MOST_SIDE_PX) for one in (roughness, metallic))
     size = next((image.size for image in (first, second) if image is not None), (1, 1))
     white = _white(size)
@@ -264,7 +270,7 @@ def _merged(mode: str, bands: list[Image]) -> Image:
 
 
 def _encoded(texture: Texture, name: str, image: Image) -> Texture:
-    """Encode an image as a texture in the format of another texture."""
+    """Return an image encoded as a texture in the file format of another texture."""
     if texture.mime_type == "image/png":
         return texture_of(name, _png(image))
     stream = io.BytesIO()
@@ -279,16 +285,16 @@ def montage(
     fill: tuple[int, ...],
     exact: bool = True,
 ) -> Texture:
-    """Put textures and plain colours beside one another.
+    """Return one texture in which textures and plain colours are placed as tiles.
 
     Parameters
     ----------
     tiles : sequence of (Texture or (int, int, int), (int, int, int, int))
-        Each with its left, top, width and height in pixels; a texture that cannot be read leaves its place empty.
+        Tiles, each with its left, top, width and height in pixels; a texture that cannot be read leaves its tile empty.
     size : (int, int)
-        Width and height.
+        Width and height of the result in pixels.
     fill : tuple of int
-        RGB or RGBA, of what nothing covers.
+        RGB or RGBA colour of pixels that no tile covers.
     exact : bool
         Whether to keep every number; otherwise the texture is a JPEG, a fraction as large, without alpha.
     """

@@ -1,4 +1,4 @@
-"""Joins several meshes into one.
+"""Joining of several meshes into one.
 
 If several meshes of a file share morph names, there are several curves of one name: Unreal drives them all, but
 programs that identify weights by name see duplicates, and three.js copies every bone for each mesh. One mesh with
@@ -20,7 +20,7 @@ Number = TypeVar("Number", bound=np.generic)
 
 
 def join_meshes(meshes: Sequence[SkinnedMesh], name: str) -> SkinnedMesh:
-    """Join all vertices in the given order.
+    """Return one mesh with the vertices of all meshes in the given order.
 
     Parameters
     ----------
@@ -30,8 +30,8 @@ def join_meshes(meshes: Sequence[SkinnedMesh], name: str) -> SkinnedMesh:
     Returns
     -------
     SkinnedMesh
-        Vertex v of a mesh becomes v plus the vertex counts of the meshes before it. Equal materials and morphs of one
-        name are merged. Normals are per vertex if all were. If only some meshes have UVs, the others get zeros.
+        Vertex v of a mesh becomes v plus the vertex counts of the meshes before it. Equal materials, and morphs of one
+        name, are merged. Normals are per vertex if all were. If only some meshes have UVs, the others get zeros.
     """
     counts = [len(mesh.vertices_cm) for mesh in meshes]
     starts = (np.cumsum(counts) - counts).tolist()

@@ -1,4 +1,6 @@
-"""Joint angles for animators: relative to the rest pose, in a rotation order suited to each joint."""
+"""Joint angles in the form that animators expect: relative to the rest pose, in a rotation order suited to
+each joint.
+"""
 
 from __future__ import annotations
 
@@ -20,12 +22,12 @@ _DIGITS: Final = 4
 
 
 def order_along(axes: AnyFloatArray | None) -> str:
-    """The rotation order, as in `app.formats.euler`, whose axes are nearest to three given axes.
+    """Return the rotation order, as in `app.formats.euler`, whose axes are nearest to three given ones.
 
     Parameters
     ----------
     axes : ndarray, shape (3, 3), or None
-        One axis per row, in either direction, from the outermost rotation; None: `PLAIN_ORDER`.
+        One axis per row, in either direction, from the outermost rotation; None for `PLAIN_ORDER`.
     """
     if axes is None:
         return PLAIN_ORDER
@@ -37,15 +39,16 @@ def order_along(axes: AnyFloatArray | None) -> str:
 def channel_degrees(
     rotations_xyzw: AnyFloatArray, orders: Sequence[str], rests_xyzw: AnyFloatArray | None = None
 ) -> FloatArray:
-    """Angles of joints about their own X, Y and Z, without jumps along the frames.
+    """Return the angles of joints about their own X, Y and Z, without jumps between frames.
 
     Parameters
     ----------
     rotations_xyzw : ndarray, shape (F, J, 4)
+        Rotations of J joints in F frames.
     orders : sequence of str
         Rotation order of each joint.
     rests_xyzw : ndarray, shape (J, 4), optional
-        Rotations at which all angles are 0; None: identity.
+        Rotations at which all angles are 0; by default the identity.
 
     Returns
     -------
@@ -85,7 +88,8 @@ def _by_order(orders: Sequence[str]) -> list[tuple[str, list[int]]]:
 
 
 def _left_products(rotations_xyzw: FloatArray) -> FloatArray:
-    """Return the matrices (J, 4, 4) that multiply quaternions from the left by the normalised rotations (J, 4) of J
-    joints."""
+    """Return the matrices (J, 4, 4) by which a quaternion is multiplied from the left with the normalised rotations (J,
+    4) of J joints.
+    """
     x, y, z, w = (rotations_xyzw / np.linalg.norm(rotations_xyzw, axis=-1, keepdims=True)).T
     return np.array([[w, -z, y, x], [z, w, -x, y], [-y, x, w, z], [-x, -y, -z, w]]).transpose(2, 0, 1)

@@ -1,4 +1,4 @@
-"""Decodes untrusted JSON to typed values, raising only FileError."""
+"""Decoding of untrusted JSON to typed values, which raises only FileError."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ def decode_json(content: bytes, kind: type[T] | msgspec.json.Decoder[T], file: s
     Parameters
     ----------
     kind : type or decoder of that type
+        Type of the value.
     file : str
         File name for messages.
     refused : str
@@ -41,7 +42,7 @@ def decode_json(content: bytes, kind: type[T] | msgspec.json.Decoder[T], file: s
 
 
 def _plain(error: Exception) -> str:
-    """The error in words for users, with its position."""
+    """Return an error of the decoder in words for users, with its position."""
     malformed = _MALFORMED.match(str(error))
     if malformed is not None:
         return f"its text cannot be understood from byte {malformed[1]} on"

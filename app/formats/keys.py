@@ -1,4 +1,4 @@
-"""Keyframe reduction: frames with keys, choice of linear keys, and values between keys.
+"""Keyframe reduction with linear keys: the frames with keys, their choice, and the values between them.
 
 All programs interpolate linear keys alike: numbers (positions, weights, Euler angles) linearly, quaternions at constant
 angular speed. Keys are frames of a clip with their own values, so the values shown at other frames can be computed
@@ -37,7 +37,7 @@ class Keys:
     face : ndarray of int
         Keys of all morphs together, for formats that require this.
     pose : ndarray of int or None
-        Keys of all bones together, for formats that require this; None: every frame.
+        Keys of all bones together, for formats that require this; None for every frame.
     curved : bool
         Whether the keys of `bones` are joined by cubics (`app.formats.cubics`). All other keys are linear.
     """
@@ -49,14 +49,16 @@ class Keys:
     curved: bool = False
 
     def beside(self, other: Keys) -> Keys:
-        """Return the keys of a skeleton extended by the keys of further bones without morphs, such as an attached
-        instrument's."""
+        """Return the keys of a skeleton followed by the bones of another one, such as an attached instrument's, which
+        has no morphs.
+        """
         pose = None if self.pose is None or other.pose is None else np.union1d(self.pose, other.pose)
         return replace(self, bones=self.bones + other.bones, pose=pose)
 
     def check(self, bones: int, frames: int, morphs: Mapping[str, object]) -> None:
-        """Raise ValueError unless the keys fit a clip of so many bones and frames and these morphs: ascending frames,
-        frame 0 first."""
+        """Raise ValueError unless the keys fit a clip with these numbers of bones and frames and these morphs: all
+        lists ascend from frame 0.
+        """
         if len(self.bones) != bones or self.morphs.keys() != morphs.keys():
             raise ValueError("keys of other bones or morphs than the clip's")
         lists = [*self.bones, *self.morphs.values(), self.face, *([] if self.pose is None else [self.pose])]
@@ -94,11 +96,11 @@ class KeySpans:
         return cls(before, after, np.where(after > before, share, np.float32(0.0)))
 
     def at(self, frames: AnyIntArray) -> KeySpans:
-        """Return the spans at only the given frames (K,)."""
+        """Return the position of only the given frames (K,) relative to their keys."""
         return KeySpans(self.before[:, frames], self.after[:, frames], self.share[:, frames])
 
     def row(self, row: int) -> KeySpans:
-        """Return the spans between keys of the curve ``row`` alone, with the curve axis kept."""
+        """Return the spans of the curve with the index ``row`` alone, as arrays with one row."""
         return KeySpans(self.before[row, None], self.after[row, None], self.share[row, None])
 
     def straight(self, values: AnyFloatArray) -> FloatArray:
@@ -141,10 +143,10 @@ def straight_keys(values: AnyFloatArray) -> BoolArray:
 
     Notes
     -----
-    From a key on, lines within the tolerance of all frames so far have slopes in an interval; the next key is the last
-    frame before the interval becomes empty (the "swing door" of P. A. Bristol, US patent 4669097, 1987, with keys on
-    the curve). All curves are processed at once in chunks of frames, whose borders are keys that are removed afterwards
-    if not needed.
+    Lines from a key that are within the tolerance of all frames so far have slopes in an interval; the next key is the
+    last frame before the interval becomes empty (the "swing door" of P. A. Bristol, US patent 4669097, 1987, with keys
+    on the curve). All curves are processed at once in chunks of frames, whose borders are keys that are removed
+    afterwards if not needed.
     """
     lanes, frames, width = values.shape
     kept = np.zeros((lanes, frames), bool)
@@ -162,8 +164,9 @@ def straight_keys(values: AnyFloatArray) -> BoolArray:
 
 
 def _walked(rows: AnyFloatArray, lanes: int, borders: AnyIntArray) -> BoolArray:
-    """Return a mask (L, F) of keys of L curves as in `straight_keys`, including every border; ``rows`` (D, L * F) are
-    the values."""
+    """Return a mask (L, F) of the keys of L curves, found as described in `straight_keys`; every frame in ``borders``
+    is a key. ``rows`` (D, L * F) are the values.
+    """
     frames = rows.shape[1] // lanes
     kept = np.zeros(lanes * frames, bool)
     starts = (np.arange(lanes)[:, None] * frames + borders[:-1]).ravel()
@@ -198,7 +201,7 @@ def _without_needless(rows: AnyFloatArray, kept: BoolArray, borders: AnyIntArray
     """Return ``kept`` (curves, frames) without those keys at ``borders`` frames that a straight line through the
     neighbouring keys makes unnecessary.
 
-    Every second remaining one is tried at a time, so that each is between two keys that stay.
+    Of the remaining ones, every second is tried at a time, so that the keys on both sides stay.
     """
     at_borders = np.zeros(kept.shape, bool)
     at_borders[:, borders] = True
@@ -220,7 +223,9 @@ def _without_needless(rows: AnyFloatArray, kept: BoolArray, borders: AnyIntArray
 
 
 def _joined(rows: AnyFloatArray, first: AnyIntArray, last: AnyIntArray) -> BoolArray:
-    """Return a mask of the lines (N,) between two columns of ``rows`` that deviate by at most 1."""
+    """Return a mask (N,) of the straight lines from column ``first`` to column ``last`` of ``rows`` that deviate from
+    the columns between by at most 1 (the tolerance).
+    """
     lengths = last - first
     line = np.repeat(np.arange(len(first)), lengths)
     on = np.arange(len(line)) - np.repeat(np.cumsum(lengths) - lengths, lengths)

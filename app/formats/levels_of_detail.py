@@ -1,8 +1,8 @@
-"""Lower levels of detail of meshes: some of a mesh's own vertices, with their normals, UVs, weights and morphs.
+"""Lower levels of detail of meshes. A level consists of some of the mesh's own vertices, with their normals, UVs,
+weights and morphs.
 
-Edges are collapsed by fast-simplification (quadric error metrics: Garland and Heckbert 1997), which is loaded, as
-scipy is, when levels are made. No vertex moves, so that a level lies where the mesh does in every pose and
-expression.
+Edges are collapsed by fast-simplification (quadric error metrics: Garland and Heckbert 1997), which is loaded, like
+scipy, when levels are made. No vertex moves, so that a level coincides with the mesh in every pose and expression.
 """
 
 from __future__ import annotations
@@ -39,7 +39,9 @@ _ONE_AT_A_TIME: Final = Lock()
 
 
 def levels_for(chosen: int, into_unreal: bool) -> int:
-    """The number of levels for a choice of `LEVEL_CHOICES`: other programs would show all levels at once."""
+    """Return the number of levels of detail for a user's choice (`LEVEL_CHOICES`); 1 unless for Unreal, since other
+    programs would show all levels at once.
+    """
     return chosen or (MOST_LEVELS if into_unreal else 1)
 
 
@@ -49,8 +51,9 @@ def with_levels(scene: Scene, count: int) -> Scene:
     Parameters
     ----------
     scene : Scene
+        The scene.
     count : int
-        Number of levels, 1 to `MOST_LEVELS`, the mesh itself among them.
+        Number of levels, 1 to `MOST_LEVELS`, including the mesh itself.
     """
     if count == 1:
         return scene
@@ -58,19 +61,20 @@ def with_levels(scene: Scene, count: int) -> Scene:
 
 
 def lower_levels(mesh: SkinnedMesh, count: int) -> tuple[SkinnedMesh, ...]:
-    """The lower levels of a mesh whose normals and UVs are given per vertex.
+    """Return the lower levels of detail of a mesh whose normals and UVs are given per vertex.
 
     Parameters
     ----------
     mesh : SkinnedMesh
+        The mesh.
     count : int
-        At most as many as `TRIANGLE_SHARES` has.
+        Number of lower levels, at most the length of `TRIANGLE_SHARES`.
 
     Returns
     -------
     tuple of SkinnedMesh
-        Fewer where a level would hardly have fewer triangles than the one before: of a mesh with few triangles, or with
-        hard edges everywhere.
+        Levels from finer to coarser; fewer than ``count`` if a level would hardly have fewer triangles than the one
+        before, as for a mesh with few triangles or with hard edges everywhere.
     """
     triangles = _triangles(mesh)
     if len(triangles) < _LEAST_TRIANGLES:
@@ -109,14 +113,15 @@ def _face_materials(mesh: SkinnedMesh, count: int) -> IntArray:
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """Triangles that have no vertex in common with others.
+    """Triangles of a mesh that share no vertex with the other parts.
 
     Attributes
     ----------
     triangles : ndarray of int, shape (T, 3)
+        Vertex indices.
     is_sewn : bool
-        True if it is sewn to others, or to itself: it has vertices that lie where others do, along a seam of UVs or a
-        hard edge. Where one side of a seam lost a vertex that the other keeps, there would be a crack.
+        Whether some vertices have the same position as others, along a seam of UVs or a hard edge. If one side of such
+        a seam lost a vertex that the other keeps, there would be a crack.
     """
 
     triangles: IntArray
@@ -124,9 +129,10 @@ class _Part:
 
 
 def _parts(mesh: SkinnedMesh, vertices_cm: AnyFloatArray, triangles: IntArray, materials: IntArray) -> list[_Part]:
-    """Connected patches of triangles: those of one material that are sewn, and those that are not, as a part each.
+    """Return the triangles of a mesh in parts: by material, and by whether their connected patch has a seam.
 
-    What alpha cuts out is in none: cards of hair lie so near the head that it would come through.
+    Triangles of materials that are not opaque are left out: cards of hair are so near to the head that it would come
+    through.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -182,7 +188,9 @@ def _nearest_members(vertices_cm: AnyFloatArray, into: IntArray, triangles: IntA
 
 
 def _level(mesh: SkinnedMesh, number: int, triangles: IntArray, materials: IntArray) -> SkinnedMesh:
-    """Mesh of some triangles, with the vertices and materials that they use."""
+    """Return the mesh of some triangles of a mesh, with only the vertices and materials that they use; ``number`` is
+    the level.
+    """
     vertices = np.unique(triangles)
     row = np.full(len(mesh.vertices_cm), -1)
     row[vertices] = np.arange(len(vertices))

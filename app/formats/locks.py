@@ -22,7 +22,7 @@ _held: Final = WeakSet[IO[Any]]()
 
 
 def lock(stream: IO[Any]) -> bool:
-    """Lock a file while it is open; returns False if another process has locked it. Raises OSError if locks are not
+    """Lock a file while it is open; return False if another process has locked it. Raises OSError if locks are not
     supported.
     """
     try:
@@ -44,7 +44,7 @@ def lock(stream: IO[Any]) -> bool:
 
 
 def _let_go() -> None:
-    """Drop the locks in a forked copy of a process, which has no access to the files."""
+    """Drop the locks in a forked copy of this process, which must not hold them."""
     held = [stream for stream in _held if not stream.closed]
     if held:
         nothing = os.open(os.devnull, os.O_RDWR)
@@ -59,7 +59,7 @@ if sys.platform != "win32":
 
 @contextlib.contextmanager
 def locked_here(path: Path) -> Iterator[bool]:
-    """Lock an existing file during the block; yields False if another process has locked it. Raises OSError."""
+    """Lock an existing file during the block; yield False if another process has locked it. Raises OSError."""
     with path.open("r+b") as stream:
         yield lock(stream)
 
@@ -77,7 +77,7 @@ def is_locked(path: Path) -> bool:
 
 
 def is_same_file(path: Path, stream: IO[Any]) -> bool:
-    """Return whether an open file still has this name."""
+    """Return whether an open file is still the one at a path."""
     try:
         return os.path.samestat(path.stat(), os.fstat(stream.fileno()))
     except OSError:

@@ -1,4 +1,4 @@
-"""Detects the kind of a sound or video file by its first bytes, since names are unreliable."""
+"""Detection of the kind of a sound or video file by its first bytes, since names are unreliable."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _MARKS: Final = 5
 
 
 class MediaKind(Enum):
-    """Library that reads the sound of a file."""
+    """Kind of a sound or video file, by the library that reads its sound."""
 
     SOUND = auto()
     """Sound for libsndfile: WAV, AIFF, FLAC, Ogg, MP3 and its other formats; also unknown files."""
@@ -41,7 +41,7 @@ def media_kind(path: str) -> MediaKind:
     Raises
     ------
     FileError
-        As `app.formats.files.open_file`.
+        See `app.formats.files.open_file`.
     """
     with open_file(path) as stream:
         head = stream.read(_HEAD)
@@ -53,7 +53,9 @@ def media_kind(path: str) -> MediaKind:
 
 
 def tag_bytes(head: bytes) -> int:
-    """Length in bytes of the ID3v2 tag at the beginning, 0 without one. Source: id3.org, ID3v2.4.0, section 3.1."""
+    """Return the length in bytes of the ID3v2 tag at the beginning, 0 without one. Source: id3.org, ID3v2.4.0, section
+    3.1.
+    """
     if len(head) < 10 or head[:3] != b"ID3" or any(byte & 0x80 for byte in head[6:10]):
         return 0
     size = head[6] << 21 | head[7] << 14 | head[8] << 7 | head[9]
@@ -61,7 +63,7 @@ def tag_bytes(head: bytes) -> int:
 
 
 def kind_of(head: bytes) -> MediaKind:
-    """Kind of a file from its beginning, after any tag."""
+    """Return the kind of a file from its first bytes after any tag."""
     if head[4:8] in _BOXES or head.startswith(_FILMS) or (head[:4] == b"RIFF" and head[8:12] == b"AVI "):
         return MediaKind.FILM
     if head.startswith(b"OggS") and any(mark in head[:4096] for mark in _OGG_PICTURES):

@@ -1,4 +1,4 @@
-"""Limits on the motion in a file; checked before sampling, since few keys can span many frames."""
+"""Limits on the length of motion in a file; checked before sampling, since few keys can span many frames."""
 
 from __future__ import annotations
 
@@ -21,8 +21,9 @@ MOST_TRANSFORMS: Final = 2**23
 
 
 def longest_motion_s(fps: float, nodes: int, size_bytes: int) -> float:
-    """Return the longest allowed motion in seconds for a file of this size, sampled at a rate and stored at `KEPT_FPS`
-    or more.
+    """Return the greatest allowed duration of a motion, in seconds, for a file of a size with a number of nodes.
+
+    It is sampled at ``fps`` and stored at `KEPT_FPS` or more.
     """
     most_frames = FREE_FRAMES + FRAMES_PER_KB * size_bytes // 1000
     most_transforms = min(MOST_TRANSFORMS, FREE_TRANSFORMS + TRANSFORMS_PER_KB * size_bytes // 1000)
@@ -30,7 +31,7 @@ def longest_motion_s(fps: float, nodes: int, size_bytes: int) -> float:
 
 
 def require_frames(file: str, seconds: float, fps: float, nodes: int, size_bytes: int) -> None:
-    """Refuse a motion with too many frames for the size of its file.
+    """Raise FileError for a motion with too many frames for the size of its file.
 
     Parameters
     ----------

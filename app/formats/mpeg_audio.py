@@ -44,6 +44,7 @@ class MpegAudio:
     Attributes
     ----------
     rate_hz : int
+        Samples per second.
     samples : int
         Samples per channel in all complete frames.
     breaks_off : bool
@@ -100,7 +101,9 @@ def _frames(data: bytes | mmap) -> Iterator[tuple[int, _Frame]]:
 
 
 def _resumed(data: bytes | mmap, at: int, key: int | None) -> int | None:
-    """Return the offset at which two consecutive frames are found again after other data."""
+    """Return the next offset after ``at`` at which two consecutive frames are found, of the kind ``key`` if given; None
+    if there are none nearby.
+    """
     end = min(at + _RESYNC, len(data) - 4)
     at = data.find(b"\xff", at + 1, end)
     while at >= 0:

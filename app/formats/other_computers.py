@@ -1,4 +1,4 @@
-r"""Protects against paths on other computers, which are not accessed before the user agrees.
+r"""Protection against paths on other computers, which are not accessed before the user agrees.
 
 On Windows even checking for a file on another computer (``\\host\share\take.wav``) signs in there with the user's
 account. Such paths from files are therefore refused until the user agrees to their host: in the window, by choosing or

@@ -1,4 +1,4 @@
-"""Reads array files: a table of types and shapes, then each array deflated separately.
+"""Reading of array files: a table of types and shapes, then each array, deflated separately.
 
 ``resources/build/character_arrays.py`` writes them.
 """
@@ -40,7 +40,7 @@ class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 @dataclass(frozen=True, eq=False)
 class PackedArrays:
-    """Arrays and lists of names, by name."""
+    """Contents of an array file: arrays and lists of names, by name."""
 
     arrays: Mapping[str, npt.NDArray[Any]]
     names: Mapping[str, tuple[str, ...]]
@@ -72,7 +72,7 @@ def read_arrays(path: Path) -> PackedArrays:
 
 
 def _size(path: Path, row: _Row) -> int:
-    """Size of an array in bytes. Raises FileError if its type or shape is invalid."""
+    """Return the size of an array in bytes. Raises FileError if its type or shape is invalid."""
     if row.kind not in KINDS or len(row.shape) > 4 or row.bytes < 0 or any(side < 0 for side in row.shape):
         raise _invalid(path, f"the array {row.name!r} has no known shape")
     return math.prod(row.shape) * np.dtype(row.kind).itemsize

@@ -10,7 +10,7 @@ LEAST_ACCURACY: Final = 2e-3
 
 
 def exact_rate(fps: float, accuracy: float = 0.0) -> Fraction:
-    """The exact frame rate for a rounded number: a whole number, a whole number / 1.001, or the nearest simple
+    """Return the exact frame rate for a rounded number: a whole number, a whole number / 1.001, or the nearest simple
     fraction.
 
     Parameters

@@ -1,4 +1,4 @@
-"""Runs C libraries that read files in separate processes.
+"""Running of C libraries that read files in separate processes.
 
 A crash on a damaged file becomes an exit status; time and memory are limited by a row of `app.child_limits.LIMITS`.
 """
@@ -20,7 +20,7 @@ _LIMITS: Final = frozenset(-number for name in ("SIGXCPU", "SIGKILL") if (number
 
 
 def read_by_child(module: str, limits: str, data: bytes, file: str, *arguments: str) -> tuple[int, bytes]:
-    """Pass bytes to a module of this program that runs as a process.
+    """Run a module of this program as a process with bytes as its input, and return its output.
 
     Parameters
     ----------

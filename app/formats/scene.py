@@ -1,5 +1,5 @@
-"""Contents of an animation file as plain values: bones, skinned meshes, morphs, materials, one clip; a file may hold
-several such scenes, each with a place.
+"""The contents of an animation file as plain values: bones, skinned meshes, morphs, materials, one clip; a file may
+hold several such scenes, each with a place.
 
 Centimetres, right-handed, Y up. Quaternions are xyzw, matrices apply to column vectors. There is no scaling.
 """
@@ -28,11 +28,12 @@ class Bone:
     parent : int
         Index of a previous bone; -1 for the only root.
     translation_cm : ndarray, shape (3,)
+        Rest position relative to the parent.
     rotation_xyzw : ndarray, shape (4,)
         Rest rotation relative to the parent; used if the clip does not animate the bone.
     axes : ndarray, shape (3, 3), or None
         Rotation axes in the bone's space, outermost first, for formats with Euler angles: a hinge first, the axis with
-        least rotation in the middle. None: no preferred axes.
+        least rotation in the middle. None for no preferred axes.
     """
 
     name: str
@@ -56,9 +57,11 @@ class MorphTarget:
     name : str
         Name, unique within a mesh; the clip's weight of this name drives all morphs of that name.
     vertex_indices : ndarray of int, shape (K,)
+        Indices of the K moved vertices.
     position_deltas_cm : ndarray, shape (K, 3)
+        Their displacements at weight 1.
     normal_deltas : ndarray, shape (K, 3), or None
-        None: the normals do not change.
+        Changes of their normals; None if they do not change.
     """
 
     name: str
@@ -76,7 +79,7 @@ class Material:
     textures : MaterialTextures
         Textures that are multiplied with these values, if the mesh has UVs.
     alpha : AlphaMode or None
-        None: blended if the base colour is transparent, opaque otherwise.
+        Use of alpha; None for blending if the base colour is transparent, else opaque.
     alpha_cutoff : float
         Smallest visible alpha in mode ``mask``.
     """
@@ -92,7 +95,9 @@ class Material:
 
     @property
     def alpha_mode(self) -> AlphaMode:
-        """The alpha mode in effect: the given one, else blending if the base colour is transparent."""
+        """The alpha mode in effect: the given one; else blending if the base colour is transparent, opaque
+        otherwise.
+        """
         return self.alpha or ("blend" if self.base_color[3] < 1.0 else "opaque")
 
 
@@ -105,19 +110,21 @@ class SkinnedMesh:
     name : str
         Name, different from all bone names.
     vertices_cm : ndarray, shape (V, 3)
+        Positions of the vertices.
     faces : ndarray of int, shape (T, N)
         Triangles, or polygons of N corners each, counter-clockwise seen from outside.
     normals : ndarray, shape (V, 3) or (T * N, 3)
         Normals per vertex or per corner; per vertex if both counts are equal.
     uvs : ndarray, shape (V, 2) or (T * N, 2), or None
-        Per vertex or per corner; v points up (in glTF down).
+        Texture coordinates per vertex or per corner; v points up (in glTF down).
     materials : tuple of Material
         At least one material.
     face_materials : ndarray of int, shape (T,), or None
-        Index into `materials`; None: all faces have the first one.
+        Index into `materials`; None if all faces have the first one.
     joint_indices : ndarray of int, shape (V, K)
+        Indices of the bones that move each vertex, any number K.
     weights : ndarray, shape (V, K)
-        Any number of influences; weights of 0 are ignored, and repeated joints are added.
+        Their weights; weights of 0 are ignored, and those of a repeated bone are added.
     world_from_bone_bind : ndarray, shape (J, 4, 4)
         Transform of every bone when the mesh was bound; equal for all meshes of a scene, and possibly different from
         the rest pose.
@@ -156,7 +163,7 @@ class Clip:
     whole_turns : mapping of int to ndarray, shape (F, 4)
         Full rotations of bones that are partly rotated by morphs, for formats without morphs.
     keys : Keys or None
-        The frames written as keys, in formats that support fewer keys; None: every frame.
+        The frames written as keys, in formats that support fewer keys; None for every frame.
     """
 
     name: str
@@ -170,7 +177,7 @@ class Clip:
 
     @property
     def kind(self) -> tuple[str, Fraction, int]:
-        """Name, rate and number of frames, which must be equal for all clips of a file."""
+        """Return name, frame rate and number of frames, which must be equal for all clips of a file."""
         return self.name, self.fps, self.frames
 
 
@@ -201,10 +208,10 @@ class Scene:
     creator : str
         Program and version for the file.
     name : str
-        Name of the armature in other programs; empty: the clip's, or else the root bone's.
+        Name of the armature in other programs; empty for the clip's name, or else the root bone's.
     place : NodePlace or None
-        Transform of a node of that name above the root bone. None: no such node, since Unreal may turn it into a bone;
-        the name is then used only where the format allows.
+        Transform of a node of that name above the root bone. None for no such node, since Unreal may turn it into a
+        bone; the name is then used only where the format allows.
     """
 
     bones: tuple[Bone, ...]
@@ -216,12 +223,12 @@ class Scene:
 
     @property
     def title(self) -> str:
-        """The name, or the name used instead."""
+        """The name of the scene, or else that of the clip or of the root bone."""
         return self.name or (self.bones[0].name if self.clip is None else self.clip.name)
 
 
 def without_meshes(scene: Scene) -> Scene:
-    """The scene without meshes; its morph weights refer to morphs in other files."""
+    """Return the scene without meshes; its morph weights then refer to morphs in other files."""
     return replace(scene, meshes=())
 
 
@@ -231,7 +238,7 @@ def check_scene(scene: Scene) -> None:
     Raises
     ------
     ValueError
-        The scene contradicts itself, which is a programming error.
+        The scene is inconsistent, which is a programming error.
     """
     bone_count = len(scene.bones)
     if not bone_count or scene.bones[0].parent != -1:
@@ -261,8 +268,8 @@ def checked_scenes(scenes: Iterable[Scene]) -> Iterator[Scene]:
     Raises
     ------
     ValueError
-        As `check_scene`; several scenes without their own place and name; or clips of different names, rates or
-        lengths.
+        A scene is inconsistent (see `check_scene`), one of several scenes has no place or name, or the clips have
+        different names, rates or lengths.
     """
     names: set[str] = set()
     before: Clip | None = None

@@ -1,4 +1,4 @@
-"""Converts skin weights for formats with a fixed number of influences per vertex."""
+"""Conversion of skin weights for formats with a fixed number of influences per vertex."""
 
 from __future__ import annotations
 

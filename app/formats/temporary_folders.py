@@ -24,7 +24,7 @@ _LOCK: Final = "lock"
 
 
 def scratch_places() -> tuple[Path, ...]:
-    """Return the parent folders to use; the second one if the first cannot be written."""
+    """Return the parent folders for temporary folders; the second one is used if the first cannot be written."""
     user = os.getuid() if os.name == "posix" else ""
     return cache_folder("scratch"), Path(tempfile.gettempdir()) / f"suisou-{user}"
 
@@ -75,7 +75,7 @@ def abandoned_folders() -> Iterator[Path]:
 
 
 def _is_ours(place: Path) -> bool:
-    """Return whether a folder belongs to the current user, as others may create it first in a shared folder."""
+    """Return whether a folder belongs to the current user, since other users may have created it in a shared folder."""
     found = place.stat(follow_symlinks=os.name != "posix")
     return os.name != "posix" or found.st_uid == os.getuid()
 

@@ -17,7 +17,7 @@ OPAQUE: Final = 0.5
 
 
 def sampled(use: TextureUse, uvs: AnyFloatArray) -> FloatArray | None:
-    """Texture values (N, 4), 0 to 1, at texture coordinates (N, 2), v down; None if it cannot be read."""
+    """Return texture values (N, 4), 0..1, at texture coordinates (N, 2), v down; None if the texture cannot be read."""
     pixels = small(use.texture)
     if pixels is None:
         return None
@@ -75,7 +75,7 @@ def plain_material(material: Material, uvs: AnyFloatArray) -> Material:
 
 
 def with_textures(scene: Scene, most_px: int) -> Scene:
-    """Scale down the textures of a scene to a longest side; 0 removes them."""
+    """Return a scene with its textures scaled down so that no side exceeds ``most_px``; 0 removes them."""
     return replace(scene, meshes=tuple(_with_textures(mesh, most_px) for mesh in scene.meshes))
 
 
@@ -87,7 +87,7 @@ def _with_textures(mesh: SkinnedMesh, most_px: int) -> SkinnedMesh:
 
 
 def without_textures(mesh: SkinnedMesh) -> SkinnedMesh:
-    """Replace the materials of a mesh by `plain_material`s."""
+    """Return a mesh with its materials replaced by plain ones (`plain_material`)."""
     if all(material.textures == NO_TEXTURES for material in mesh.materials):
         return mesh
     owners = np.zeros(len(mesh.faces), np.int64) if mesh.face_materials is None else mesh.face_materials

@@ -1,4 +1,4 @@
-"""Writes textures as separate files in one folder, each once, shared by all files of an export."""
+"""Writing of textures as separate files in one folder, each once, shared by all files of an export."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ TEXTURES_FOLDER: Final = "Textures"
 
 
 def texture_files(folder: Path) -> tuple[str, ...]:
-    """Relative paths, with slashes, of the textures in a folder's texture folder."""
+    """Return the relative paths, with slashes, of the textures in a folder's texture folder."""
     return tuple(sorted(f"{TEXTURES_FOLDER}/{path.name}" for path in folder.glob(f"{TEXTURES_FOLDER}/*")))
 
 

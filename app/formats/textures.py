@@ -32,14 +32,12 @@ class Texture:
 
     @property
     def mime_type(self) -> str:
-        """Media type of the content, ``image/png`` or ``image/jpeg``."""
+        """Media type of the image, ``image/png`` or ``image/jpeg``."""
         return "image/png" if self.content.startswith(PNG_MAGIC) else "image/jpeg"
 
     @property
     def file_name(self) -> str:
-        """File name, determined by content and name: letters, digits, ``_`` and ``-`` of the name, and the start of the
-        digest.
-        """
+        """File name of the image: letters, digits, ``_`` and ``-`` of its name, and the start of the digest."""
         plain = unicodedata.normalize("NFKD", self.name).encode("ascii", "ignore").decode()
         stem = _UNSAFE.sub("_", plain).strip("_")[:_MOST_NAME] or "texture"
         return f"{stem}_{self.digest[:8]}{'.png' if self.mime_type == 'image/png' else '.jpg'}"
@@ -61,7 +59,7 @@ class TextureUse:
 
     @property
     def offset_up(self) -> tuple[float, float]:
-        """The offset for coordinates in which v points up, in mesh and image."""
+        """Offset for texture coordinates and images in which v points up."""
         return self.offset[0], 1.0 - self.scale[1] - self.offset[1]
 
 
@@ -72,14 +70,15 @@ class MaterialTextures:
     Attributes
     ----------
     color : TextureUse or None
-        sRGB; its alpha is used unless the material is opaque.
+        Colour in sRGB; its alpha is used unless the material is opaque.
     normal : TextureUse or None
-        Tangent space, green up (OpenGL).
+        Normals in tangent space, green up (OpenGL).
     metallic_roughness : TextureUse or None
         Linear: green is roughness, blue is metallic.
     occlusion : TextureUse or None
-        Linear, red channel.
+        Occlusion of ambient light, linear, in the red channel.
     normal_scale, occlusion_strength : float
+        Strength of the normal map and of the occlusion.
     """
 
     color: TextureUse | None = None
@@ -91,7 +90,7 @@ class MaterialTextures:
 
     @property
     def uses(self) -> tuple[TextureUse, ...]:
-        """All textures that the material has: colour, normal, metal and roughness, occlusion."""
+        """Return all textures that the material has: colour, normal, metal and roughness, occlusion."""
         found = (self.color, self.normal, self.metallic_roughness, self.occlusion)
         return tuple(use for use in found if use is not None)
 
@@ -103,6 +102,6 @@ _known: Final[WeakValueDictionary[tuple[str, str], Texture]] = WeakValueDictiona
 
 
 def texture_of(name: str, content: bytes) -> Texture:
-    """Make a texture from the bytes of a PNG or JPEG file, without checking them."""
+    """Return the texture for the bytes of a PNG or JPEG file, without checking them."""
     digest = hashlib.blake2b(content, digest_size=16).hexdigest()
     return _known.setdefault((digest, name), Texture(digest, name, content))

@@ -1,4 +1,4 @@
-"""Reads and writes TOML: tables of texts, numbers, booleans, lists and nested tables.
+"""Reading and writing of TOML: tables of texts, numbers, booleans, lists and nested tables.
 
 Safe for untrusted files: TOML features that this program's tables do not need are refused (numbers beyond 64 bits, nan
 and infinity, deeply nested names and tables), since they make later steps fail or take time quadratic in the file's
@@ -55,7 +55,7 @@ def read_toml(path: str | os.PathLike[str], file: str | None = None) -> dict[str
 
 
 def toml_text(path: str | os.PathLike[str], file: str | None = None) -> str:
-    """Text of a file, with line ends ``\\n``. Raises FileError, or MapError if it is not UTF-8."""
+    """Read the text of a file, with line ends ``\\n``. Raises FileError, or MapError if it is not UTF-8."""
     try:
         return read_file(path, MOST_BYTES).decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
@@ -122,7 +122,7 @@ def toml(table: Mapping[str, Any], above: tuple[str, ...] = ()) -> str:
 
 
 def header(path: tuple[str, ...], *, many: bool = False) -> str:
-    """Text between the outer brackets of a table's header; ``many``: the table is an element of a list."""
+    """Return the header of a table without its outer brackets; with ``many`` the table is an element of a list."""
     name = ".".join(map(_key, path))
     return f"[{name}]" if many else name
 
@@ -134,8 +134,8 @@ def _syntax(text: str, file: str, at: int, detail: str) -> MapError:
 
 
 def _deepest(text: str) -> int:
-    """Return the offset of the first bracket nested too deep, counting brackets in strings too, since it is only used
-    for messages.
+    """Return the offset of the first bracket nested too deep. Brackets in strings are counted too, since the result is
+    only used for messages.
     """
     depth = 0
     for found in re.finditer(r"[\[\]{}]", text):

@@ -1,4 +1,4 @@
-"""Makes names unique by numbers."""
+"""Numbering of names that occur more than once."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 def numbered(
     names: Iterable[str], taken: Iterable[str] = (), key: Callable[[str], str] = str.casefold
 ) -> tuple[str, ...]:
-    """The names in order; repetitions get the first free number appended.
+    """Return the names in order; repetitions get the first free number appended.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
-"""Writes scenes as OpenUSD files: a SkelRoot with skeleton, skinned meshes, blend shapes and animation; several scenes
-are below one prim with the clip's name, each at its place, and share materials.
+"""Writing of scenes as OpenUSD files: a SkelRoot with skeleton, skinned meshes, blend shapes and animation; several
+scenes are below one prim with the clip's name, each at its place, and share materials.
 
 Centimetres (``metersPerUnit`` 0.01), Y up, facing +Z; time code n is frame n. Names that are invalid for prims are
 changed, and kept unchanged as the prim's display name, in the skeleton's ``jointNames`` and in the blend shapes'
@@ -65,9 +65,9 @@ def write_usd(path: str | os.PathLike[str], scene: Scene, sound: UsdSound | None
     Parameters
     ----------
     path : str or path-like
-        ``.usdc`` (binary) or ``.usda`` (text).
+        File to write, ``.usdc`` (binary) or ``.usda`` (text).
     sound : UsdSound, optional
-        Sound to be played with it.
+        Sound to be played with the animation.
 
     Raises
     ------
@@ -76,13 +76,13 @@ def write_usd(path: str | os.PathLike[str], scene: Scene, sound: UsdSound | None
     UsageError
         The package usd-core is not installed.
     ValueError
-        The scene contradicts itself.
+        The scene is inconsistent.
     """
     write_usds(path, (scene,), sound)
 
 
 def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: UsdSound | None = None) -> None:
-    """Write several scenes into one file as `write_usd`; each scene is released when the next is requested."""
+    """Write several scenes into one file, like `write_usd`; each scene is released when the next is requested."""
     refuse_without_usd()
     with ONE_AT_A_TIME:
         open_libraries()
@@ -108,7 +108,7 @@ def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: Usd
 
 
 def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None, files: TextureFiles) -> Any:
-    """Build the whole file in memory; the used textures are added to ``files``."""
+    """Return the whole USD file as a layer in memory; the used textures are added to ``files``."""
     from pxr import Kind, Sdf, Usd, UsdGeom
 
     layer: Any = Sdf.Layer.CreateAnonymous(".usda")
@@ -142,7 +142,7 @@ def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None, files: Texture
 
 
 class _Writer:
-    """Adds one scene with skeleton, meshes and animation to a USD stage."""
+    """Writer of one scene with skeleton, meshes and animation to a USD stage."""
 
     def __init__(self, scene: Scene, layer: Any, stage: Any, materials: UsdMaterials) -> None:
         self._scene = scene
@@ -181,7 +181,7 @@ class _Writer:
             self._motion(f"{root_path}/{motion_name}", clip, joints, skeleton)
 
     def _joint_paths(self) -> list[str]:
-        """Return USD paths of all joints: a joint's name below the path of its parent."""
+        """Return the USD paths of all joints: a joint's name below the path of its parent."""
         names = _identifiers([bone.name for bone in self._scene.bones])
         paths: list[str] = []
         for bone, name in zip(self._scene.bones, names, strict=True):
@@ -208,7 +208,9 @@ class _Writer:
         return skeleton
 
     def _levels(self, root: Any, meshes: Mapping[str, SkinnedMesh], skeleton: Any) -> None:
-        """Add meshes with levels of detail by their paths: a variant for each level, the mesh itself selected."""
+        """Add meshes that have levels of detail, given by their paths, as variants: one for each level, with the mesh
+        itself selected.
+        """
         found = {path: (mesh, *mesh.levels) for path, mesh in meshes.items() if mesh.levels}
         if not found:
             return

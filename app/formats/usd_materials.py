@@ -1,4 +1,4 @@
-"""Writes preview surfaces of a USD file, with textures as separate files.
+"""Writing of the preview surfaces of a USD file, with textures as separate files.
 
 Source: OpenUSD documentation, "UsdPreviewSurface Specification".
 """

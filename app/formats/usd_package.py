@@ -31,8 +31,8 @@ def refuse_without_usd() -> None:
 def open_libraries() -> None:
     """Load the package's shared libraries without holding the interpreter's lock, unlike an import.
 
-    Prevents a deadlock: while an import loads them, the system's loader is locked and they wait for the interpreter's
-    lock, which numpy may hold in another thread while it waits for the loader.
+    Prevents a deadlock: while an import loads them, the system's loader is locked, and they wait for the interpreter's
+    lock. Another thread may hold that lock in numpy while it waits for the loader.
     """
     found = importlib.util.find_spec("pxr")
     if sys.platform != "linux" or found is None:

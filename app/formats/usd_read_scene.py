@@ -1,4 +1,4 @@
-"""Reads OpenUSD files written by `app.formats.usd` back into scenes; requires usd-core."""
+"""Reading of OpenUSD files written by `app.formats.usd` back into scenes; requires usd-core."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     Raises
     ------
     FileError
-        The file is not of that form.
+        The file was not written by `write_usd`, or is damaged.
     UsageError
         The package usd-core is not installed.
     """
@@ -129,11 +129,11 @@ def _clip(stage: Any, motion: Any) -> Clip:
 
 
 def _at_frames(attribute: Any, frames: int) -> FloatArray:
-    """Values (F, N, ...) of an attribute at all frames; quaternions as xyzw."""
+    """Return the values (F, N, ...) of a USD attribute at all frames; quaternions as xyzw."""
     return np.stack([np.array(attribute.Get(frame)) for frame in range(frames)]).astype(np.float64)
 
 
 def _moving(places_cm: AnyFloatArray) -> list[int]:
-    """Indices of bones whose position relative to the parent changes."""
+    """Return the indices of the bones whose position relative to the parent changes."""
     still = (places_cm == places_cm[:1]).all(axis=(0, 2))
     return np.flatnonzero(~still).tolist()

@@ -1,4 +1,4 @@
-"""Libraries of bundled items and items in a user folder, reloaded when its files change.
+"""Libraries of items that are bundled or in a user folder, which is read again when its files change.
 
 An item is a ``.toml`` file with accompanying files. A user's item overrides a bundled one of the same id; errors are
 reported by file, and the last valid version stays in use. All callers get the same values; only `UserFolder.reload`
@@ -40,11 +40,11 @@ class Shelf(Generic[V]):
     files : mapping of str to Path
         Files of the user's items, by id.
     problems : mapping of Path to tuple of Message
-        Errors in the user's files. If an earlier version was valid, ``items`` has that.
+        Errors in the user's files. If an earlier version of a file was valid, ``items`` has that version.
     revisions : mapping of str to int
         Number of changes of each id; unchanged ones are missing.
     stamp : frozenset
-        The files that were read, with times and sizes.
+        Names, times and sizes of the files that were read.
     made_of : mapping of str to Stamp
         Further files that each user's item depends on.
     """
@@ -84,7 +84,7 @@ class UserFolder(Generic[V, S]):
     read : callable
         Reads a user's table by path; may raise AppError.
     skipped : collection of str
-        Names of tables with other contents.
+        Names of tables in the folder that hold something else.
     """
 
     def __init__(
@@ -108,7 +108,7 @@ class UserFolder(Generic[V, S]):
         return Path(named) if named else platformdirs.user_data_path("suisou", appauthor=False) / self.name
 
     def begin(self) -> S:
-        """Start with the bundled items only, unless the folder was read already; the folder is then read in the
+        """Return the bundled items only, unless the folder was read already; the folder is then read in the
         background.
         """
         with self.lock:
@@ -116,7 +116,7 @@ class UserFolder(Generic[V, S]):
             return self.last
 
     def now(self) -> S:
-        """All items as last read; the first call reads them."""
+        """Return all items as last read; the first call reads them."""
         return self.last if self.last is not None else self.reload()
 
     def reload(self) -> S:
@@ -126,7 +126,9 @@ class UserFolder(Generic[V, S]):
             return self.last
 
     def preview(self, items: Mapping[str, V], own: Collection[str]) -> None:
-        """Use other values until `put_back`, or until the folder changes; ``own`` are the ids of the user's."""
+        """Use other values until `put_back`, or until the folder changes; ``own`` are the ids of items that count as
+        the user's.
+        """
         with self.lock:
             shelf = self.now()
             files = {id: shelf.files.get(id, self.folder() / f"{id}{TABLE}") for id in own}
@@ -193,13 +195,14 @@ class Named(Generic[V]):
     read : callable
         Reads a table by path. Raises AppError.
     name_of : callable
+        Returns the name that a table contains.
     """
 
     def __init__(self, read: Callable[[Path], V], name_of: Callable[[V], str]) -> None:
         self._read, self._name_of = read, name_of
 
     def found(self, folder: Path) -> tuple[dict[str, V], tuple[Message, ...]]:
-        """Valid items sorted by name, and errors in the others. A missing folder is empty."""
+        """Return the valid items sorted by name, and the errors of the others. A missing folder is empty."""
         items: dict[str, V] = {}
         problems = []
         try:
@@ -216,7 +219,9 @@ class Named(Generic[V]):
         return dict(sorted(items.items())), tuple(problems)
 
     def path_of(self, folder: Path, name: str) -> Path | None:
-        """File of the item with this name; None if there is none. Raises FileError if the folder cannot be listed."""
+        """Return the file of the item with a name; None if there is none. Raises FileError if the folder cannot be
+        listed.
+        """
         for path in files_in(folder, TABLE):
             with contextlib.suppress(AppError):  # What is wrong with another file, `found` says.
                 if self._name_of(self._read(path)) == name:
@@ -225,7 +230,7 @@ class Named(Generic[V]):
 
 
 def stamp_of(paths: Iterable[Path]) -> Stamp:
-    """Names, times and sizes of files, to detect changes."""
+    """Return names, times and sizes of files, to detect changes."""
     stamps = []
     for path in paths:
         try:

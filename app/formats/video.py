@@ -1,4 +1,4 @@
-"""Reads the frames of videos with ffmpeg."""
+"""Reading of the frames of videos with ffmpeg."""
 
 from __future__ import annotations
 
@@ -41,6 +41,7 @@ class VideoFacts:
     duration_s : float
         Duration of the file; 0.0 if unknown.
     has_sound : bool
+        Whether it has sound.
     """
 
     width: int
@@ -63,7 +64,7 @@ def video_facts(path: str) -> VideoFacts:
     Raises
     ------
     FileError
-        The file cannot be read or contains no pictures; also as `app.formats.files.open_file`.
+        The file cannot be read or contains no pictures; also the errors of `app.formats.files.open_file`.
     """
     first = ("-map", "0:V:0", "-frames:v", "1", "-pix_fmt", "yuv420p", "-f", "yuv4mpegpipe", "-")
     with ffmpeg_on(path, "ffmpeg.facts", (), first) as process:
@@ -100,7 +101,7 @@ class VideoPictures:
         """Number of the picture that is read next."""
 
     def read(self) -> Picture | None:
-        """Return the next frame; None after the last one, or where the file is cut off.
+        """Return the next frame; None after the last one, or at the point where the file is cut off.
 
         Raises
         ------
@@ -120,7 +121,7 @@ class VideoPictures:
         return np.frombuffer(data, np.uint8).reshape(height, width, 3)
 
     def stop(self) -> None:
-        """Stop reading from another thread: `read` returns None."""
+        """Stop reading from another thread; `read` then returns None."""
         self._is_stopped = True
         self._process.kill()
 
@@ -134,6 +135,7 @@ def video_pictures(path: str, rate: Fraction, size: tuple[int, int], first: int 
     Parameters
     ----------
     path : str
+        The video.
     rate : Fraction
         Frames per second: `VideoFacts.rate`, or another rate for resampling.
     size : (int, int)
@@ -144,7 +146,7 @@ def video_pictures(path: str, rate: Fraction, size: tuple[int, int], first: int 
     Raises
     ------
     FileError
-        ffmpeg cannot be started; also as `app.formats.files.open_file`.
+        ffmpeg cannot be started; also the errors of `app.formats.files.open_file`.
     """
     # A quarter of a picture early: what is sought is not missed for a rounded time, nor the one before taken for it.
     sought = ("-ss", f"{float((first - Fraction(1, 4)) / rate):.6f}") if first > 0 else ()

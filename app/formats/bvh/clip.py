@@ -28,6 +28,7 @@ class BvhClip:
     end_sites_cm : mapping of int to ndarray, shape (3,)
         End points of the joints without children, relative to the joint.
     root_translation_cm : ndarray, shape (F, 3)
+        Position of the root in each of F frames.
     rotations_xyzw : ndarray, shape (F, J, 4)
         Rotation relative to the parent.
     translations_cm : mapping of int to ndarray, shape (F, 3)
@@ -42,7 +43,7 @@ class BvhClip:
     figure : str
         Name of this skeleton in `figures`.
     orders : tuple of str
-        Order of each joint's rotation channels for writing; empty: Z, X, Y.
+        Order of each joint's rotation channels for writing; empty for Z, X, Y.
     """
 
     names: tuple[str, ...]

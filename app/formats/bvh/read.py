@@ -1,4 +1,4 @@
-"""Reads BVH files of any program.
+"""Reading of BVH files of any program.
 
 Programs differ in capitals, blanks and braces, in the number of rows relative to "Frames:", and in the unit of the
 frame time; some write a byte order mark, scales, or several skeletons. Guesses are recorded in the clip.
@@ -54,7 +54,7 @@ def read_bvh(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
     Parameters
     ----------
     figure : str
-        Name of the skeleton to read if there are several (`BvhClip.figures`); empty: the first.
+        Name of the skeleton to read if there are several (`BvhClip.figures`); empty for the first.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def read_bvh(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
 
 
 def decode_bvh(text: str, file: str, figure: str = "") -> BvhClip:
-    """Parse the text of a BVH file, as `read_bvh`."""
+    """Parse the text of a BVH file; see `read_bvh`. ``file`` is its name for messages."""
     found = _MOTION.search(text)
     head, motion = (text[: found.start()], text[found.end() :]) if found else (text, "")
     skeleton = _Skeleton(file)
@@ -88,12 +88,11 @@ class _Skeleton:
 
     @property
     def roots(self) -> list[int]:
-        """Index of each skeleton's root joint."""
+        """Return the index of each skeleton's root joint."""
         return [joint for joint, parent in enumerate(self.parents) if parent < 0]
 
     def figure(self, first: int) -> _Skeleton:
-        """Return the part of the file that is the skeleton with the root joint ``first``, with joints counted from
-        0."""
+        """Return the skeleton with the root joint ``first``, with its joints counted from 0."""
         stop = next((root for root in self.roots if root > first), len(self.names))
         found, own = _Skeleton(self.file), slice(first, stop)
         found.names, found.offsets, found.channels = self.names[own], self.offsets[own], self.channels[own]
@@ -175,7 +174,7 @@ def _lines(text: str) -> Iterator[tuple[int, str]]:
 
 
 def _motion(motion: str, skeleton: _Skeleton, line: int, figure: str) -> BvhClip:
-    """Parse the text after MOTION; ``line`` is its line number."""
+    """Parse the text after MOTION, which begins at the line number ``line``, for one skeleton of the file."""
     file = skeleton.file
     said = _FRAMES.match(motion)
     if said is None:
@@ -214,7 +213,7 @@ def _whole(word: str) -> int:
 
 
 def _numbered(names: list[str]) -> list[str]:
-    """Make names unique: the second "Hips" becomes "Hips (2)"."""
+    """Return names made unique: the second "Hips" becomes "Hips (2)"."""
     earlier = [names[:at].count(name) for at, name in enumerate(names)]
     return [f"{name} ({before + 1})" if before else name for name, before in zip(names, earlier, strict=True)]
 
@@ -249,8 +248,10 @@ def _table(text: str, frames: int, width: int, file: str, line: int) -> tuple[Fl
 
 
 def _without_commas(rows: list[list[str]], width: int) -> list[list[str]]:
-    """Numbers with points for decimal commas, or parted where commas part them; as they are where neither gives as many
-    as a row has."""
+    """Return rows of ``width`` numbers without commas: decimal commas become points, or commas separate numbers.
+
+    If neither gives the right count, the rows are returned unchanged.
+    """
     decimal = all("," not in word or _DECIMAL_COMMA.fullmatch(word) for words in rows for word in words)
     if decimal and _fit(rows, width):
         return [[word.replace(",", ".") for word in words] for words in rows]
@@ -259,7 +260,7 @@ def _without_commas(rows: list[list[str]], width: int) -> list[list[str]]:
 
 
 def _fit(rows: list[list[str]], width: int) -> bool:
-    """Return whether each row that is not empty has so many words; the last one may be cut off."""
+    """Return whether every row that is not empty has ``width`` words; the last row may be incomplete."""
     filled = [len(words) for words in rows if words]
     return all(count == width for count in filled[:-1] or filled)
 
@@ -290,7 +291,9 @@ def _clip(
     rate_guess: Message | None,
     guesses: tuple[Message, ...],
 ) -> BvhClip:
-    """Make the clip of a skeleton; the table may have further columns of other skeletons."""
+    """Return the clip of a skeleton from the table of its channels; the table may have further columns of other
+    skeletons.
+    """
     frames, joints = len(table), len(skeleton.names)
     if frames * joints > _FREE_ROTATIONS + 4 * table.size:
         # Joints need not have channels, and then cost the file nothing in a frame.
@@ -331,13 +334,16 @@ def _clip(
 
 
 def _rotations(angles_degrees: AnyFloatArray, order: str) -> FloatArray:
-    """Quaternions of angles (F, up to 3) about the axes in ``order``; missing axes have angle 0."""
+    """Return quaternions (F, 4) from angles (F, up to 3) in degrees about the axes in ``order``; missing axes have
+    angle 0.
+    """
     missing = "".join(axis for axis in AXES if axis not in order)
     return euler.quaternions(np.pad(angles_degrees, ((0, 0), (0, len(missing)))), order + missing)
 
 
 def _rate(frame_time: float, written: str) -> tuple[Fraction, Message | None]:
-    """Return the frame rate of a frame time, which is often rounded: .03333 is 30 frames per second.
+    """Return the frame rate for a frame time, which is often rounded (.03333 is 30 frames per second), and a note if it
+    was guessed.
 
     A number that is impossible in seconds is taken as milliseconds, or as the rate itself.
     """

@@ -1,9 +1,9 @@
-"""Writes BVH files that all common programs read.
+"""Writing of BVH files that all common programs can read.
 
 Uses the dialect that bvhio, bvh, pybvh, Blender, assimp and three.js read alike: position channels only on the root,
 whose OFFSET is zero (some readers add it to the channels, others replace it); three rotation channels on every joint,
-in its own order; a frame time with enough digits for a long take. Source: M. Meredith, S. Maddock, "Motion Capture File
-Formats Explained" (University of Sheffield, 2001).
+in its own order; a frame time with enough digits for a long recording. Source: M. Meredith, S. Maddock, "Motion Capture
+File Formats Explained" (University of Sheffield, 2001).
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ def write_bvh(path: str | os.PathLike[str], clip: BvhClip) -> None:
     Parameters
     ----------
     clip : BvhClip
-        Names must not contain blanks; joints may be in any order with parents first (the file is depth first). The
-        root's offset is not written, since `root_translation_cm` has its position. Every joint without a child needs an
-        end site.
+        Clip to write. Names must not contain blanks; joints may be in any order with parents first (the file is depth
+        first). The root's offset is not written, since `root_translation_cm` has its position. Every joint without a
+        child needs an end site.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def bvh_pieces(clip: BvhClip) -> Iterator[bytes | bytearray]:
 
 
 def _table_pieces(clip: BvhClip, order: list[int]) -> Iterator[bytearray]:
-    """Yield the channels frame by frame, with joints in this order."""
+    """Yield the channels frame by frame, with the joints in the given order."""
     orders = _orders(clip)
     angles = channel_degrees(clip.rotations_xyzw, orders)
     channels = np.array([[AXES.index(axis) for axis in orders[joint]] for joint in order])
@@ -78,7 +78,7 @@ def _table_pieces(clip: BvhClip, order: list[int]) -> Iterator[bytearray]:
 
 
 def _joint_lines(clip: BvhClip, children: list[list[int]], lines: list[str], order: list[int]) -> None:
-    """Append the lines of the hierarchy, depth first, and the order of the joints."""
+    """Append the lines of the hierarchy to ``lines``, and the joints to ``order``, depth first."""
     turning = [" ".join(f"{axis}rotation" for axis in order) for order in _orders(clip)]
     # What is still to be written, last first: a joint with its depth, or a closing brace of that depth.
     pending: list[tuple[int | None, int]] = [(0, 0)]

@@ -33,7 +33,7 @@ class Assembly:
         return self.last_id
 
     def add(self, kind: str, name: str, class_name: str, sub_class: str, children: tuple[Element, ...]) -> int:
-        """Add an FBX object with a name, its two class names and child records, and return its new id."""
+        """Add an FBX object with a name, its two class names and child records; return its new id."""
         new = self.new_id()
         self.objects.append(Element(kind, (np.int64(new), f"{name}\0\x01{class_name}", sub_class), children))
         return new

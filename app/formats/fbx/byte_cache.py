@@ -36,7 +36,9 @@ class ByteCache(Generic[K, V]):
             return self._kept[key][0]
 
     def keep(self, key: K, value: V, size: int) -> None:
-        """Store a value with its size in bytes; too large ones are not kept, and the oldest give way."""
+        """Store a value of ``size`` bytes; a value that is too large is not stored, and the least recently used ones
+        are dropped.
+        """
         if size > self._largest_bytes:
             return
         with self._lock:

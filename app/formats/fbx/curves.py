@@ -30,8 +30,9 @@ LINEAR = 0x4
 
 
 def rotation_curves(bones: Sequence[Bone], clip: Clip) -> FloatArray:
-    """Return the angles (B, 3, F) of B bones in F frames to be written, degrees about X, Y and Z in each bone's
-    rotation order and relative to its rest."""
+    """Return the angles (B, 3, F) to be written for B bones in F frames: degrees about X, Y and Z relative to the
+    bone's rest, in its rotation order.
+    """
     angles = channel_degrees(clip.rotations_xyzw, *_resting(bones))
     return angles if clip.keys is None else steady(angles, STEADY_DEG).astype(np.float64, copy=False)
 
@@ -43,18 +44,18 @@ def curve_rotations(bones: Sequence[Bone], degrees: AnyFloatArray) -> FloatArray
 
 
 def _resting(bones: Sequence[Bone]) -> tuple[tuple[str, ...], FloatArray]:
-    """Return rotation orders and rest rotations (B, 4) of B bones."""
+    """Return the rotation order of each of B bones, and their rest rotations (B, 4)."""
     return tuple(bone.order for bone in bones), np.array([bone.rotation_xyzw for bone in bones], np.float64)
 
 
 def place_curves(clip: Clip, bone: int) -> AnyFloatArray:
-    """Positions (3, F) in centimetres to be written for a bone that leaves its rest position."""
+    """Return the positions (3, F) in centimetres to be written for a bone that is translated."""
     places = np.asarray(clip.translations_cm[bone]).T
     return places if clip.keys is None else steady(places, STEADY_CM)
 
 
 def _cubic(slopes: FloatArray) -> tuple[Element, ...]:
-    """Return the FBX elements of K cubic keys, with slopes per second at the start and end of each span (K - 1, 2)."""
+    """Return the FBX records of K cubic keys with slopes (K - 1, 2) per second at both ends of each span."""
     data = np.tile(_KEY_DATA, (len(slopes) + 1, 1))
     data[:-1, :2] = slopes
     flags = np.full(len(data), CUBIC | OWN_SLOPES, np.int32)
@@ -72,7 +73,7 @@ def steady(curves: AnyFloatArray, least: float) -> AnyFloatArray:
 
 
 class FbxLayerCurves:
-    """Writes the curves of one animation layer. Arrays shared by several curves are packed once."""
+    """Writer of the curves of one animation layer. Arrays shared by several curves are encoded once."""
 
     def __init__(self, assembly: Assembly, layer: int, key_ticks: IntArray) -> None:
         self._assembly = assembly
@@ -90,8 +91,9 @@ class FbxLayerCurves:
         *,
         alone: bool = False,
     ) -> None:
-        """Animate the models of a figure's bones and the channels of its morphs; without meshes (``alone``), properties
-        from 0 to 1 on the root, named after the morphs.
+        """Animate a figure: ``models`` are the ids of its bones, ``channels`` the ids of the morph channels by name.
+
+        With ``alone`` (no meshes in the file), morphs are written as properties 0..1 of the root, named after them.
         """
         keys = clip.keys
         slopes_fps = float(clip.fps) if keys is not None and keys.curved else 0.0
@@ -142,8 +144,9 @@ class FbxLayerCurves:
             self._assembly.connect(curve, node, f"d|{channel}")
 
     def _times(self, frames: AnyIntArray | None) -> tuple[tuple[Element, ...], tuple[Element, ...]]:
-        """Return the FBX elements before and after the values of a curve, which hold the times of its keys (all frames
-        if None)."""
+        """Return the FBX records before and after the values of a curve, which hold the times of its keys (all frames
+        if None).
+        """
         known = b"" if frames is None else frames.tobytes()
         if known not in self._at:
             key_ticks = self._ticks if frames is None else self._ticks[frames]
@@ -159,10 +162,9 @@ class FbxLayerCurves:
         return self._at[known]
 
     def _keys(self, row: SingleArray) -> PackedArray:
-        """Return a channel's values (F,) as a packed FBX array; constant curves are compressed and shared, for moving
-        ones compression is not worth the time.
+        """Return a channel's values (F,) as an encoded FBX array.
 
-        Constant curves compress to nothing; for moving ones compression is not worth the time.
+        Constant curves are compressed and shared; compressing moving ones is not worth the time.
         """
         if not (row == row[0]).all():
             return pack_array(row, compress=False)

@@ -1,4 +1,4 @@
-"""Decodes the bytes of a binary FBX file into a tree of elements.
+"""Decoding of the bytes of a binary FBX file to a tree of records (`Element`).
 
 Safe for untrusted files: every length is checked, nesting is limited, and an array is never unpacked beyond what its
 compressed bytes can hold.
@@ -50,7 +50,7 @@ _LENGTH, _ARRAY = struct.Struct("<I"), struct.Struct("<III")
 
 
 def read_elements(data: bytes, file: str) -> Element:
-    """Decode a whole file.
+    """Decode a whole FBX file.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def read_elements(data: bytes, file: str) -> Element:
     Returns
     -------
     Element
-        Element without a name, with the file's version as an int32 property and the top level as its children.
+        Element without a name, with the file's version as an int32 property and the top-level records as its children.
 
     Raises
     ------
@@ -94,8 +94,9 @@ class _Reader:
         return FileError(f"fbx.{what}", file=self._file, offset=offset)
 
     def block(self, position: int, end: int, depth: int) -> tuple[tuple[Element, ...], int]:
-        """Decode the child records of a block up to its closing null record. Returns the records and the offset after
-        them. Raises FileError if nested too deeply."""
+        """Decode the child records of a block up to its closing null record. Return the records and the offset after
+        them. Raises FileError if nested too deeply.
+        """
         if depth > _DEEPEST:
             raise self._error("too_deep", position)
         elements: list[Element] = []

@@ -1,4 +1,4 @@
-"""Encodes a tree of elements as the bytes of a binary FBX file.
+"""Encoding of a tree of records (`Element`) as the bytes of a binary FBX file.
 
 Handles records, properties and the footer, not scenes. Layout: `FBX binary file format specification
 <https://code.blender.org/2013/08/fbx-binary-file-format-specification/>`_; identifiers were measured with the FBX SDK's
@@ -41,7 +41,7 @@ _ARRAY_CODES = {"f4": b"f", "f8": b"d", "i4": b"i", "i8": b"l", "b1": b"b"}
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PackedArray:
-    """An array in its encoded form; several elements may share one, so that it is compressed once."""
+    """An array in the form in which FBX stores it; several records may share one, so that it is compressed once."""
 
     encoded: bytes
 
@@ -57,13 +57,13 @@ class Element(msgspec.Struct, frozen=True, eq=False):
     Attributes
     ----------
     name : str
-        ASCII, at most 255 characters.
+        Name, ASCII, at most 255 characters.
     properties : tuple of Property
-        The Python type determines the code in the file: bool C, np.int16 Y, np.int32 I, np.int64 L, np.float32 F, float
-        D, str S, bytes R, one-dimensional arrays of float32 f, float64 d, int32 i, int64 l, bool b. A plain int is
-        refused, since its width is ambiguous.
+        Values; the Python type determines the code in the file: bool C, np.int16 Y, np.int32 I, np.int64 L, np.float32
+        F, float D, str S, bytes R, one-dimensional arrays of float32 f, float64 d, int32 i, int64 l, bool b. A plain
+        int is refused, since its width is ambiguous.
     children : tuple of Element or None
-        None: no nested block. ``()``: an empty block, required for some records.
+        Nested records; None for no nested block, ``()`` for an empty block, which some records require.
     """
 
     name: str
@@ -71,7 +71,7 @@ class Element(msgspec.Struct, frozen=True, eq=False):
     children: tuple[Element, ...] | None = None
 
     def child(self, name: str) -> Element | None:
-        """First child with that name; None if there is none."""
+        """Return the first child with a name; None if there is none."""
         return next((child for child in self.children or () if child.name == name), None)
 
 
@@ -94,7 +94,7 @@ def pack_array(values: npt.NDArray[np.generic], *, compress: bool = True) -> Pac
 
 
 def element_pieces(elements: Sequence[Element]) -> list[bytes]:
-    """Encode a whole file in pieces; large arrays are not copied.
+    """Encode a whole FBX file, and return its bytes in pieces; large arrays are not copied.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def element_pieces(elements: Sequence[Element]) -> list[bytes]:
 
 
 def _of_version(element: Element, version: int) -> Element:
-    """The record, with the version replaced if it is the record that states it."""
+    """Return the header record with the FBX version replaced; other records unchanged."""
     if element.name != "FBXHeaderExtension" or element.children is None:
         return element
     said = Element("FBXVersion", (np.int32(version),))
@@ -158,7 +158,7 @@ class _Writer:
         self.chunks[start] = self._head_of(properties, property_bytes, name)
 
     def _head_of(self, properties: list[bytes], property_bytes: int, name: bytes) -> bytes:
-        """Encode the head of a record that ends here, including its length."""
+        """Encode the head of the record that ends at the present position, including its length."""
         if self.position > _LARGEST_OFFSET and self._version < LARGE_VERSION:
             return self._null
         return self._head.pack(self.position, len(properties), property_bytes, len(name))

@@ -1,4 +1,4 @@
-"""Reads FBX files of other programs as plain values: nodes, meshes, skins, morphs. For this program's files see
+"""Reading of other programs' FBX files as plain values: nodes, meshes, skins, morphs. For this program's files see
 `app.formats.fbx.read`.
 
 The library ufbx reads every version and both encodings, with pre-rotations, pivots, geometric transforms, units and
@@ -43,11 +43,11 @@ class FbxNode:
     Attributes
     ----------
     parent : int
-        Index of the parent; -1: none.
+        Index of the parent; -1 for none.
     kind : str
         Kind of the attached object: ``BONE``, ``MESH``, ``EMPTY``, ``CAMERA``, ``LOD_GROUP`` ...
     world_from_node, world_from_geometry : (4, 4) float64
-        Pose in the file. Vertices of a mesh on the node are in geometry space.
+        World transforms in the file's pose. Vertices of a mesh on the node are in the geometry's space.
     """
 
     name: str
@@ -138,6 +138,7 @@ class FbxMesh:
     nodes : tuple of int
         Indices of the nodes that show it; several nodes show several copies.
     points : (P, 3) float64
+        Positions of the vertices.
     corners : (C,) int64
         Index of the point of each corner.
     faces : (F, 2) int64
@@ -201,7 +202,7 @@ class FbxMotion:
 
 
 def read_foreign_motion(path: str | os.PathLike[str]) -> FbxMotion:
-    """Read the longest animation in an FBX file of any program. Raises as `read_foreign_fbx`."""
+    """Read the longest animation in an FBX file of any program. Raises the errors of `read_foreign_fbx`."""
     return _read(path, FbxMotion, _checked_motion, MOTION)
 
 
@@ -217,8 +218,8 @@ def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
 
 
 def _read(path: str | os.PathLike[str], kind: type[T], checked: Callable[[T], T], *arguments: str) -> T:
-    """Run the child process on a file, and decode its description, in which arrays are referenced by name. Raises
-    FileError.
+    """Run the child process on a file, and decode the description that it prints, in which arrays are referenced by
+    name. Raises FileError.
     """
     file = os.fspath(path)
     printed = _child(read_file(path, MOST_BYTES), file, *arguments)
@@ -252,8 +253,8 @@ def _child(data: bytes, file: str, *arguments: str) -> bytes:
 
 
 def _value(arrays: Mapping[str, npt.NDArray[Any]], kind: type, given: Any) -> Any:
-    """Decode a value of the description: a frame rate, an array by name, values by corner by two names, or a matrix by
-    rows.
+    """Decode a value of the description: a frame rate, an array by its name, values per corner by two names, or a
+    matrix by rows.
     """
     if kind is Fraction:
         return exact_rate(given)

@@ -50,7 +50,7 @@ _kept: list[object] = []
 
 
 def _keep(value: T) -> T:
-    """Return the value after keeping a reference to it, so that it is never freed."""
+    """Keep a reference to a value of ufbx, so that it is never freed, and return it."""
     _kept.append(value)
     return value
 
@@ -60,12 +60,12 @@ def _every(values: Iterable[T]) -> list[T]:
 
 
 class _Written:
-    """Arrays by number, referenced by the description.
+    """The arrays to be printed, which the description references by name.
 
     Parameters
     ----------
     most : int
-        Largest total count of numbers; exceeding it raises MemoryError.
+        Greatest total count of numbers in the arrays; more raise MemoryError.
     """
 
     def __init__(self, most: int) -> None:
@@ -75,7 +75,7 @@ class _Written:
         self._left = most
 
     def take(self, count: int) -> None:
-        """Subtract numbers from the budget before they are allocated."""
+        """Count numbers that are about to be allocated; raise MemoryError if there would be too many."""
         self._left -= count
         if self._left < 0:
             raise MemoryError
@@ -86,7 +86,9 @@ class _Written:
         return name
 
     def vectors(self, values: Any, width: int) -> str:
-        """Store vectors from ufbx, which are plain tuples and may be freed; faces with many shapes have millions."""
+        """Store vectors of a number of components, and return the array's name. ufbx gives them as plain tuples, which
+        may be freed; faces with many shapes have millions.
+        """
         self.take(width * len(_keep(values)))
         numbers = (number for vector in values for number in vector)
         return self.add(np.fromiter(numbers, np.float64).reshape(-1, width))
@@ -97,7 +99,7 @@ class _Written:
 
 
 def _matrix(matrix: Any) -> list[list[float]]:
-    """Rows of a 3 x 4 matrix, which ufbx stores by columns."""
+    """Return the rows of a 3 x 4 matrix, which ufbx stores by columns."""
     rows: list[list[float]] = np.array([list(column) for column in _keep(matrix)], dtype=np.float64).T.tolist()
     return rows
 
@@ -129,7 +131,9 @@ def _mesh(mesh: Any, written: _Written) -> dict[str, Any]:
 
 
 def _attribute(attribute: Any, width: int, written: _Written) -> list[str] | None:
-    """Store the values of a mesh attribute, and for each corner the index of its value; None if it does not exist."""
+    """Store the values of a mesh attribute, and for each corner the index of its value; return the names of both
+    arrays, or None if the mesh lacks the attribute.
+    """
     if not _keep(attribute).exists:
         return None
     return [written.vectors(attribute.values, width), written.numbers(attribute.indices, np.int64)]
@@ -167,7 +171,9 @@ def _material(material: Any, written: _Written) -> dict[str, Any]:
 
 
 def _texture(maps: Iterable[Any], written: _Written) -> dict[str, Any] | None:
-    """Describe the first image among some maps of a material: file name, content if embedded, and placement."""
+    """Return a description of the first image among some maps of a material: file name, content if embedded, and
+    placement; None if there is none.
+    """
     for own in _every(maps):
         texture = _keep(own.texture)
         if texture is None or not texture.has_file:
@@ -272,8 +278,9 @@ def _nodes(scene: Any, written: _Written) -> list[dict[str, Any]]:
 
 
 def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
-    """Read nodes and meshes from the bytes of an FBX file, in metres, right-handed, Y up; returns a JSON description
-    and its arrays by name."""
+    """Read nodes and meshes from the bytes of an FBX file, in metres, right-handed, Y up. Return a JSON description,
+    and the arrays to which it refers by name.
+    """
     scene = _load(data, animated=False)
     written = _Written(FREE_NUMBERS + NUMBERS_PER_BYTE * len(data))
     nodes = _nodes(scene, written)
@@ -283,7 +290,8 @@ def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
 
 def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
     """Read from the bytes of an FBX file the nodes, bind transforms, and local transforms in all frames of the longest
-    animation; returns a JSON description and its arrays by name."""
+    animation. Return a JSON description, and the arrays to which it refers by name.
+    """
     scene = _load(data, animated=True)
     written = _Written(FREE_MOTION_NUMBERS + NUMBERS_PER_BYTE * len(data))
     nodes = _nodes(scene, written)
@@ -321,7 +329,7 @@ def _length_s(stack: Any) -> float:
 
 
 def main() -> None:
-    """Print the contents of the file on standard input: a JSON description and its arrays as ``.npz``."""
+    """Read the FBX file on standard input, and print a JSON description and its arrays as ``.npz``."""
     gc.disable()
     output = sys.stdout.buffer
     status = 0

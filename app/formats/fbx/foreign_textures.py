@@ -1,5 +1,5 @@
-"""Converts materials of other programs' FBX files to scene materials, with embedded images or image files next to the
-FBX file.
+"""Conversion of materials of other programs' FBX files to scene materials, with embedded images or image files next to
+the FBX file.
 
 The file contains image paths of another computer. Only their names are used: the image is searched in the file's folder
 and some subfolders, after links are resolved.
@@ -26,7 +26,7 @@ _FARTHEST: Final = 1e6
 
 
 def media_folder(path: Path) -> Path:
-    """Return the folder beside an FBX file in which its images are looked for first."""
+    """Return the folder next to an FBX file in which its images are searched first."""
     return path.with_name(f"{path.stem}.fbm")
 
 
@@ -42,7 +42,9 @@ class FbxTextures:
         self._beside: dict[str, bytes] = {}
 
     def material(self, surface: FbxMaterial) -> Material:
-        """Convert a material with its readable textures; the opacity in its images makes it a cut-out."""
+        """Return the scene material for a material of the FBX file, with those textures that can be read; if its images
+        have opacity, it is cut out.
+        """
         found = {role: use for role, one in surface.textures.items() if (use := self._use(one)) is not None}
         color, opacity = found.get("color"), found.get("opacity")
         cut = color is not None and opacity is not None
@@ -74,7 +76,7 @@ class FbxTextures:
 
     @property
     def beside(self) -> dict[str, bytes]:
-        """Files beside this one that its materials show so far, by their names."""
+        """Return the image files next to the FBX file that the materials converted so far use, by name."""
         return {name: content for name, content in self._beside.items() if content}
 
     def _use(self, texture: FbxTexture) -> TextureUse | None:
@@ -91,7 +93,7 @@ class FbxTextures:
         return self._images.texture(Path(name).stem or texture.name, content) if content else None
 
     def _found(self, name: str) -> bytes:
-        """Contents of an image file by its name; empty if it is not found."""
+        """Return the content of an image file by its name; empty if it is not found."""
         if name in self._beside or not name or "\0" in name or self._left_files <= 0:
             return self._beside.get(name, b"")
         self._left_files -= 1

@@ -1,4 +1,4 @@
-"""Encodes meshes, morphs and skin weights as FBX records."""
+"""Encoding of meshes, morphs and skin weights as FBX records."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def geometry(mesh: SkinnedMesh) -> tuple[Element, ...]:
 
 
 def morph_geometry(morph: MorphTarget) -> tuple[Element, ...]:
-    """Children of a Geometry record of class Shape: moved points and offsets."""
+    """Return the child records of a Geometry of class Shape: moved vertices and their offsets."""
     normals = morph.normal_deltas if morph.normal_deltas is not None else np.zeros_like(morph.position_deltas_cm)
     return (
         Element("Version", (np.int32(100),)),
@@ -46,7 +46,7 @@ def morph_geometry(morph: MorphTarget) -> tuple[Element, ...]:
 
 
 def skin_clusters(mesh: SkinnedMesh) -> Iterator[tuple[int, npt.NDArray[np.int32], FloatArray]]:
-    """Yield bone index, sorted vertex indices and weights for every bone that moves vertices."""
+    """Yield for every bone that moves vertices its index, the sorted indices of the vertices, and their weights."""
     vertex_count = len(mesh.vertices_cm)
     weights = np.asarray(mesh.weights, dtype=np.float64)
     vertices, slots = np.nonzero(weights > 0)

@@ -49,18 +49,18 @@ class ObjectGraph:
             self.parents.setdefault(int(child), []).append((int(parent), to_property))
 
     def section(self, root: Element, name: str) -> Element:
-        """The child record with that name. Raises FileError if it is missing."""
+        """Return the child record with a name. Raises FileError if it is missing."""
         found = root.child(name)
         if found is None:
             raise FileError("fbx.missing", file=self.file, what=name)
         return found
 
     def of_kind(self, kind: str, sub_class: str) -> list[FbxObject]:
-        """Objects of a kind and class, in file order."""
+        """Return the objects of a kind and class, in file order."""
         return [o for o in self.objects.values() if o.kind == kind and o.sub_class == sub_class]
 
     def below(self, parent: FbxObject, kind: str, sub_class: str | None = None) -> list[FbxObject]:
-        """Objects of a kind connected to `parent`, in file order."""
+        """Return the objects of a kind that are connected to ``parent``, in file order."""
         linked = (self.objects.get(child) for child, _ in self.children.get(parent.id, ()))
         return [o for o in linked if o is not None and o.kind == kind and sub_class in (None, o.sub_class)]
 
@@ -96,7 +96,7 @@ class ObjectGraph:
         return values.reshape(4, 4).T
 
     def only(self, element: Element, kind: type[T]) -> T:
-        """The only property of a record. Raises FileError if it is missing or of another type."""
+        """Return the only property of a record. Raises FileError if it is missing or of another type."""
         if len(element.properties) != 1 or not isinstance(element.properties[0], kind):
             raise FileError("fbx.missing", file=self.file, what=f"value of {element.name}")
         return element.properties[0]
@@ -110,5 +110,5 @@ def properties_of(element: Element) -> dict[str, tuple[Property, ...]]:
 
 
 def numbers(values: tuple[Property, ...]) -> list[float]:
-    """The numbers among the values of a property."""
+    """Return the numbers among the values of a property."""
     return [float(value) for value in values if isinstance(value, float | np.integer | np.floating)]

@@ -1,9 +1,9 @@
-"""Converts metallic-roughness materials to FBX and back.
+"""Conversion of metallic-roughness materials to FBX and back.
 
-FBX 7.4 only has Phong surfaces, so a material is described in several ways for different readers:
+FBX 7.4 only has Phong surfaces, so a material is stored in several ways for different programs:
 
 - Blender's importer in Python takes the colour from DiffuseColor alone, metallic from ReflectionFactor, roughness from
-  Shininess as ``1 - sqrt(Shininess) / 10`` and the reflectance of what is no metal from SpecularFactor
+  Shininess as ``1 - sqrt(Shininess) / 10`` and the reflectance of non-metals from SpecularFactor
   (``io_scene_fbx/import_fbx.py``, Blender 5.0); assimp takes roughness from ShininessExponent in the same way.
 - The FBX SDK, and with it Unreal, takes colours times their factors; Unreal's older importer finds colours of a Phong
   or Lambert surface only, so it must remain one.
@@ -36,7 +36,7 @@ PHYSICAL_MATERIAL = {"ClassIDa": 1030429932, "ClassIDb": -559038463, "SuperClass
 
 @dataclass(frozen=True)
 class Phong:
-    """A Phong surface: linear RGB from 0 to 1, each with a factor, and the exponent of its highlights."""
+    """A Phong surface: linear RGB colours 0..1, each with a factor, and the exponent of its highlights."""
 
     diffuse_rgb: tuple[float, float, float]
     diffuse_factor: float
@@ -46,7 +46,7 @@ class Phong:
 
 
 def phong(material: Material) -> Phong:
-    """The nearest Phong surface; the colour of a metal becomes its reflection."""
+    """Return the Phong surface nearest to a material; the colour of a metal becomes its reflection."""
     red, green, blue, _ = material.base_color
     metallic = material.metallic
     factor = _BLENDER_SPECULAR + (1.0 - _BLENDER_SPECULAR) * metallic
@@ -64,7 +64,7 @@ def phong(material: Material) -> Phong:
 
 
 def roughness_of(shininess: float) -> float:
-    """The roughness whose `phong` surface has this shininess."""
+    """Return the roughness of the material whose `phong` surface has a given shininess."""
     return min(max(1.0 - math.sqrt(max(shininess, 0.0)) / 10.0, 0.0), 1.0)
 
 

@@ -1,4 +1,4 @@
-"""Caches encoded meshes by content, since players with the same body have the same meshes."""
+"""Cache of encoded meshes by content, since players with the same body have the same meshes."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class PackedMesh(msgspec.Struct, frozen=True, eq=False):
 
 
 def packed_mesh(mesh: SkinnedMesh) -> PackedMesh:
-    """Encode a mesh, once for all meshes with the same content."""
+    """Return the encoded data of a mesh, computed once for all meshes with the same content."""
     known = _digest(mesh)
     packed = _meshes.get(known)
     if packed is None:
@@ -58,7 +58,7 @@ _meshes: Final = ByteCache[bytes, PackedMesh](_MOST_KEPT_BYTES, _MOST_KEPT_BYTES
 
 
 def _digest(mesh: SkinnedMesh) -> bytes:
-    """Hash of everything that a `PackedMesh` depends on."""
+    """Return a hash of everything that a `PackedMesh` depends on."""
     arrays = [mesh.vertices_cm, mesh.faces, mesh.normals, mesh.uvs, mesh.face_materials]
     arrays += [mesh.joint_indices, mesh.weights]
     for morph in mesh.morphs:

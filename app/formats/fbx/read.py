@@ -1,4 +1,4 @@
-"""Reads binary FBX files written by `app.formats.fbx.write` back into scenes.
+"""Reading of binary FBX files written by `app.formats.fbx.write` back into scenes.
 
 Supports only what that writer produces: bones in centimetres without scaling or pivots, directly under the scene or
 under one Null per figure, and linear keys on frames, evaluated at every frame. Everything else raises an error, never a
@@ -45,7 +45,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     Raises
     ------
     FileError
-        The file is not of that form.
+        The file was not written by `write_scene`, or is damaged.
     """
     return decode_scene(read_file(path, MOST_BYTES), os.fspath(path))
 
@@ -86,7 +86,7 @@ def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
 
 
 def _figure(graph: ObjectGraph, node: FbxObject | None, take: FbxTake | None, creator: str) -> Scene:
-    """Return the scene below a node of the FBX file, or the whole file's if ``node`` is None."""
+    """Return the scene of the figure below a node of the FBX file, or the whole file's scene if ``node`` is None."""
     bones, turns_from, bone_of_model = _bones(graph, node)
     place, node_from_world, models = None, np.eye(4, dtype=np.float64), graph.of_kind("Model", "Mesh")
     if node is not None:
@@ -123,8 +123,9 @@ def _figure(graph: ObjectGraph, node: FbxObject | None, take: FbxTake | None, cr
 
 
 def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...], FloatArray, dict[int, int]]:
-    """Return the bones below a node, parents first; the B pre-rotations (B, 4) from which their angles count; and the
-    bone index of each model."""
+    """Return the bones below a node, parents first; the pre-rotations (B, 4) relative to which their angles are stored;
+    and the bone index of each model.
+    """
     top = 0 if node is None else node.id
     models = graph.of_kind("Model", "LimbNode")
     is_bone = {model.id for model in models}
@@ -180,8 +181,9 @@ def _turning(graph: ObjectGraph, model: FbxObject) -> tuple[str, FloatArray]:
 
 
 def _placement(graph: ObjectGraph, model: FbxObject, without: Iterable[str] = ()) -> tuple[FloatArray, FloatArray]:
-    """Local translation (3,) in centimetres and Euler angles (3,) in degrees of an FBX model. Raises FileError if it
-    has any other transform or one of the properties ``without``."""
+    """Return local translation (3,) in centimetres and Euler angles (3,) in degrees of an FBX model. Raises FileError
+    if it has any other transform or one of the properties ``without``.
+    """
     properties = properties_of(model.element)
     for name in (*_NOT_SUPPORTED, *without):
         if any(numbers(properties.get(name, ()))):
@@ -226,7 +228,9 @@ def _mesh(
 
 
 def _levels(graph: ObjectGraph, node: FbxObject | None) -> dict[int, list[FbxObject]]:
-    """Lower levels of detail by the id of their mesh, of the figure below a node or of the file's only one."""
+    """Return the lower levels of detail of each mesh, by the mesh's id, in the figure below a node, or in the whole
+    file if it is None.
+    """
     groups = graph.of_kind("Model", "LodGroup") if node is None else graph.below(node, "Model", "LodGroup")
     found = [graph.below(group, "Model", "Mesh") for group in groups]
     return {models[0].id: models[1:] for models in found if models}
@@ -268,7 +272,7 @@ def _face_materials(graph: ObjectGraph, element: Element, face_count: int) -> In
 def _skin(
     graph: ObjectGraph, shape: FbxObject, vertex_count: int, bone_of_model: dict[int, int]
 ) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Joints and weights by vertex, strongest first, and the bind pose of every bone."""
+    """Return bone indices (V, K) and weights (V, K) of V vertices, strongest first, and the bind pose of every bone."""
     binds = _bind_pose(graph, bone_of_model)
     shares: list[tuple[int, IntArray, FloatArray]] = []
     slots: list[IntArray] = []
@@ -373,8 +377,9 @@ def _clip(
 def _turn(
     rotations: FloatArray, turning: list[tuple[int, list[FbxCurve]]], orders: Sequence[str], turns_from: FloatArray
 ) -> None:
-    """Set rotations (4, B, F), x y z w of B bones in F frames, from the curves of the bones' angles; ``orders`` are the
-    orders of angles, ``turns_from`` the pre-rotations."""
+    """Set ``rotations`` (4, B, F), x y z w of B bones in F frames, from the curves of the bones' angles; ``orders`` are
+    the orders of angles, ``turns_from`` the pre-rotations.
+    """
     frames = rotations.shape[-1]
     resting = [row for row in turning if all(curve.rests for curve in row[1])]
     moving = [row for row in turning if not all(curve.rests for curve in row[1])]

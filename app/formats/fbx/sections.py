@@ -28,7 +28,7 @@ def property_block(*rows: Element) -> Element:
 
 
 def header(creator: str) -> Element:
-    """FBXHeaderExtension: version, program, and a constant date."""
+    """Return FBX's record with version, program and a constant date."""
     stamp = tuple(
         integer(name, value)
         for name, value in (
@@ -64,7 +64,7 @@ def header(creator: str) -> Element:
 
 
 def global_settings(rate: Fraction | None, last_tick: int) -> Element:
-    """Axes (Y up, right-handed), unit (centimetres), frame rate and time span."""
+    """Return FBX's record of axes (Y up, right-handed), unit (centimetres), frame rate and time span."""
     axes = (
         ("UpAxis", 1), ("UpAxisSign", 1), ("FrontAxis", 2), ("FrontAxisSign", 1), ("CoordAxis", 0),
         ("CoordAxisSign", 1), ("OriginalUpAxis", 1), ("OriginalUpAxisSign", 1),
@@ -112,7 +112,9 @@ def definitions(objects: Iterable[Element]) -> Element:
 
 
 def lod_group(lower_levels: int) -> tuple[Element, ...]:
-    """Children of the attribute of a node that shows one of its children, by the figure's height on the screen."""
+    """Return the child records of the attribute of a node that shows one of its children, depending on the height of
+    the figure on the screen.
+    """
     rows = [
         property_row("MinMaxDistance", "bool", "", "", np.int32(0)),
         property_row("ThresholdsUsedAsPercentage", "bool", "", "", np.int32(1)),
@@ -129,7 +131,7 @@ def lod_group(lower_levels: int) -> tuple[Element, ...]:
 
 
 def takes(take: str, last_tick: int) -> Element:
-    """The Takes section, where older programs find the clip."""
+    """Return FBX's section Takes, in which older programs find the clip."""
     children: tuple[Element, ...] = (Element("Current", (take,)),)
     if take:
         span = (np.int64(0), np.int64(last_tick))

@@ -1,4 +1,6 @@
-"""Smoothing groups, for programs that compute normals themselves: faces that share a group are shaded smoothly."""
+"""Smoothing groups of FBX, for programs that compute normals themselves: faces that share a group are shaded
+smoothly.
+"""
 
 from __future__ import annotations
 
@@ -19,8 +21,10 @@ _DIRECTIONS: Final = 1e3
 
 
 def smoothing_groups(mesh: SkinnedMesh) -> IntArray:
-    """Smoothing group of each face (T,) as a bit: faces on both sides of an edge share one if their normals agree
-    there, and have different ones otherwise, unless they meet elsewhere.
+    """Return the smoothing group of each face (T,) as a bit.
+
+    Faces on both sides of an edge share a group if their normals agree there; otherwise they have different ones,
+    unless they also meet elsewhere.
     """
     faces = np.asarray(mesh.faces, np.int64)
     places = _numbered(np.asarray(mesh.vertices_cm, np.float64) * _PLACES)[faces]
@@ -44,14 +48,17 @@ def smoothing_groups(mesh: SkinnedMesh) -> IntArray:
 
 
 def _numbered(values: AnyFloatArray) -> IntArray:
-    """Index of each distinct row of values (N, 3), after rounding."""
+    """Return for each row of values (N, 3) the index (N,) of the distinct row that it equals after rounding."""
     numbers: IntArray = np.unique(np.rint(values).astype(np.int64), axis=0, return_inverse=True)[1].reshape(-1)
     return numbers
 
 
 def _neighbours(ends: IntArray, number: IntArray) -> IntArray:
-    """Return the pairs (P, 2) of faces that share an edge, from the corners (T, N) of T faces with N corners each;
-    ``number`` identifies equal points."""
+    """Return the pairs (P, 2) of faces that share an edge.
+
+    ``ends`` (T, N) are the corners of T faces with N corners each, numbered so that equal positions are equal;
+    ``number`` (T * N,) is the face of each edge.
+    """
     edges = np.sort(np.stack([ends.ravel(), np.roll(ends, -1, axis=1).ravel()], axis=1), axis=1)
     order = np.lexsort(edges.T)
     edges, number = edges[order], number[order]

@@ -1,4 +1,6 @@
-"""Reads the animation of a binary FBX file written by this program: one take with linear or cubic keys on frames."""
+"""Reading of the animation of a binary FBX file written by this program: one take with linear or cubic keys
+on frames.
+"""
 
 from __future__ import annotations
 
@@ -28,8 +30,10 @@ _ANIMATED = {
 
 
 class FbxCurve(NamedTuple):
-    """Keys of a curve as stored in an FBX file: frames (K,) and values (K,) of K keys; for cubic keys also slopes (K -
-    1, 2) per frame at both ends of each span, None for linear keys."""
+    """Keys of a curve as stored in an FBX file: frames (K,) and values (K,).
+
+    Cubic keys also have slopes (K - 1, 2) per frame at both ends of each span; these are None for linear keys.
+    """
 
     frames: IntArray
     values: AnyFloatArray
@@ -41,8 +45,9 @@ class FbxCurve(NamedTuple):
         return self.slopes is None and bool((self.values == self.values[0]).all())
 
     def at(self, frames: int) -> FloatArray:
-        """Return the curve's values (frames,) at all frames: lines or cubics between the keys, constant before and
-        after them."""
+        """Return the curve's values at all frames (frames,): lines or cubics between the keys, constant before and
+        after them.
+        """
         if len(self.frames) == frames:
             return self.values.astype(np.float64)
         if self.slopes is not None:
@@ -61,7 +66,7 @@ class FbxTake(NamedTuple):
 
 
 def read_take(graph: ObjectGraph, root: Element) -> FbxTake | None:
-    """The first take of a file; None if there is none."""
+    """Return the first take of a file; None if there is none."""
     stacks = graph.of_kind("AnimationStack", "")
     if not stacks:
         return None
@@ -89,7 +94,9 @@ def read_take(graph: ObjectGraph, root: Element) -> FbxTake | None:
 def _curves(
     graph: ObjectGraph, stack: FbxObject, frame_ticks: IntArray, fps: Fraction
 ) -> dict[tuple[int, str], list[FbxCurve]]:
-    """Return the curves of every animated property, by object id and property name; one curve for each channel."""
+    """Return the curves of every animated property, by object id and property name; one curve for each channel of the
+    property.
+    """
     result: dict[tuple[int, str], list[FbxCurve]] = {}
     # Equal arrays of a file are one array.
     known: dict[int, tuple[IntArray, IntArray]] = {}
@@ -128,7 +135,9 @@ def _slopes(graph: ObjectGraph, curve: Element, count: int, fps: Fraction) -> Fl
 
 
 def _key_frames(graph: ObjectGraph, key_ticks: IntArray, frame_ticks: IntArray, fps: Fraction) -> IntArray:
-    """Return the frame numbers (N,) of an FBX curve's keys. Raises FileError for keys between or outside the frames."""
+    """Return the frame numbers (N,) of an FBX curve's N keys. Raises FileError for keys between or outside
+    the frames.
+    """
     frames = ticks.nearest_frames(key_ticks.astype(np.float64), fps)
     there = len(frames) and 0 <= frames.min() <= frames.max() < len(frame_ticks)
     if not there or (np.diff(frames) <= 0).any() or not np.array_equal(frame_ticks[frames], key_ticks):

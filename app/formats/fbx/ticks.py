@@ -1,4 +1,4 @@
-"""FBX time: integer ticks, 46,186,158,000 per second, and the codes of frame rates.
+"""Time in FBX files: integer ticks, 46,186,158,000 per second, and the codes of frame rates.
 
 Source: FBX SDK reference, ``FbxTime`` (``FBXSDK_TC_SECOND`` and ``FbxTime::EMode``).
 """
@@ -37,7 +37,7 @@ _RATES = {mode: fps for fps, mode in _TIME_MODES.items()} | {7: Fraction(30), 8:
 
 
 def frame_ticks(fps: Fraction, frames: int) -> IntArray:
-    """Tick of each frame (frames,), rounded separately so that errors do not add up."""
+    """Return the tick of each frame (frames,), rounded separately so that errors do not add up."""
     numerator, denominator = TICKS_PER_SECOND * fps.denominator, fps.numerator
     if numerator % denominator == 0:
         return np.arange(frames, dtype=np.int64) * (numerator // denominator)
@@ -51,12 +51,12 @@ def nearest_frames(at_ticks: FloatArray, fps: Fraction) -> IntArray:
 
 
 def time_mode(fps: Fraction) -> int:
-    """``TimeMode`` code of a frame rate; `CUSTOM_TIME_MODE` requires ``CustomFrameRate``."""
+    """Return the ``TimeMode`` code of a frame rate; `CUSTOM_TIME_MODE` requires ``CustomFrameRate``."""
     return _TIME_MODES.get(fps, CUSTOM_TIME_MODE)
 
 
 def rate(mode: int, custom: float) -> Fraction | None:
-    """Frame rate of a ``TimeMode`` code; None if it names none."""
+    """Return the frame rate of a ``TimeMode`` code; None if the code stands for none."""
     if mode != CUSTOM_TIME_MODE:
         return _RATES.get(mode)
     if not 0 < custom < 1e6:

@@ -1,9 +1,9 @@
-"""Writes scenes as binary FBX 7.4 files.
+"""Writing of scenes as binary FBX 7.4 files.
 
-The layout is one that the FBX SDK 2019.2, ufbx, Blender, assimp and three.js read alike: no pivots, no scaling, bones
-as LimbNodes under one root, linear keys. A bone's rest is its pre-rotation, so that its curves are 0 there, and each
-bone has its own rotation order. Several scenes share one take; the bones and meshes of each are below a Null with its
-name and place, which becomes the armature in Blender. Textures are separate files (`app.formats.texture_files`).
+The FBX SDK 2019.2, ufbx, Blender, assimp and three.js read the chosen layout alike: no pivots, no scaling, bones as
+LimbNodes under one root, linear keys. A bone's rest is its pre-rotation, so that its curves are 0 there, and each bone
+has its own rotation order. Several scenes share one take; the bones and meshes of each are below a Null with its name
+and place, which becomes the armature in Blender. Textures are separate files (`app.formats.texture_files`).
 """
 
 from __future__ import annotations
@@ -49,13 +49,13 @@ def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
     FileError
         The file cannot be written.
     ValueError
-        The scene contradicts itself.
+        The scene is inconsistent.
     """
     write_scenes(path, (scene,))
 
 
 def write_scenes(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
-    """Write several scenes into one file as `write_scene`; each scene is released when the next is requested."""
+    """Write several scenes into one file, like `write_scene`; each scene is released when the next is requested."""
     textures = TextureFiles()
     pieces = element_pieces(scene_elements(scenes, textures))
     textures.write(Path(path).parent)
@@ -64,7 +64,9 @@ def write_scenes(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
 
 
 def scene_elements(scenes: Iterable[Scene], textures: TextureFiles | None = None) -> tuple[Element, ...]:
-    """Top-level records in the order that all readers expect; the files of used textures are added to ``textures``."""
+    """Return the top-level records of the file in the order that all programs expect; the image files of used textures
+    are added to ``textures``.
+    """
     graph = Assembly(TextureFiles() if textures is None else textures)
     curves: FbxLayerCurves | None = None
     creator, take, rate, last_tick = "", "", None, 0
@@ -92,7 +94,7 @@ def scene_elements(scenes: Iterable[Scene], textures: TextureFiles | None = None
 
 
 def _vector(name: str, values: AnyFloatArray) -> Element:
-    """A transform property that may be animated; its type is named like the property."""
+    """Return a record of a transform property that may be animated; its type is named like the property."""
     return property_row(name, name, "", "A", *(float(value) for value in values))
 
 
@@ -182,7 +184,8 @@ def _model(
 
 
 def _unconnected_binds(scene: Scene) -> FloatArray:
-    """Bind transforms (J, 4, 4), adjusted so that no translated bone lies exactly on its parent's y axis.
+    """Return the bind transforms (J, 4, 4) of J bones, adjusted so that no translated bone lies exactly on its parent's
+    y axis.
 
     Blender treats a child at the end of that axis as connected and drops its location keys, so such a bone is moved by
     a hundredth of a millimetre.
@@ -201,8 +204,9 @@ def _unconnected_binds(scene: Scene) -> FloatArray:
 def _add_levels(
     graph: Assembly, figure: _Figure, mesh: SkinnedMesh, binds: FloatArray, world_from_node: FloatArray
 ) -> tuple[int, ...]:
-    """Add a mesh, and its levels of detail below a node that shows one level at a time; returns the ids of all
-    meshes."""
+    """Add a mesh, and its levels of detail below a node that shows one level at a time; return the ids of all
+    meshes.
+    """
     if not mesh.levels:
         return (_add_mesh(graph, figure, mesh, figure.node, binds, world_from_node),)
     name = f"{mesh.name}_LODs"
@@ -262,7 +266,7 @@ def _add_skin(
 
 
 def _matrix(name: str, matrix: AnyFloatArray) -> Element:
-    """A matrix stored column by column: entries 12 to 14 are the translation."""
+    """Return a record of a matrix, stored column by column: entries 12 to 14 are the translation."""
     return Element(name, (np.ascontiguousarray(matrix.T, dtype=np.float64).ravel(),))
 
 
@@ -291,7 +295,7 @@ def _add_morphs(graph: Assembly, figure: _Figure, mesh: SkinnedMesh, packed: Pac
 
 
 def _add_take(graph: Assembly, clip: Clip) -> tuple[int, FbxLayerCurves]:
-    """Add animation stack and layer; returns the tick of the last key, and the writer of the layer's curves."""
+    """Add animation stack and layer; return the tick of the last key, and the writer of the layer's curves."""
     key_ticks = ticks.frame_ticks(clip.fps, clip.frames)
     last_tick = int(key_ticks[-1])
     spans = [

@@ -1,7 +1,7 @@
-"""Writes materials of an FBX file, with textures as separate files.
+"""Writing of the materials of an FBX file, with textures as separate files.
 
-In FBX a texture replaces a property: there are no factors, and no images of several values. So colours are multiplied
-into the image; roughness, metallic and opacity become separate images, each registered for all readers:
+In FBX a texture replaces a property: there are no factors, and no images that hold several values. So colours are
+multiplied into the image; roughness, metallic and opacity become separate images, each connected for all programs:
 
 - Blender's importer in Python: DiffuseColor, whose alpha it takes as the opacity of any material, NormalMap with
   BumpFactor, and ReflectionFactor as metal; the older importers of Unreal and three.js take the first two and
@@ -54,8 +54,8 @@ _PROPERTIES = {
 
 
 def fbx_maps(material: Material) -> dict[str, TextureUse]:
-    """Textures of a material as FBX needs them, by role: ``color``, ``opacity``, ``normal``, ``roughness``,
-    ``metallic``.
+    """Return the textures of a material in the form that FBX needs, by role: ``color``, ``opacity``, ``normal``,
+    ``roughness``, ``metallic``.
     """
     textures, maps = material.textures, dict[str, TextureUse]()
     if textures.color is not None:
@@ -76,7 +76,9 @@ def fbx_maps(material: Material) -> dict[str, TextureUse]:
 
 
 def _shown(material: Material, maps: Mapping[str, TextureUse]) -> Material:
-    """A material whose plain values suit readers that ignore its maps, and are neutral for those that use them."""
+    """Return a material whose plain values suit programs that ignore its textures (roughness and metallic are the
+    means), and are neutral for those that use them.
+    """
     if "color" in maps:
         material = replace(material, base_color=(1.0, 1.0, 1.0, 1.0))
     if "roughness" in maps:

@@ -1,4 +1,4 @@
-"""Checked access to a glTF document: fields, buffers, accessors.
+"""Checked access to the parts of a glTF document: fields, buffers, accessors.
 
 Documents are untrusted, so every index, offset and size is checked before bytes are accessed. Source: Khronos, "glTF
 2.0 Specification", section 3.6.
@@ -44,7 +44,7 @@ class Accessors:
     size : int
         Size of the file in bytes.
     unpacked : bytes
-        Contents of the last buffer if it has no address (`app.formats.gltf.packed`).
+        Content of the last buffer if it holds decompressed data (`app.formats.gltf.packed`).
     """
 
     def __init__(
@@ -93,7 +93,9 @@ class Accessors:
         return value if isinstance(value, str) and value else otherwise
 
     def number(self, owner: object, name: str, otherwise: int | None = None) -> int:
-        """A count, offset or code: a non-negative integer; ``otherwise`` if it is missing."""
+        """Return a count, offset or code of a JSON object: a non-negative integer, or ``otherwise`` if it is
+        missing.
+        """
         value = field(owner, name)
         if value is None and otherwise is not None:
             return otherwise
@@ -152,7 +154,7 @@ class Accessors:
         return buffer[start : start + length]
 
     def _place(self, number: object) -> tuple[bytes, int, int, int]:
-        """Buffer, start, length and stride (0 if none) of a buffer view."""
+        """Return the buffer of a buffer view, and start, length and stride (0 if none) of the view in it."""
         views = self.items("bufferViews")
         view = views[self.index(number, len(views), "bufferView")]
         return *self._span(view), self.number(view, "byteStride", 0)
@@ -167,25 +169,25 @@ class Accessors:
         return buffer, start, length
 
     def part_of_buffer(self, view: object) -> bytes:
-        """The bytes described by an object with the fields of a buffer view."""
+        """Return the bytes described by a JSON object that has the fields of a buffer view."""
         buffer, start, length = self._span(view)
         self.take(length // 8)
         return buffer[start : start + length]
 
     def take(self, numbers: int) -> None:
-        """Refuse the file if it expands more than real files do, before memory is allocated.
+        """Count numbers that are about to be allocated; raise FileError if the file expands more than real files do.
 
         Parameters
         ----------
         numbers : int
-            Count of 8-byte numbers about to be allocated.
+            Count of 8-byte numbers.
         """
         self._left_bytes -= 8 * numbers
         if self._left_bytes < 0:
             raise FileError("gltf.too_large", file=self.file)
 
     def _view(self, number: object, offset: int, count: int, dtype: np.dtype[Any], width: int) -> npt.NDArray[Any]:
-        """Elements (count, width) of a buffer view from an offset in bytes; a copy."""
+        """Return a copy of elements (count, width) of a buffer view, from an offset in bytes."""
         buffer, start, length, stride = self._place(number)
         element = dtype.itemsize * width
         stride = stride or element
@@ -257,8 +259,10 @@ class Accessors:
         return self._scaled(accessor, values)
 
     def weights(self, number: object, width: int) -> FloatArray:
-        """Accessor as weights (N, width) of bones; what is no number is 0, since some exporters divide 0 by 0 for
-        vertices that no bone moves."""
+        """Return the accessor with an index as skin weights (N, width).
+
+        Values that are not numbers become 0, since some exporters divide 0 by 0 for vertices that no bone moves.
+        """
         accessor, values = self._elements(number)
         if values.shape[1] != width:
             raise self.damaged("accessor type")
@@ -275,7 +279,9 @@ class Accessors:
         return values.astype(np.int64)
 
     def changes(self, number: object, count: int) -> tuple[IntArray, FloatArray]:
-        """Indices and values of the non-zero rows of a (count, 3) accessor, without expanding sparse ones."""
+        """Return the indices (K,) and values (K, 3) of the non-zero rows of an accessor of ``count`` rows, without
+        expanding sparse ones.
+        """
         accessor, dtype, width, length = self._accessor(number)
         if width != 3 or length != count:
             raise self.damaged("morph target")

@@ -1,4 +1,4 @@
-"""Samples an animation's channels at given times.
+"""Sampling of an animation's channels at given times.
 
 Source: Khronos, "glTF 2.0 Specification", section 3.11 and appendix C (interpolation).
 """
@@ -38,8 +38,9 @@ def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
 
 
 def _unit(channel: GltfChannel, found: FloatArray) -> FloatArray:
-    """Return an animation channel's values (N, C) with rotations normalised to unit quaternions; other channels are
-    unchanged."""
+    """Return the values (N, W) of an animation channel with rotations normalised to unit quaternions; other channels
+    are unchanged.
+    """
     if channel.path != "rotation":
         return found
     size = np.linalg.norm(found, axis=1, keepdims=True)
@@ -48,7 +49,9 @@ def _unit(channel: GltfChannel, found: FloatArray) -> FloatArray:
 
 def _spline(keys: FloatArray, before: IntArray, after: IntArray, share: FloatArray, length_s: FloatArray) -> FloatArray:
     """Return values (N, W) of a cubic Hermite spline: ``keys`` (K, 3, W) are in-tangent, value and out-tangent of K
-    keys, ``before`` and ``after`` the keys around each time, ``share`` 0..1 the way between them."""
+    keys, ``before`` and ``after`` (N,) the keys around each of N times, ``share`` 0..1 the position between them, and
+    ``length_s`` their distance.
+    """
     t, t2, t3 = share, share**2, share**3
     return np.asarray(
         (2.0 * t3 - 3.0 * t2 + 1.0) * keys[before, 1]

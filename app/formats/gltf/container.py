@@ -1,4 +1,4 @@
-"""Container of a glTF file: the JSON document and the binary chunk.
+"""Container format of glTF files: the JSON document and the binary chunk.
 
 Source: Khronos, "glTF 2.0 Specification", section 4 (GLB). Libraries are not used, since they create an object for
 every accessor, which is too slow for characters with hundreds of morph targets.
@@ -19,7 +19,7 @@ BINARY: Final = 0x004E4942
 
 
 def field(owner: object, name: str) -> Any:
-    """A member of a JSON object; None if it is missing or the owner is no object."""
+    """Return a member of a JSON object; None if it is missing or the owner is no object."""
     return owner.get(name) if isinstance(owner, dict) else None
 
 

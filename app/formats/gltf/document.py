@@ -25,7 +25,7 @@ Pieces = list[bytes | memoryview]
 
 @dataclass
 class _Buffer:
-    """The binary chunk under construction: one view for each kind of data; equal data is stored once."""
+    """The binary chunk while it is built: one buffer view for each kind of data; equal data is stored once."""
 
     views: list[gltf.BufferView] = field(default_factory=list)
     _index: dict[str, int] = field(default_factory=dict)
@@ -33,8 +33,9 @@ class _Buffer:
     _starts: dict[tuple[str, bytes], int] = field(default_factory=dict)
 
     def add(self, kind: str, values: npt.NDArray[Any], target: int | None, stride: int | None) -> tuple[int, int]:
-        """Add an array to the buffer view for its kind and stride. Returns the index of the view, and the offset within
-        it in bytes."""
+        """Add an array to the buffer view for its kind and stride. Return the index of the view, and the offset within
+        it in bytes.
+        """
         kind = f"{kind} {stride}"
         if kind not in self._index:
             self._index[kind] = len(self.views)
@@ -52,7 +53,7 @@ class _Buffer:
         return view, start
 
     def pieces(self) -> Pieces:
-        """Return all bytes, and set the offsets of the views."""
+        """Return all bytes, and set the offsets of the buffer views."""
         start = 0
         for view in self.views:
             view.byteOffset = start
@@ -68,7 +69,7 @@ class GlbDocument:
     buffer: _Buffer = field(default_factory=_Buffer)
 
     def use_extension(self, name: str) -> None:
-        """Name an extension among those that the file uses."""
+        """Add an extension to those that the file states it uses."""
         if name not in (self.gltf.extensionsUsed or []):
             self.gltf.extensionsUsed = [*(self.gltf.extensionsUsed or []), name]
 
@@ -81,7 +82,9 @@ class GlbDocument:
         bounds: bool = False,
         flat: bool = False,
     ) -> int:
-        """Add an accessor of values (N,) or (N, width), and return its index; ``flat``: every number is an element."""
+        """Add an accessor of values (N,) or (N, width), and return its index. With ``flat`` every number is
+        an element.
+        """
         width = 1 if flat or values.ndim == 1 else values.shape[1]
         stride = values.itemsize * width if target == gltf.ARRAY_BUFFER else None
         view, start = self.buffer.add(kind, values, target, stride)
@@ -124,7 +127,7 @@ class GlbDocument:
         return self._add(accessor)
 
     def blob(self, kind: str, content: bytes) -> int:
-        """Add bytes, such as a picture, to the buffer as a view of their own, and return the view's index."""
+        """Add bytes, such as an image, to the buffer as a view of their own, and return the view's index."""
         return self.buffer.add(kind, np.frombuffer(content, np.uint8), None, None)[0]
 
     def _add(self, accessor: gltf.Accessor) -> int:
@@ -133,5 +136,5 @@ class GlbDocument:
 
 
 def listed(values: npt.NDArray[Any]) -> list[float]:
-    """Convert an array to a list of floats for JSON."""
+    """Return the numbers of an array as a list of floats for JSON."""
     return [float(value) for value in values]

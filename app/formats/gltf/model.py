@@ -1,4 +1,4 @@
-"""Contents of a glTF file as plain values.
+"""The contents of a glTF file as plain values.
 
 Units as in glTF: metres, right-handed, Y up, quaternions xyzw.
 """
@@ -19,10 +19,13 @@ class GltfMorph:
     Attributes
     ----------
     name : str
-        Name in the mesh's ``extras.targetNames``; else ``morph_0`` ...
+        Name in the mesh's ``extras.targetNames``; else ``morph_0`` and so on.
     vertex_indices : ndarray of int64, shape (K,)
+        Indices of the K moved vertices.
     position_deltas : ndarray, shape (K, 3)
+        Their displacements at full weight.
     normal_deltas : ndarray, shape (K, 3), or None
+        Changes of their normals.
     """
 
     name: str
@@ -38,13 +41,17 @@ class GltfPrimitive:
     Attributes
     ----------
     positions : ndarray, shape (V, 3)
+        Positions of the V vertices.
     normals : ndarray, shape (V, 3), or None
+        Normals of the vertices.
     uvs : ndarray, shape (V, 2), or None
-        First set; v points down, as in glTF.
+        First set of texture coordinates; v points down, as in glTF.
     triangles : ndarray of int64, shape (T, 3)
+        Vertex indices.
     joint_indices : ndarray of int64, shape (V, 4 * sets)
         Indices into the skin's joints, all sets side by side; no columns without a skin.
     weights : ndarray, shape (V, 4 * sets)
+        Weights of these joints.
     """
 
     positions: FloatArray
@@ -122,10 +129,12 @@ class GltfNode:
     Attributes
     ----------
     parent : int
-        Index of the parent; -1: none.
+        Index of the parent; -1 for none.
     translation : ndarray, shape (3,)
+        Translation relative to the parent.
     rotation_xyzw : ndarray, shape (4,)
     scale : ndarray, shape (3,)
+        Scale.
     """
 
     name: str
@@ -151,6 +160,7 @@ class GltfChannel:
     times_s : ndarray, shape (K,)
         Key times, ascending.
     values : ndarray, shape (K, W), or (3 * K, W) of cubic splines
+        Values of width W at the keys; for cubic splines in-tangent, value and out-tangent of each key.
     """
 
     node: int
@@ -197,6 +207,7 @@ class GltfModel:
     nodes : tuple of GltfNode
         Nodes in file order; parents need not come first.
     meshes, skins, materials : tuples
+        In file order.
     images : tuple of GltfImage
     extensions : mapping
         Extensions of the document, such as ``VRMC_vrm``, as parsed JSON.

@@ -1,4 +1,4 @@
-"""Decompresses the meshes and buffers of glTF documents.
+"""Decompression of the meshes and buffers of glTF documents.
 
 Supports KHR_draco_mesh_compression (with DracoPy) and EXT_meshopt_compression, also under its later KHR name (with
 meshopt), in a separate process. Source: the extensions' texts in Khronos' glTF repository.
@@ -52,7 +52,7 @@ def unpacked(document: dict[str, Any], binary: bytes | None, file: str, size: in
     dict of str to Any
         The document without compression; the same object if there is none.
     bytes
-        Contents of its last buffer, which has no address; empty if nothing was decompressed.
+        Content of its last buffer, which has no address in the document; empty if nothing was decompressed.
 
     Raises
     ------
@@ -148,7 +148,7 @@ class _Unpacking:
         return MeshoptPart(reader.part_of_buffer(packed), reader.number(packed, "count"), stride, mode, filtering)  # type: ignore[arg-type]
 
     def put(self, unpacked: Sequence[Mapping[str, UnpackedArray]]) -> None:
-        """Replace the parts by their decompressed data in a new buffer."""
+        """Replace the compressed parts by their decompressed data, in a new buffer."""
         self.document["buffers"].append({"byteLength": 0})
         for place, part, arrays in zip(self.places, self.parts, unpacked, strict=True):
             if isinstance(part, MeshoptPart) and isinstance(place, int):
@@ -172,7 +172,9 @@ class _Unpacking:
         primitives[order] = {**primitive, "attributes": attributes}
 
     def _accessor(self, number: object, array: UnpackedArray, otherwise: str) -> int:
-        """Index of a new accessor of decompressed values, with the type of the original accessor."""
+        """Add an accessor of decompressed values with the type of the original accessor (else ``otherwise``), and
+        return its index.
+        """
         accessors = self.reader.items("accessors")
         own = accessors[self.reader.index(number, len(accessors), "accessor")] if number is not None else {}
         kind = self.reader.text(own, "type", otherwise)

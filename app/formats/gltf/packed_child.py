@@ -50,7 +50,9 @@ def _array(values: npt.NDArray[Any]) -> UnpackedArray:
 
 
 def unpack(request: PackedParts) -> list[dict[str, UnpackedArray]]:
-    """Decompress parts one after another. Raises MemoryError if they exceed the limit."""
+    """Decompress parts one after another; return the arrays of each by name. Raises MemoryError if they exceed the
+    limit.
+    """
     left, unpacked = request.most_bytes, []
     for part in request.parts:
         arrays = meshopt_rows(part) if isinstance(part, MeshoptPart) else draco_arrays(part)
@@ -62,7 +64,7 @@ def unpack(request: PackedParts) -> list[dict[str, UnpackedArray]]:
 
 
 def main() -> None:
-    """Answer the request on standard input."""
+    """Read a request on standard input, and print the decompressed arrays."""
     status, printed = 0, b""
     try:
         data = sys.stdin.buffer.read()

@@ -1,4 +1,4 @@
-"""Messages exchanged with the child process that decompresses glTF files (`packed_child`)."""
+"""Messages to and from the child process that decompresses glTF files (`packed_child`)."""
 
 from __future__ import annotations
 
@@ -42,8 +42,9 @@ class PackedParts(msgspec.Struct, frozen=True):
 
 
 class UnpackedArray(msgspec.Struct, frozen=True):
-    """An array decompressed by the child process: bytes of rows of ``width`` numbers of one type
-    (`numpy.dtype.str`)."""
+    """An array decompressed by the child process: the bytes of rows of ``width`` numbers of the type ``kind``
+    (`numpy.dtype.str`).
+    """
 
     kind: str
     width: int

@@ -1,4 +1,4 @@
-"""Converts meshes of a scene to glTF primitives: triangles of one material with one normal per vertex."""
+"""Conversion of meshes of a scene to glTF primitives: triangles of one material with one normal per vertex."""
 
 from __future__ import annotations
 
@@ -19,13 +19,14 @@ class Primitive:
     material : int
         Index into the mesh's materials.
     vertices : ndarray of int, shape (V,)
-        Index of the mesh's vertex for each vertex here, in the mesh's order; repeated where corners differ in normal or
+        Index in the mesh of each vertex of the primitive, in the mesh's order; repeated if corners differ in normal or
         UV.
     normals : ndarray, shape (V, 3)
-        Unit length.
+        Normals of unit length.
     uvs : ndarray, shape (V, 2), or None
-        v points down.
+        Texture coordinates; v points down.
     triangles : ndarray of int, shape (T, 3)
+        Indices of the primitive's vertices.
     """
 
     material: int
@@ -51,7 +52,7 @@ def primitives(mesh: SkinnedMesh) -> tuple[Primitive, ...]:
 
 
 def _primitive(mesh: SkinnedMesh, material: int, triangles: AnyIntArray) -> Primitive:
-    """Primitive of triangles given by corner indices of the mesh."""
+    """Return the primitive of those triangles of the mesh that have a material; they are given by corner indices."""
     places = triangles.ravel()
     vertices = mesh.faces.ravel()[places]
     count = len(mesh.vertices_cm)

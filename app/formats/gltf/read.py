@@ -1,4 +1,4 @@
-"""Reads glTF 2.0 files (``.glb``, ``.gltf``) as plain values.
+"""Reading of glTF 2.0 files (``.glb``, ``.gltf``) as plain values.
 
 Files are untrusted, so every index, offset and size is checked before bytes are accessed, and nothing outside the
 file's folder is opened. Units as in glTF: metres, right-handed, Y up, quaternions xyzw. Source: Khronos, "glTF 2.0
@@ -98,7 +98,7 @@ def decode_gltf(data: bytes, file: str, *, animated: bool = False, morphing: boo
 
 
 class _Reader(Accessors):
-    """Converts a checked document to plain values."""
+    """Converter of a checked glTF document to plain values."""
 
     def mesh(self, mesh: object, index: int) -> GltfMesh:
         primitives = self.items("primitives", mesh)
@@ -113,7 +113,7 @@ class _Reader(Accessors):
         )
 
     def check_instances(self, nodes: tuple[GltfNode, ...], meshes: tuple[GltfMesh, ...]) -> None:
-        """Refuse a file that shows its meshes too many times for a character, which would fill the memory."""
+        """Raise FileError if the nodes show meshes more often than any character does, which would fill the memory."""
         sizes = [_size(mesh) for mesh in meshes]
         shown = sum(sizes[node.mesh] for node in nodes if node.mesh is not None)
         if shown > _FREE_NUMBERS + 2 * sum(sizes):
@@ -218,8 +218,8 @@ class _Reader(Accessors):
         return GltfSkin(self.text(skin, "name", ""), joints, matrices)
 
     def animation(self, animation: object, morph_counts: Sequence[int]) -> GltfAnimation:
-        """Channels of nodes' transforms and of morphs for nodes with ``morph_counts``; channels of extensions are
-        skipped.
+        """Return the channels of an animation for nodes' transforms, and for morphs of nodes that have any
+        (``morph_counts``); channels of extensions are skipped.
         """
         nodes, samplers = self.items("nodes"), self.items("samplers", animation)
         channels: list[GltfChannel] = []
@@ -272,8 +272,8 @@ class _Reader(Accessors):
         return otherwise if value is None else self.finite([value], 1, name)[0]
 
     def _texture(self, use: object) -> GltfTextureUse | None:
-        """A texture reference of a material; None if its image needs an unknown extension, or it uses other than the
-        first UV set.
+        """Return a texture reference of a material; None if its image needs an unknown extension, or if it does not use
+        the first UV set.
         """
         if use is None:
             return None
@@ -291,7 +291,7 @@ class _Reader(Accessors):
         return GltfTextureUse(image, (scale_u, scale_v), (offset_u, offset_v))
 
     def images(self) -> tuple[GltfImage, ...]:
-        """The image files; empty for external ones, which are not needed. Equal bytes are shared."""
+        """Return the bytes of the images; empty for external ones, which are not needed. Equal bytes are shared."""
         blobs: dict[int, bytes] = {}
         found = []
         for image in self.items("images"):
@@ -324,7 +324,7 @@ class _Reader(Accessors):
         return tuple(self._node(node, number, parents[number]) for number, node in enumerate(nodes))
 
     def _check_depth(self, parents: list[int]) -> None:
-        """Refuse cycles and excessive nesting of nodes."""
+        """Raise FileError for cycles and excessive nesting of nodes."""
         children: list[list[int]] = [[] for _ in parents]
         for number, parent in enumerate(parents):
             if parent >= 0:
@@ -363,7 +363,7 @@ class _Reader(Accessors):
         )
 
     def _parts(self, matrix: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Translation, rotation and scale of a matrix, the only transforms that glTF allows."""
+        """Return translation, rotation and scale of a matrix, the only transforms that glTF allows."""
         scale: FloatArray = np.sqrt((matrix[:3, :3] ** 2).sum(axis=0))
         if not (scale > 1e-12).all():
             raise self.damaged("matrix")

@@ -1,4 +1,4 @@
-"""Converts materials of a glTF file to scene materials with textures."""
+"""Conversion of materials of a glTF file to scene materials with textures."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _ALPHA_MODES: Final[Mapping[str, AlphaMode]] = {"MASK": "mask", "BLEND": "blend"
 
 
 def scene_materials(model: GltfModel, *, own: bool) -> tuple[Material, ...]:
-    """Materials with those of their textures that can be read.
+    """Return the materials of a file, with those of their textures that can be read.
 
     Parameters
     ----------

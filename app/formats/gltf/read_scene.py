@@ -1,4 +1,4 @@
-"""Reads GLB files written by `app.formats.gltf.write` back into scenes.
+"""Reading of GLB files written by `app.formats.gltf.write` back into scenes.
 
 Supports only what that writer produces: bones below one root without scaling, meshes on one skin, one animation with
 rate and length in its extras. Everything else raises an error, never a silent misreading. glTF splits vertices where
@@ -27,8 +27,8 @@ from app.formats.scene import Bone, Clip, MorphTarget, NodePlace, Scene, Skinned
 def read_scene(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> Scene:
     """Read a file with one scene written by `write_glb`.
 
-    Normals and UVs are per corner. A vertex without a face is missing in the file and put at the origin.
-    Lower levels of detail are not read.
+    Normals and UVs are per corner. A vertex without a face is missing in the file and put at the origin. Lower levels
+    of detail are not read.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def read_scene(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> 
     Raises
     ------
     FileError
-        The file is not of that form.
+        The file was not written by `write_glb`, or is damaged.
     """
     file, model = os.fspath(path), read_glb(path, animated=True, morphing=True)
     if len(model.skins) != 1 or len(model.animations) > 1 or len(model.meshes) < len(written):
@@ -66,7 +66,9 @@ def read_scene(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> 
 
 
 def _mesh(model: GltfModel, mesh: GltfMesh, skin: GltfSkin, written: SkinnedMesh) -> SkinnedMesh:
-    """A mesh with the written vertex order; ValueError if the file's vertices do not match."""
+    """Return a mesh of the file with the vertex order of the ``written`` mesh; ValueError if the file's vertices do not
+    match.
+    """
     numbers = [primitive.vertices for primitive in primitives(written)]
     if [len(one) for one in numbers] != [len(primitive.positions) for primitive in mesh.primitives]:
         raise ValueError(f"mesh {mesh.name!r}")
@@ -106,7 +108,9 @@ def _uvs(corners: Sequence[AnyIntArray], mesh: GltfMesh) -> FloatArray:
 
 
 def _morph(mesh: GltfMesh, number: int, numbers: Sequence[AnyIntArray]) -> MorphTarget:
-    """A morph target; vertices split in the file are merged."""
+    """Return the morph with the index ``number``, with vertices merged that are split in the file; ``numbers`` has the
+    written mesh's vertex for each vertex of each primitive.
+    """
     found = [primitive.morphs[number] for primitive in mesh.primitives]
     rows = np.concatenate([own[morph.vertex_indices] for own, morph in zip(numbers, found, strict=True)])
     vertices, first = np.unique(rows, return_index=True)
@@ -117,7 +121,9 @@ def _morph(mesh: GltfMesh, number: int, numbers: Sequence[AnyIntArray]) -> Morph
 
 
 def _clip(model: GltfModel, animation: GltfAnimation, row_of: Mapping[int, int], bones: tuple[Bone, ...]) -> Clip:
-    """The clip of an animation; LookupError or ValueError if rate or length is missing."""
+    """Return an animation as a clip for the bones (``row_of`` has a bone's index by node); LookupError or ValueError if
+    rate or length is missing.
+    """
     fps, times_s = clip_frames(animation)
     frames = len(times_s)
     rotations = np.tile(np.stack([np.asarray(bone.rotation_xyzw, np.float64) for bone in bones]), (frames, 1, 1))
@@ -138,7 +144,9 @@ def _clip(model: GltfModel, animation: GltfAnimation, row_of: Mapping[int, int],
 
 
 def clip_frames(animation: GltfAnimation) -> tuple[Fraction, FloatArray]:
-    """Rate of a written animation and the times (F,) of its frames; LookupError or ValueError if they are missing."""
+    """Return the frame rate of an animation written by this program, and the times (F,) of its frames; LookupError or
+    ValueError if they are missing.
+    """
     fps, frames = Fraction(str(animation.extras["framesPerSecond"])), int(animation.extras["frames"])
     last_s = max((channel.times_s[-1] for channel in (*animation.channels, *animation.weights)), default=0.0)
     if fps <= 0 or not 1 <= frames <= last_s * float(fps) + 1.5:
@@ -147,6 +155,6 @@ def clip_frames(animation: GltfAnimation) -> tuple[Fraction, FloatArray]:
 
 
 def channel_values(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
-    """Return the values (F, W) of an animation channel of width W at all F frames of the scene."""
+    """Return the values (F, W) of an animation channel at F times."""
     on_every_frame = len(channel.times_s) == len(times_s) and channel.interpolation == "LINEAR"
     return channel.values if on_every_frame else sampled(channel, times_s)

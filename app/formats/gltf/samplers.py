@@ -22,8 +22,9 @@ class Samplers:
     Parameters
     ----------
     document : GlbDocument
+        Document to which the animation is added.
     clip : Clip
-        The first clip.
+        The first clip, which gives frame rate and length.
     """
 
     def __init__(self, document: GlbDocument, clip: Clip) -> None:
@@ -85,7 +86,7 @@ class Samplers:
         self._animation.channels.append(gltf.AnimationChannel(sampler=len(self._animation.samplers) - 1, target=target))
 
     def _input(self, frames: AnyIntArray | None) -> int:
-        """Index of the accessor of key times, at some frames or all."""
+        """Return the index of the accessor with the times of keys at some frames (all if None)."""
         known = b"" if frames is None else frames.tobytes()
         if known not in self._times:
             seconds = self._seconds if frames is None else self._seconds[frames]
@@ -109,6 +110,8 @@ def weights_move(clip: Clip | None, mesh: SkinnedMesh) -> bool:
 
 
 def _weights(clip: Clip, names: Iterable[str]) -> SingleArray:
-    """Return the weights (F, T) of a mesh's T morph targets; 0 for those that the clip does not animate."""
+    """Return the weights (F, T) of a mesh's T morph targets, given by name; 0 for those that the clip does
+    not animate.
+    """
     rest = np.zeros(clip.frames)
     return np.stack([clip.morph_weights.get(name, rest) for name in names], axis=1).astype(np.float32)

@@ -1,4 +1,4 @@
-"""Makes glTF files self-contained by converting external files to data URIs.
+"""Conversion of glTF files to self-contained ones, with external files as data URIs.
 
 Addresses of buffers and images are followed only to files in the document's folder or below it, after links are
 resolved. Source: Khronos, "glTF 2.0 Specification", section 2.8 (URIs).
@@ -68,7 +68,7 @@ def read_whole(path: str | os.PathLike[str]) -> bytes:
 
 
 def _inside(file: Path, uri: str) -> Path:
-    """The file at an address. Raises FileError if it is outside the document's folder."""
+    """Return the path of the file at an address. Raises FileError if it is outside the document's folder."""
     name = unquote(uri)
     if _SCHEME.match(name) or name.startswith(("/", "\\")) or "\0" in name:
         raise _external(file, uri)

@@ -1,4 +1,4 @@
-"""Reads and writes VRM Animation 1.0 (.vrma): motion of a humanoid, its expressions and its gaze, without a mesh.
+"""Reading and writing of VRM Animation 1.0 (.vrma): motion of a humanoid, its expressions and its gaze, without a mesh.
 
 A scene has humanoid bones under their VRM names, hips first; all rest rotations are identity, so that readers cannot
 disagree about them, and only the hips translate. A bone named `LOOK_AT` is the gaze, no humanoid bone: its rotation on
@@ -51,6 +51,7 @@ def write_vrma(
     Parameters
     ----------
     path : path
+        File to write.
     scene : Scene
         Scene with a clip, on humanoid bones with identity rest rotations.
     sums : mapping of str to mapping of str to float, optional
@@ -96,7 +97,7 @@ def write_vrma(
 
 
 def _checked(scene: Scene) -> Clip:
-    """The clip of a scene; ValueError if a VRM animation cannot hold it."""
+    """Return the clip of a scene; ValueError if a VRM animation cannot hold the scene."""
     check_scene(scene)
     clip = scene.clip
     if clip is None or scene.bones[0].name != "hips" or set(clip.translations_cm) - {0}:
@@ -121,7 +122,7 @@ def _bones(scene: Scene) -> dict[str, Any]:
 def _expressions(
     clip: Clip, sums: Mapping[str, Mapping[str, float]]
 ) -> dict[str, tuple[AnyFloatArray, AnyIntArray | None]]:
-    """Weights (F,) of all expressions, 0 to 1, and the frames of their keys; None: all frames."""
+    """Return the weights (F,), 0..1, of all expressions, and the frames of their keys (None for all frames)."""
     keys = clip.keys
     found = {
         name: (np.clip(weights, 0.0, 1.0), None if keys is None else keys.morphs[name])
@@ -151,7 +152,7 @@ def read_vrma(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> S
     Raises
     ------
     FileError
-        The file is not of that form.
+        The file was not written by `write_vrma`, or is damaged.
     """
     file, model = os.fspath(path), read_glb(path, animated=True)
     try:
@@ -177,7 +178,9 @@ def read_vrma(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> S
 
 
 def _clip(animation: GltfAnimation, row_of: Mapping[int, int], faces: Mapping[int, str], known: Set[str]) -> Clip:
-    """The clip of the bones and of known expressions."""
+    """Return an animation as a clip: bones by ``row_of`` (index by node), and those expressions in ``faces`` (name by
+    node) that are ``known``.
+    """
     fps, times_s = clip_frames(animation)
     rotations = np.tile(_UNTURNED, (len(times_s), len(row_of), 1))
     translations: dict[int, FloatArray] = {}

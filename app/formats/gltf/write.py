@@ -1,4 +1,4 @@
-"""Writes scenes as binary glTF 2.0 files (GLB).
+"""Writing of scenes as binary glTF 2.0 files (GLB).
 
 Metres, Y up, facing +Z; bones are nodes below one root, meshes are next to it and share one skin. With several scenes
 each root is below a node with the scene's name and place. A mesh with animated morph targets is on that node itself,
@@ -47,13 +47,13 @@ def write_glb(path: str | os.PathLike[str], scene: Scene) -> None:
     FileError
         The file cannot be written, or would exceed the 4 GB limit of GLB.
     ValueError
-        The scene contradicts itself.
+        The scene is inconsistent.
     """
     write_glbs(path, (scene,))
 
 
 def write_glbs(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
-    """Write several scenes into one file as `write_glb`; each scene is released when the next is requested."""
+    """Write several scenes into one file, like `write_glb`; each scene is released when the next is requested."""
     write_document(path, _document(scenes))
 
 
@@ -114,8 +114,9 @@ def _document(scenes: Iterable[Scene]) -> GlbDocument:
 def _add_figure(
     document: GlbDocument, scene: Scene, roots: list[int], materials: dict[Material, int]
 ) -> tuple[int, list[int]]:
-    """Add the nodes of a scene to a glTF document: its place, bones and meshes. Returns the index of the first bone's
-    node, and of each mesh's node."""
+    """Add the nodes of a scene to a glTF document: its place, bones and meshes. Return the index of the first bone's
+    node, and of each mesh's node.
+    """
     out = document.gltf
     roots.append(len(out.nodes))
     if scene.place is not None:
@@ -150,12 +151,14 @@ def _add_figure(
 
 
 def every_mesh(scene: Scene) -> tuple[SkinnedMesh, ...]:
-    """The meshes of a scene as a file has them: those that are seen from near by, then the lower levels of each."""
+    """Return all meshes of a scene in the order of the file: the meshes themselves, then the lower levels of detail of
+    each.
+    """
     return (*scene.meshes, *(level for mesh in scene.meshes for level in mesh.levels))
 
 
 def _show_levels(document: GlbDocument, node: gltf.Node, levels: list[int]) -> None:
-    """Name the nodes, of no scene, that are shown in the place of a node from further and further away."""
+    """State in a node the nodes that replace it at increasing distance; these are in no scene."""
     node.extensions = {_LOD: {"ids": levels}}
     node.extras = {"MSFT_screencoverage": [*LEAST_HEIGHTS[: len(levels)], 0.0]}
     document.use_extension(_LOD)

@@ -1,4 +1,4 @@
-"""Writes materials of a scene to a glTF document, with embedded textures.
+"""Writing of the materials of a scene to a glTF document, with embedded textures.
 
 Source: Khronos, "glTF 2.0 Specification", sections 3.8 and 3.9; "KHR_texture_transform".
 """
