@@ -113,7 +113,7 @@ class BodyMotion:
 
     @classmethod
     def still(cls, posture: Posture) -> BodyMotion:
-        """The posture without any motion, as one frame."""
+        """Return the motion of a body that keeps still in a posture, as one frame."""
         zero = np.zeros(1)
         held, left, turned = (
             {joint: np.array([np.deg2rad(angles.get(joint, 0.0))]) for joint in TRUNK}

@@ -36,8 +36,9 @@ class LastChunk:
     def motion(
         self, number: int, curves: PerformanceCurves, fps: Fraction, first_frame: int, frames: int, every: int
     ) -> Motion:
-        """Return the frames of a musician's motion with the instrument ``number``, made by ``curves`` unless they were
-        the last ones computed. Several threads may compute the same at once."""
+        """Return frames of a musician's motion with the instrument of index ``number``: from the cache if they were
+        computed last, else computed by ``curves``. Several threads may call this at the same time.
+        """
         kept, asked = self._kept, (fps, first_frame, frames, every)
         if kept[0] != asked:
             kept = self._kept = asked, {}
@@ -143,7 +144,8 @@ class Doubling(PerformanceCurves):
 
 
 def doubled(played: Sequence[PerformanceCurves], first: str, found: Sequence[InstrumentChange]) -> tuple[Doubling, ...]:
-    """The motion of each instrument of a musician, including putting the others aside.
+    """Combine the motions of a musician with each instrument: one result for each instrument, with the others put
+    aside.
 
     Parameters
     ----------
@@ -174,7 +176,9 @@ def _doubling(
 def _with_ways(
     curves: PerformanceCurves, number: int, first: str, found: Sequence[InstrumentChange]
 ) -> PerformanceCurves:
-    """A player's motion with the instrument put aside while another is played."""
+    """Return a player's curves with the moves added by which the instrument is put aside while another one
+    is played.
+    """
     ways = []
     for change in found:
         if change.before == curves.player_id:
@@ -193,7 +197,9 @@ def _with_ways(
 
 
 def _lowered(curves: PerformanceCurves, ways: Sequence[tuple[float, float, float]], begins: float) -> Curve:
-    """Return the lowering of the instrument: as planned, and fully while it is aside."""
+    """Return the curve of lowering the instrument (0: at the lips, 1: lowered): as planned, and fully lowered while the
+    instrument is put aside.
+    """
     bell = curves.body.bell
     spans: list[tuple[float, float, float]] = []
     away_s = float("-inf") if begins else None
@@ -231,8 +237,9 @@ def _lowered(curves: PerformanceCurves, ways: Sequence[tuple[float, float, float
 
 
 def _share(player_id: str, first: str, found: Sequence[InstrumentChange]) -> Curve:
-    """Return the curve 0..1 of a doubling musician's motion that belongs to one instrument: 1 while it is played,
-    moving at the changes."""
+    """Return the weight over time, 0..1, of the motion with one player's instrument in the motion of a doubling
+    musician: 1 while it is played, changing at instrument changes.
+    """
     ways = [
         (change.put_s, change.taken_s, 1.0 if change.after == player_id else 0.0)
         for change in found

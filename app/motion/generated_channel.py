@@ -17,8 +17,8 @@ _JOINTS: Final = {"head": tuple(NECK_SHARES), "torso": tuple(TRUNK_SHARES)}
 
 
 def generated(curves: PerformanceCurves, channel: str, times_s: FloatArray) -> FloatArray:
-    """Values (F,) of a channel at ascending times without additive curves, in the channel's unit; angles are relative
-    to the posture at rest.
+    """Sample the generated values (F,) of an animation channel, without the animator's additive curves, in the
+    channel's unit; angles are relative to the posture at rest.
     """
     asked = curves.curves(replace(curves.frames(times_s), added={}))
     if channel.startswith(FACE):

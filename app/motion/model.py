@@ -70,6 +70,6 @@ def joined(pieces: Sequence[Motion]) -> Motion:
 
 
 def frame_count(time_frame: TimeFrame, fps: Fraction) -> int:
-    """Number of frames of a performance: those in ``[first_frame_s, end_s)``."""
+    """Number of frames of a performance at a frame rate: those in ``[first_frame_s, end_s)``."""
     exact = (time_frame.end_s - time_frame.first_frame_s) * fps.numerator / fps.denominator
     return max(1, math.ceil(exact - 1e-9))

@@ -131,8 +131,8 @@ class PerformanceCurves:
         return self.plan.time_frame.first_frame_s
 
     def motion(self, fps: Fraction, first_frame: int, frames: int, every: int = 1) -> Motion:
-        """Compute some frames of the motion, or every n-th of them, with the resulting rate. A frame is equal in every
-        span.
+        """Compute some frames of the motion, or every n-th of them at the correspondingly lower rate. A frame is the
+        same whatever span is requested.
         """
         pad = padding_frames(fps)
         times_s = frame_times(self.start_s, fps, first_frame - pad, frames + 2 * pad)
@@ -167,7 +167,7 @@ class PerformanceCurves:
         return leaning_less(stepped, self.inhaling.sample(times_s)) if stepped else stepped
 
     def curves(self, frames: PlayedFrames) -> ContactCurves:
-        """Inputs of the contact solvers for frames from any source."""
+        """Convert sampled or live frames to the inputs of the contact solvers."""
         levels = self._breathing(replace(frames.levels, push=frames.face.push), frames.times_s)
         added = frames.added
         if added:
@@ -234,7 +234,7 @@ class PerformanceCurves:
         return lean_rad(replace(levels, full=np.zeros(len(times_s)))), lean_rad(levels)
 
     def _breathing(self, levels: LayerSamples, times_s: FloatArray) -> LayerSamples:
-        """Return the layers of motion with the breathing scaled by the styles in force."""
+        """Scale the breathing in the layers of motion by the styles in force at each time."""
         share = share_at(self.plan.styles, "breath", times_s)
         if isinstance(share, float):
             return levels
@@ -242,14 +242,14 @@ class PerformanceCurves:
         return replace(levels, **shown)
 
     def placed(self, times_s: FloatArray) -> dict[str, StationBlend]:
-        """Stations of fingers and of hands that give way, at ascending times."""
+        """Sample the stations of fingers, and of hands that shift to help a finger, at ascending times."""
         hands = self.player.grip.hands
         asked = {table.finger for hand in hands for table in hand.fingers}
         asked |= {giving_for(finger) for hand in hands for lean in hand.leans for finger, _ in lean.places}
         return {name: sampled(curve, times_s) for name, curve in self.stations.items() if name in asked}
 
     def ankles_m(self, times_s: FloatArray) -> dict[Side, FloatArray]:
-        """Intended places of both ankles (F, 3) at ascending times."""
+        """Intended positions (F, 3) of the ankles in metres, by side, at ascending times."""
         levels, amplitude = self.layers.feet.sample(times_s), self.parameters.amplitude
         moved = feet_moved(levels, self.body, amplitude, self.acting.footwork, steps=self.player.steps)
         danced = self.danced_feet.sample(times_s, steps=self.player.stands_free)
@@ -329,7 +329,7 @@ def prepare(
     expressions: Mapping[str, Expression] | None = None,
     dance: BodyLayer | None = None,
 ) -> PerformanceCurves:
-    """Make the curves of a plan.
+    """Convert a player's plan to curves.
 
     ``parameters`` set amplitude, posture, seed and sizes of layers; ``grip`` must be fitted for this character and
     instrument; a rest of a felt beat brings controls back to rest; bundled expressions are the default. Unchanged
@@ -388,7 +388,7 @@ def _given(
     felt_beats: FeltBeats,
     dances: bool,
 ) -> dict[str, object]:
-    """Return everything that the steps of a player's motion depend on, by the names of their inputs."""
+    """Collect all inputs of the steps that make a player's motion, by name."""
     return {
         "plan": plan,
         "embouchure_tension": parameters.embouchure_tension,

@@ -74,7 +74,9 @@ _NOT_BY_SECTION: Final = frozenset({"stillness", "blinks"})
 
 
 def acting_of(parameters: PlayerParameters) -> Acting:
-    """Acting of a player with these parameters, which must already include style and habits; see `with_style`."""
+    """Convert a player's parameters to amounts of acting. The parameters must already include style and habits
+    (`with_style`).
+    """
     usual = Acting()
     shown = {}
     for name in AMOUNTS:

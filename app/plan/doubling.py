@@ -58,8 +58,8 @@ class InstrumentChange(msgspec.Struct, frozen=True):
 
 
 def changes(played: Mapping[str, PlayerPlan]) -> tuple[InstrumentChange, ...]:
-    """Return the instrument changes of a musician: between two notes, before the breath for the second one if there is
-    time.
+    """Plan the instrument changes of a musician: each is between two notes, before the breath for the second one if
+    there is time.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ E = TypeVar("E", bound=_Event)
 
 
 def held_plan(plan: PlayerPlan, first: str, found: Sequence[InstrumentChange], names: Mapping[str, str]) -> PlayerPlan:
-    """A player's plan without the events while the instrument is put aside; manual corrections stay.
+    """Remove from a player's plan the events while the instrument is put aside; corrections by hand stay.
 
     Parameters
     ----------

@@ -44,7 +44,9 @@ class EventId(NamedTuple):
 
     @property
     def places(self) -> Iterator[str]:
-        """Possible note ids or ticks in the id: ``of``, and the rest of it after each colon (``strained:1:5``)."""
+        """Yield the texts in the id that may be a note id or tick: ``of``, and each of its endings after a colon
+        (``strained:1:5``, ``1:5``, ``5``).
+        """
         rest = self.of
         yield rest
         while ":" in rest:

@@ -53,8 +53,9 @@ class StyleEvent(msgspec.Struct, frozen=True, gc=False):
 
 
 class CurveSegment(msgspec.Struct, frozen=True, gc=False):
-    """A stretch of a curve: a cubic with two handles between both ends, or (``eased``) a minimum-jerk move. Handles are
-    places: a time within the stretch, and a value."""
+    """A stretch of a curve: a cubic with two handles, or (``eased``) a minimum-jerk move. A handle is a point, with a
+    time within the stretch and a value.
+    """
 
     start_s: float
     end_s: float

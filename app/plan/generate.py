@@ -161,8 +161,9 @@ class EnsemblePlanning:
         return self._plans[player_id]
 
     def excerpt(self, first_s: float, end_s: float) -> EnsemblePlanning:
-        """Return a planning of the same players for only those notes that begin in a span, with the cues there. Shared
-        facts (felt bars, fermatas, the ending) and the players' usual pitches remain those of the whole piece.
+        """Create the planning of a shorter span for the same players: only notes that begin in the span are planned,
+        with the cues there. Facts about the whole piece (felt bars, fermatas, the ending, the players' usual pitches)
+        are kept.
         """
         clock, other = self._clock, copy(self)
         cues = self._everyone["cue_events"]
@@ -215,7 +216,7 @@ def _shared_by_all(
     everyone: Mapping[str, object],
     runs: StepRuns,
 ) -> StepResults:
-    """Begin the planning steps that involve all players at once, such as cues."""
+    """Create the planning steps that involve all players at once, such as cues."""
     stage = everyone["stage"]
     assert isinstance(stage, Mapping)
     return runs.begin(

@@ -93,7 +93,7 @@ class BreathRow(NamedTuple):
 
     @property
     def event_kind(self) -> str:
-        """Kind of its events in plans."""
+        """Kind that events of this row have in plans: ``shown_as``, or the id."""
         return self.shown_as or self.id
 
 

@@ -28,7 +28,9 @@ E = TypeVar("E")
 
 
 class Vent(msgspec.Struct, frozen=True, gc=False):
-    """Controls used only to start a note, and the time of their release; ``label`` is the fingering held afterwards."""
+    """Controls that only help the attack of a note, with the time of their release; ``label`` is the fingering held
+    afterwards.
+    """
 
     controls: tuple[str, ...]
     end_tick: int
@@ -216,7 +218,7 @@ class GestureEvent(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def part(self) -> Part:
-        """Part of the motion that performs it."""
+        """Part of the motion that performs the gesture."""
         return GESTURE_KINDS[self.kind].part
 
 
@@ -334,7 +336,7 @@ class PlayerPlan(msgspec.Struct, frozen=True):
 
     @property
     def grips(self) -> tuple[FingeringEvent, ...]:
-        """Successive fingerings; one that is vented at its attack counts as two."""
+        """Successive fingerings of the player; one with controls that only help the attack counts as two."""
         return grips_of(self.fingerings)
 
 
@@ -370,7 +372,9 @@ def _grips(event: FingeringEvent) -> tuple[FingeringEvent, ...]:
 
 
 def only(plan: PlayerPlan, fields: tuple[str, ...]) -> PlayerPlan:
-    """Return a plan with only the events of these fields, so that results made from it depend on no others."""
+    """Return a plan with only the events of the given fields, so that a result computed from it cannot depend on other
+    fields.
+    """
     none = no_events(plan.player_id, plan.time_frame)
     return msgspec.structs.replace(none, **{name: getattr(plan, name) for name in fields})
 

@@ -91,12 +91,12 @@ class Parameter:
 
     @property
     def label(self) -> str:
-        """Text id of its name."""
+        """Text id of the parameter's name."""
         return f"{self.texts}.{self.name}"
 
     @property
     def tip(self) -> str:
-        """Text id of its explanation; empty: none."""
+        """Text id of the parameter's explanation; empty if there is none."""
         return f"{self.label}_tip" if self.has_tip else ""
 
     @property
@@ -130,7 +130,7 @@ class Parameter:
         return not _is_number(value) or self.held(value) == value
 
     def held(self, value: Any) -> Any:
-        """The value brought within the parameter's bounds; unchanged if it is of another type."""
+        """Clip a value to the parameter's bounds; values of another type are returned unchanged."""
         if self.bounds is None or not _is_number(value):
             return value
         low, high = self.bounds
@@ -156,7 +156,9 @@ def _is_number(value: object) -> bool:
 
 
 def declared(struct: type[msgspec.Struct], texts: str) -> dict[str, Parameter]:
-    """Parameters of a struct by name, in the order of its fields; ``texts`` as in `Parameter`."""
+    """Collect the parameters declared in the fields of a struct, by name in the order of the fields; ``texts`` as in
+    `Parameter`.
+    """
     found = {}
     hints = get_type_hints(struct, include_extras=True)
     for field in msgspec.structs.fields(struct):
@@ -185,7 +187,9 @@ _RULES: Final[frozenset[Decided]] = frozenset({"rules", "motion"})
 
 
 def _times(section: str, spread: float, *also: Decided, since: int = 10) -> Parameter:
-    """Declare a factor of the natural amount that affects the motion and the results in ``also``."""
+    """Declare a parameter that is a factor of a natural amount of motion; changes affect the motion and the results in
+    ``also``.
+    """
     decides = frozenset[Decided]({"motion", *also})
     return Parameter("unit.times", bounds=_NATURAL, section=section, spread=spread, decides=decides, since=since)
 
@@ -267,7 +271,9 @@ _DECIDING: Final = {
 
 
 def parameters_deciding(parameters: PlayerParameters, kind: Decided) -> PlayerParameters:
-    """Return the parameters that affect a result; all others have their defaults."""
+    """Return a copy of the parameters in which those that do not affect the given kind of result have their
+    defaults.
+    """
     return PlayerParameters(**{name: getattr(parameters, name) for name in _DECIDING[kind]})
 
 

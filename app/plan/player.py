@@ -99,7 +99,7 @@ def _envelope(
 def _lip_input(
     controller: ControllerInput | None, notes: tuple[Note, ...], marks: tuple[Mark, ...], clock: TempoMap
 ) -> ControllerInput | None:
-    """Return the controllers for the lips, with bends written in the score if no controller bends."""
+    """Return the controllers that move the lips; bends written in the score are used if the recording has none."""
     if controller is not None and controller.bend is not None:
         return controller
     bend = written_bends(notes, marks, clock) if marks else None
@@ -151,7 +151,9 @@ def _looking(gestures: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
 
 
 def _ending(piece_ending: Ending, corrections: tuple[Correction, ...]) -> Ending:
-    """Return the ending for this player; a correction of the smile after the last note makes it bright."""
+    """Return the piece's ending as it applies to this player; it counts as bright if the animator changed or removed
+    the smile after the last note.
+    """
     named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
     return msgspec.structs.replace(piece_ending, bright=True) if named else piece_ending
 

@@ -58,14 +58,15 @@ def problems_by_kind(problems: Iterable[Problem]) -> list[list[Problem]]:
 
 
 def problem_kind(problem: Problem) -> tuple[object, ...]:
-    """The kind of a problem; problems with equal kinds share one line."""
+    """Key of a problem's kind; problems with equal keys share one line of the report."""
     return (problem.message.id, *(problem.message.arguments.get(name) for name in PARTS))
 
 
 def problems_in_bars(
     problems: Iterable[Problem], score: Score, part_id: str | None, bars: tuple[int, int]
 ) -> tuple[Problem, ...]:
-    """Problems within some bars (inclusive): their notes sound there, or they last there if they have no note.
+    """Select the problems within some bars (first and last): those whose note sounds there or, without a note, whose
+    span overlaps them.
 
     Parameters
     ----------
@@ -93,7 +94,7 @@ def note_place(score: Score, note: Note) -> Message:
 
 
 def note_of(score: Score, note_id: str, part_id: str | None = None) -> Note | None:
-    """The note of an id, or None; the given part is searched first."""
+    """Find the note with an id; None if there is none. The given part is searched first."""
     for part in sorted(score.parts, key=lambda part: part.id != part_id):
         known = _indexed.get(part.id)
         if known is None or known[0] is not part.notes:
@@ -106,7 +107,7 @@ def note_of(score: Score, note_id: str, part_id: str | None = None) -> Note | No
 def with_names(
     message: Message, score: Score, wording: Wording, part_id: str | None, instrument: InstrumentMap | None
 ) -> Message:
-    """The message with note ids replaced by pitch, bar and beat, and fingerings by the names of their keys; unknown ids
+    """Replace note ids in a message by pitch, bar and beat, and fingerings by the names of their keys; unknown ids
     stay.
     """
     message = in_words(message, instrument, wording(Message("language.tag")))

@@ -29,7 +29,7 @@ DEPTH_SEMITONES: Final = 6.0
 
 @dataclass(frozen=True, eq=False)
 class Facts:
-    """Facts about N notes of a part, to which conditions of rules refer: arrays (N,)."""
+    """Properties of N notes of a part to which conditions of rules refer, as arrays (N,)."""
 
     loudness: FloatArray
     pitch: FloatArray
@@ -92,7 +92,7 @@ def facts_of(
 
 
 def matches(when: When, facts: Facts) -> BoolArray:
-    """Mask (N,) of notes that meet all conditions except style, habits and chance."""
+    """Mask (N,) of notes that meet all conditions of a rule except style, habits and chance."""
     loudness, count = facts.loudness, len(facts.loudness)
     least = (
         (when.loudness_above, loudness),
@@ -130,7 +130,7 @@ def concerns(when: When, styles: Collection[str], habits: Sequence[str]) -> bool
 
 
 def unknown_in(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[str, Gesture]) -> Message | None:
-    """Reason why a rule cannot be applied; None if it can."""
+    """Return the reason why a rule refers to an unknown expression or gesture; None if all are known."""
     for kind, name, known in (("expression", rule.do.expression, faces), ("gesture", rule.do.gesture, gestures)):
         if name and name not in known:
             said: dict[str, Argument] = {"rule": rule.name, "name": name, "known": ", ".join(sorted(known))}
@@ -139,7 +139,7 @@ def unknown_in(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[st
 
 
 def by_chance(rule: Rule, ticks: IntArray, seeds: Seeds) -> BoolArray:
-    """Mask (N,) of the places at which chance lets a rule take effect."""
+    """Mask (N,) of the ticks at which chance lets a rule take effect."""
     if rule.when.chance >= 1.0:
         return np.ones(len(ticks), bool)
     return seeds.chances_at(f"rule {rule.name}", ticks) < rule.when.chance
@@ -164,7 +164,9 @@ def growth_of(rule: Rule, facts: Facts) -> FloatArray:
 
 
 def _share(grows: Growth, when: When, facts: Facts) -> FloatArray:
-    """Position (N,) between just meeting a condition (0) and meeting it fully (1); may be outside that range."""
+    """Degree (N,) to which notes exceed a condition of a rule: 0 where it is just met, 1 where it is met fully; may be
+    outside that range.
+    """
     if grows == "loudness":
         least = when.loudness_above or 0.0
         return (facts.loudness - least) / max(1.0 - least, 1e-6)

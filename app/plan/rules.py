@@ -117,8 +117,8 @@ def plan_by_rules(
 
 
 def _where(line: _Line, rule: Rule, played_in: Sequence[str]) -> tuple[IntArray, FloatArray]:
-    """Indices of the notes that meet a rule, and its strength (N,); ``played_in`` has the notes' styles if there are
-    several.
+    """Find the notes at which a rule takes effect: their indices, and the rule's strength (N,) at each. ``played_in``
+    has the style of each note, if there are several styles.
     """
     here, when = matches(rule.when, line.facts), rule.when
     if not here.any():
@@ -178,7 +178,7 @@ def shown_by(
     clock: TempoMap,
     reason: Message,
 ) -> ExpressionEvent:
-    """The expression of a rule; ``of`` is the last part of its id."""
+    """Create the event for the expression that a rule shows; ``of`` is the last part of the event's id."""
     start_s, end_s = span_s
     return ExpressionEvent(
         id=":".join(("expression", rule.prefix, *((of,) if of else ()))),
@@ -195,7 +195,9 @@ def shown_by(
 
 
 def _why(rule: Rule, facts: Facts, note: int, instrument: InstrumentMap) -> Message:
-    """Reason for an expression: the musical condition, or else the rule's name."""
+    """Return the message that explains an expression: by the musical condition of the rule, or else by the
+    rule's name.
+    """
     when, loudness, effort = rule.when, round(float(facts.loudness[note]), 2), round(float(facts.effort[note]), 2)
     if when == When(effort_above=when.effort_above):
         said: dict[str, Argument] = {"effort": effort, "threshold": when.effort_above or 0.0}
@@ -257,7 +259,7 @@ def _gestures(
 
 
 def with_ruled(made: tuple[E, ...], ruled: tuple[E, ...]) -> tuple[E, ...]:
-    """Events with those of rules added, ordered by start; the same tuple if rules add none."""
+    """Merge the events made by rules into others, ordered by start; returns the same tuple if rules make none."""
     both = list(made + ruled)
     both.sort(key=lambda event: event.start_s)
     return tuple(both) if ruled else made

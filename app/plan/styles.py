@@ -30,7 +30,8 @@ def plan_styles(
     player: str,
     clock: TempoMap,
 ) -> Planned[StyleEvent]:
-    """The style spans of a player, ordered by start, and a problem for each with an unknown style.
+    """Convert the corrections for spans in another style to events, ordered by start, with a problem for each unknown
+    style.
 
     Parameters
     ----------

@@ -36,7 +36,9 @@ class Added:
     high: float
 
     def beside(self, other: FloatArray | float) -> FloatArray:
-        """Return the curve's values (F,) limited to the range that another offset of the same channel leaves."""
+        """Limit the values (F,) so that together with another offset (F,) of the same channel they stay within the
+        channel's limits.
+        """
         return within(self.values, self.high - other, other - self.low)
 
 
@@ -61,8 +63,8 @@ class Additive:
         return cls(tuple(events), tuple(rows(event.segments) for event in events))
 
     def sample(self, times_s: FloatArray) -> dict[str, Added]:
-        """Sample the added values by channel, for every channel with a curve anywhere, so that a frame is computed
-        identically in every span.
+        """Sample the added values by channel. Every channel that has a curve anywhere in the piece is included, so that
+        a frame gets the same result in every span.
         """
         sums: dict[str, Added] = {}
         for event, table in zip(self.events, self.tables, strict=True):
@@ -94,8 +96,9 @@ NOTHING: Final = Additive.of(())
 
 
 def with_held(held: Mapping[PoseTarget, PoseAngles], added: Mapping[str, Added]) -> dict[PoseTarget, PoseAngles]:
-    """Add the additive curves of each channel to the angles that poses hold for the same target, within the limits of
-    the target."""
+    """Add the animator's curves to the angles that pose corrections hold, by target (bell, head ...), within each
+    target's limits.
+    """
     result = dict(held)
     for channel, more in added.items():
         if channel not in POSED:
@@ -110,7 +113,9 @@ def with_held(held: Mapping[PoseTarget, PoseAngles], added: Mapping[str, Added])
 
 
 def with_added(motion: BodyMotion, added: Mapping[str, Added], body: Body, knee_rad: float) -> BodyMotion:
-    """Add the curves of hips, knees, shoulders and eyes to the body; ``knee_rad`` is the bend of the knees at rest."""
+    """Add the animator's curves for hips, knees, shoulders and eyes to the motion of a body; ``knee_rad`` is the bend
+    of the knees at rest.
+    """
     changes: dict[str, object] = {}
     for channel, more in added.items():
         part, _, what = channel.partition(".")

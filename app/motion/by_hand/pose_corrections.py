@@ -80,7 +80,9 @@ class PoseCorrectionTable:
 
 
 def within(offset: FloatArray, room_above: FloatArray | float, room_below: FloatArray | float) -> FloatArray:
-    """Limit an offset (radians) softly to the room above and below; up to half of the room it is almost unchanged."""
+    """Limit an offset (radians) softly to the available angle above and below; up to half of it the offset is almost
+    unchanged.
+    """
     room = np.maximum(np.where(offset >= 0.0, room_above, room_below), LEAST_ROOM_RAD)
     held: FloatArray = offset / np.power(1.0 + np.power(offset / room, 4), 0.25)
     return held

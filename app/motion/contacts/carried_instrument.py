@@ -75,7 +75,9 @@ def freedom(carriage: Carriage) -> float:
 
 
 def tips_freely(carriage: Carriage) -> bool:
-    """Return whether an instrument tilts up and down with the head; not if it lies or stands."""
+    """Return whether an instrument can tilt up and down with the head; False if it lies on the lap or stands on the
+    floor.
+    """
     low_deg, _, high_deg = carriage.pitch_down_deg
     return high_deg - low_deg >= FREE_DEG
 
@@ -99,7 +101,9 @@ def going_along(with_head: FloatArray, carriage: Carriage) -> FloatArray:
 
 
 def limited_to_carriage(parameters: PlayerParameters, carriage: Carriage) -> PlayerParameters:
-    """Parameters with the instrument's motion limited by its carriage, so that the lips stay in contact."""
+    """Reduce the motion that parameters give the instrument to what its carriage allows, so that the lips stay in
+    contact.
+    """
     share = _settling(carriage)
     if share == 1.0:
         return parameters
@@ -111,12 +115,14 @@ def limited_to_carriage(parameters: PlayerParameters, carriage: Carriage) -> Pla
 
 
 def _settling(carriage: Carriage) -> float:
-    """Share of their amplitude that players keep with an instrument of this carriage."""
+    """Factor of the amplitude for players of an instrument with this carriage: below 1 if it rests on the body or the
+    floor.
+    """
     return SETTLED + (1.0 - SETTLED) * freedom(carriage)
 
 
 def shown_by(parameters: PlayerParameters, carriage: Carriage, acting: Acting, *, dancing: bool) -> Acting:
-    """Amounts of acting reduced by the carriage: less trunk motion with a resting instrument, and less body motion
+    """Reduce amounts of acting: less trunk motion with an instrument that rests on body or floor, and less body motion
     while a dance replaces it.
     """
     share = _settling(carriage)

@@ -34,13 +34,15 @@ class EndpinStand:
 
     @classmethod
     def of(cls, endpin: Endpin, carriage: Carriage, usual: InstrumentTransform) -> EndpinStand | None:
-        """Make the stand of an instrument at its usual place; None if the pin does not reach the floor."""
+        """Create the stand of an instrument from its usual placement; None if the pin does not reach the floor."""
         needed_m, down = _needed(endpin, usual.position_m, usual.rotation)
         stands = down[0] > UPRIGHT and needed_m[0] <= endpin.most_m
         return cls(endpin, carriage, usual.position_m) if stands else None
 
     def stood(self, carried: InstrumentTransform, motion: BodyMotion) -> InstrumentTransform:
-        """Swing the carried instrument about the mouthpiece until its pin is above the tip's place."""
+        """Rotate the carried instrument about its mouthpiece until its pin is above the point of the floor where the
+        tip stands.
+        """
         # Where an animator turns the instrument, its tip goes: melody and cues move no one's pin.
         pitch, yaw, roll = held_angles(self.carriage, replace(motion, bell_rad=np.zeros_like(motion.bell_rad)))
         still = attitude(pitch, np.asarray(yaw), roll)

@@ -92,7 +92,9 @@ def page_m(skeleton: Skeleton, base: Trunk) -> FloatArray:
 def with_shapes(
     skeleton: Skeleton, hands: Mapping[str, FloatArray], joints: list[int], rotations: FloatArray
 ) -> FloatArray:
-    """Finger rotations (F, joints, 4) with the shapes of hands that have left the instrument; others are unchanged."""
+    """Set the finger rotations (F, joints, 4) of hands that have left the instrument to their shapes (open, pinch,
+    point); other fingers are unchanged.
+    """
     for side in SIDES:
         there = {shape: hands[f"{side}.{shape}"] for shape in SHAPES if f"{side}.{shape}" in hands}
         if not there:
@@ -132,7 +134,9 @@ def _at_key(
 
 
 def _hand(side: Side, fingers: FloatArray, palm: FloatArray) -> FloatArray:
-    """Rotation (F, 4) of a hand with fingers along given directions (F, 3) and an approximate palm direction."""
+    """Rotation (F, 4) of a hand whose fingers point along ``fingers`` (F, 3), with the palm facing ``palm`` as nearly
+    as possible.
+    """
     fingers = fingers / np.linalg.norm(fingers, axis=1, keepdims=True)
     palm = palm - quaternion.dot(palm, fingers)[:, None] * fingers
     palm = palm / np.linalg.norm(palm, axis=1, keepdims=True)

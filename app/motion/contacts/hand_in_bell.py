@@ -30,7 +30,7 @@ READY_S: Final = 0.03
 
 
 def bell_closing(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelopes:
-    """Return the closure of the bell by the hand, 0..1."""
+    """Return the curve of how far a hand closes the bell, 0..1, for all stopped passages."""
     if stopped is None:
         return Envelopes.of(())
     return Envelopes.of(
@@ -70,6 +70,6 @@ def with_fingers_kept(
 
 
 def _knuckles(skeleton: Skeleton, stopped: Stopped) -> list[int]:
-    """Joints where the fingers, except the thumb, are attached to the palm."""
+    """Return the joints at which the fingers of the hand in the bell, except the thumb, begin."""
     names = [f"{stopped.hand}{finger.title()}Proximal" for finger in FINGERS_KEPT]
     return [skeleton.index(name) for name in names if name in skeleton.names]

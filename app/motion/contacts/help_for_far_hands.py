@@ -111,8 +111,8 @@ def needed_help(
 
 
 def shoulder_distance_m(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> float:
-    """Distance in metres from the shoulder, moved forward as far as possible, to its hand's target, in the first
-    frame.
+    """Distance in metres, in the first frame, from a shoulder that is moved forward as far as possible to the target of
+    its hand.
     """
     return float(_girdle(skeleton, side, body, target_m).distance_m(CLAVICLE_RAD)[0])
 
@@ -144,8 +144,9 @@ class _Swing:
 
 
 def _girdle(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Swing:
-    """Return the rotation of the clavicle that brings a shoulder forward, as an axis in the chest and its effect on the
-    distance to the target."""
+    """Describe how turning the clavicle forward changes the distance from the shoulder to the target of its hand, as a
+    rotation about an axis in the chest's frame.
+    """
     shoulder, clavicle = clavicle_of(skeleton, side)
     joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
     there = np.ascontiguousarray(quaternion.rotate(quaternion.conjugate(body.chest), target_m - joint_m))

@@ -103,7 +103,7 @@ class AsidePlace:
         return quaternion.from_rotation_vector(stowed[:, None] * self.swing_rad)
 
     def put(self, carried: InstrumentTransform, stowed: FloatArray) -> InstrumentTransform:
-        """The instrument's placement during the swing: 0 carried, 1 at rest, (F,)."""
+        """Placement of the instrument during the swing; ``stowed`` (F,) is 0 while carried, 1 when put aside."""
         swung, share = self._swung(carried, stowed), stowed[:, None]
         position_m = swung.position_m + (self.rest.position_m - swung.position_m) * share
         rotation = quaternion.slerp(swung.rotation, self.rest.rotation, stowed)
@@ -123,8 +123,9 @@ class AsidePlace:
     def let_go(
         self, skeleton: Skeleton, grip: GripPose, arms: dict[int, FloatArray], stowed: FloatArray
     ) -> dict[int, FloatArray]:
-        """Return rotations (F, 4), by joint index, in which the arm that does not carry the put-aside instrument hangs
-        down; ``stowed`` (F,) is 0 (plays) to 1 (put aside)."""
+        """Rotations (F, 4), by joint index, of the arm that does not hold the put-aside instrument: it comes down to
+        hang as ``stowed`` (F,) goes from 0 (playing) to 1 (put aside).
+        """
         result: dict[int, FloatArray] = {}
         for hand in grip.hands:
             if hand.side == self.aside.side:

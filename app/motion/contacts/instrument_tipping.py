@@ -27,7 +27,7 @@ RAISED_RAD = float(np.deg2rad(12.0))
 
 
 def with_bell_room(player: PlayerBody) -> PlayerBody:
-    """Return the player with a tilt range that both wrists and elbows can follow."""
+    """Return the player with the range of instrument tilt set that both wrists and elbows can follow."""
     if player.stand is not None or not tips_freely(player.carriage):
         return player
     tipped = np.deg2rad(np.arange(-MOST_DEG, MOST_DEG + 1, STEP_DEG))
@@ -50,8 +50,9 @@ def with_bell_room(player: PlayerBody) -> PlayerBody:
 def _wrists_and_elbows(
     player: PlayerBody, tipped_rad: FloatArray, placed: dict[str, StationBlend]
 ) -> tuple[FloatArray, FloatArray]:
-    """Return for a still body with the bell tilted down by F angles the larger excess of a wrist over its range, and
-    the elevation of the higher elbow from its shoulder, each (F,) in radians."""
+    """For a still body with the instrument tilted down by F angles: the larger excess of a wrist over its range, and
+    the elevation of the higher elbow above its shoulder, each (F,) in radians.
+    """
     still = replace(player.still.for_frames(len(tipped_rad)), bell_down_rad=tipped_rad)
     curves = ContactCurves(still, {}, {}, np.zeros(len(tipped_rad)), placed)
     curves = replace(curves, body=body_with_help(player, still, needs(player, curves)))

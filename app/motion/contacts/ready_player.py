@@ -41,8 +41,9 @@ def put_aside_transform(
     body: Body,
     number: int,
 ) -> InstrumentTransform:
-    """Return the place of an instrument while its player uses another, as one frame; ``number`` as in `Aside` counts
-    the instruments put aside."""
+    """Placement, as one frame, of an instrument while its player uses another one; ``number`` is its index among the
+    musician's instruments (see `Aside`).
+    """
     still = player_body(parameters, instrument_map, character, grip, body)
     place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
     assert place is not None
@@ -88,7 +89,9 @@ def _made(
 
 
 def _grip_of_lips(lips: Lips, embouchure: EmbouchureWeights) -> FloatArray:
-    """Vector (3,) from the mouthpiece's place on one lip to its place while played, at a medium embouchure."""
+    """Vector (3,) in metres from the mouthpiece's position on one lip to its position between both lips while playing,
+    at a medium embouchure.
+    """
     morphs = {name: np.array([weight]) for name, weight in usual_morphs(embouchure, lips).items()}
     grip_m: FloatArray = (lips.contact_m(morphs, 1) - lips.carried_m(morphs, 1))[0]
     return grip_m

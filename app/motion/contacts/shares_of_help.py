@@ -52,8 +52,8 @@ def smoothed_help(parts: list[Help], half: int) -> Help:
 
 
 def turned_to_far_hand(motion: BodyMotion, turn: FloatArray, aside_per_turn: float) -> BodyMotion:
-    """Turn hips and trunk to the left, and neck and head back; where the head is steadied, the trunk leans the other
-    way by ``aside_per_turn`` with the head upright.
+    """Turn hips and trunk to the left by ``turn`` (F,) and neck and head back. Where the head is kept in place, the
+    trunk also leans to the other side by ``aside_per_turn``, with the head upright.
     """
     turns, leans = dict(motion.turn_rad), dict(motion.left_rad)
     for shares, sign in ((TRUNK_TURNS, 1.0), (NECK_TURNS_BACK, -1.0)):
@@ -67,7 +67,9 @@ def turned_to_far_hand(motion: BodyMotion, turn: FloatArray, aside_per_turn: flo
 
 
 def leaned_to_far_hand(motion: BodyMotion, draw: FloatArray, right: FloatArray) -> BodyMotion:
-    """Move head and instrument, by shares 0..1, towards a far hand on the right (1) or left (-1)."""
+    """Move head and instrument towards a far hand: by the share ``draw`` (F,) 0..1, to the side ``right`` (F,), 1 for
+    the right hand and -1 for the left.
+    """
     forward = dict(motion.forward_rad)
     for joint, angle_rad in DRAWS_RAD.items():
         forward[joint] = forward[joint] + angle_rad * draw
@@ -80,8 +82,9 @@ def leaned_to_far_hand(motion: BodyMotion, draw: FloatArray, right: FloatArray) 
 
 
 def with_room(help_rad: FloatArray, most_rad: FloatArray) -> FloatArray:
-    """Limit help (F,) of other joints for an arm, in radians, softly to the available room. Zero help stays zero, so
-    results do not depend on the span of frames."""
+    """Limit the help (F,) that other joints give an arm, in radians, softly to the available room ``most_rad``. Zero
+    help stays zero, so results do not depend on the span of frames.
+    """
     given = softly_capped(help_rad, most_rad, np.clip(most_rad, 1e-9, HELP_EASE_RAD))
     return np.where(help_rad == 0.0, 0.0, given)
 
@@ -120,7 +123,7 @@ def greatest_within(values: FloatArray, half: int) -> FloatArray:
 
 
 def _symmetric(values: FloatArray, half: int) -> FloatArray:
-    """Return values (F + 2 half,) extended by ``half`` mirrored ones at each end."""
+    """Extend values (F,) at each end by ``half`` mirrored ones, to (F + 2 half,)."""
     if half > len(values):
         return np.pad(values, half, mode="symmetric")
     return np.concatenate((values[:half][::-1], values, values[len(values) - half :][::-1]))

@@ -64,7 +64,9 @@ class PlayerBody(StillPlayer):
     """A player's body with instrument and posture: the data for solving contacts that do not change over time."""
 
     def standing_on(self, endpin: Endpin | None) -> PlayerBody:
-        """The player with the instrument on its endpin, if its usual place is low enough."""
+        """Return the player with the instrument standing on its endpin, if its usual placement is low enough; else
+        unchanged.
+        """
         if endpin is None:
             return self
         usual = upper_body(self, ContactCurves(self.still, {}, {}, np.zeros(1))).carried
@@ -72,7 +74,7 @@ class PlayerBody(StillPlayer):
 
     @cached_property
     def put_aside(self) -> AsidePlace | None:
-        """Return the resting place of the instrument while another is used; None if there is only one."""
+        """Placement of the instrument while another one is used; None if the musician has only one."""
         if self.aside is None:
             return None
         low = replace(self.still, lowered=np.ones(1))
@@ -81,7 +83,7 @@ class PlayerBody(StillPlayer):
 
     @cached_property
     def drawn_m(self) -> float:
-        """Return by how many metres a far hand comes nearer when head and instrument give way."""
+        """Distance in metres by which a far hand comes nearer when head and instrument move towards it."""
         return _drawn_m(self)
 
     @cached_property
@@ -96,21 +98,21 @@ class PlayerBody(StillPlayer):
 
     @cached_property
     def eyes_from_m(self) -> FloatArray:
-        """Midpoint between the eyes (3,) before any motion."""
+        """Midpoint (3,) between the eyes before any motion, in metres."""
         middle_m = 0.5 * (self.eyes_m["left"] + self.eyes_m["right"])
         place_m: FloatArray = self.base.head_m[0] + quaternion.rotate(self.base.head[0], middle_m)
         return place_m
 
     @cached_property
     def bowed_rad(self) -> float:
-        """Downward angle of the head in the posture."""
+        """Downward angle in radians of the head in the player's posture."""
         ahead = quaternion.rotate(self.base.head[0], np.array([0.0, 0.0, 1.0]))
         return -math.asin(min(max(float(ahead[1]), -1.0), 1.0))
 
     @cached_property
     def farthest(self) -> dict[str, float]:
-        """Return the largest reachable value of each control that a hand moves along, with all help and a still body: 1
-        if all of it is reachable. Motion can then slow down before the limit.
+        """For each control that a hand moves along, the largest value that the hand can reach with all help of a still
+        body; 1 if it reaches all. Motion slows down before this limit.
         """
         return _farthest(self)
 
@@ -121,7 +123,7 @@ def padding_frames(fps: Fraction) -> int:
 
 
 def solve(player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_s: float, every: int = 1) -> Motion:
-    """Solve all poses.
+    """Compute all poses of a player from curves, including contacts.
 
     Parameters
     ----------
@@ -145,7 +147,7 @@ def solve(player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_
 def poses(
     player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_s: float, upper: UpperBody | None = None
 ) -> Motion:
-    """Poses of a body whose help is already included; each frame is independent.
+    """Compute the poses of a body in whose motion help for far hands is already included; each frame is independent.
 
     ``upper`` is its upper body if already computed.
     """
@@ -205,7 +207,9 @@ def _parts(frames: int) -> Iterator[slice]:
 def _pose(
     player: PlayerBody, curves: ContactCurves, known: UpperBody
 ) -> tuple[FloatArray, dict[int, FloatArray], InstrumentTransform, dict[str, FloatArray]]:
-    """Hips, local rotations by joint (without fingers), instrument, and controls limited to the reach of hands."""
+    """Solve one stretch of frames: position and rotation of the hips, rotations by joint (without fingers), placement
+    of the instrument, and controls limited to the reach of the hands.
+    """
     skeleton, motion = player.skeleton, curves.body
     local = {skeleton.index("hips"): known.hips} | known.trunk.local
     curves = replace(curves, controls=controls_within_reach(player, curves, known))
@@ -255,7 +259,7 @@ def _late(motion: BodyMotion) -> FloatArray | None:
 
 
 def needs(player: PlayerBody, curves: ContactCurves) -> Help:
-    """Help of trunk and shoulders needed for far hands, frame by frame."""
+    """Compute frame by frame the help of trunk and shoulders that far hands need."""
     return _needs(player, curves, upper_body(player, curves))
 
 
@@ -268,8 +272,8 @@ def _needs(player: PlayerBody, curves: ContactCurves, upper: UpperBody) -> Help:
 
 
 def body_with_help(player: PlayerBody, motion: BodyMotion, help_given: Help) -> BodyMotion:
-    """Body motion with trunk and shoulders moved towards far hands; neck and head turn back, so that the lips stay in
-    place.
+    """Add help to a body's motion: trunk and shoulders move towards far hands, and neck and head turn back so that the
+    lips stay in place.
     """
     asked, most, short_m = help_given.turn_rad, help_given.most_turn_rad, help_given.short_m
     turn = np.zeros(len(asked))
@@ -289,7 +293,7 @@ def body_with_help(player: PlayerBody, motion: BodyMotion, help_given: Help) -> 
 
 
 def _drawn_m(player: PlayerBody) -> float:
-    """Return by how many metres the far hand comes nearer to its turned shoulder when head and instrument give way
+    """Distance in metres by which a far hand comes nearer to its shoulder when head and instrument move towards it
     fully.
     """
     one, nothing = np.ones(1), np.zeros(1)
@@ -312,7 +316,9 @@ def _drawn_m(player: PlayerBody) -> float:
 
 
 def _aside_per_turn(player: PlayerBody) -> float:
-    """Lean per turn of the trunk, both in radians, that keeps the head in place, computed for a small turn and lean."""
+    """Sideways lean per turn of the trunk, both in radians, that keeps the head in place; computed for a small turn and
+    lean.
+    """
     still, small = replace(player.still, steadied=np.ones(1)), np.array([0.1])
     without, leaning = turned_to_far_hand(still, small, 0.0), turned_to_far_hand(still, small, 1.0)
     at_m = [

@@ -47,12 +47,14 @@ class StillPlayer:
 
     @property
     def steps(self) -> bool:
-        """Return whether feet may leave their place: not next to an instrument on its endpin."""
+        """Return whether the player may take steps; False with an instrument that stands on its endpin."""
         return self.stand is None
 
     @property
     def stands_free(self) -> bool:
-        """Return whether hips may leave their place: not on a seat, nor with an instrument on its endpin."""
+        """Return whether the hips may move away from their position; False on a seat, and with an instrument that
+        stands on its endpin.
+        """
         return not self.place.seated and self.stand is None
 
     def away(self, motion: BodyMotion, carried: InstrumentTransform) -> Away | None:

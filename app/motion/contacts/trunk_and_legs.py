@@ -100,8 +100,9 @@ def stance(skeleton: Skeleton, posture: Posture) -> Stance:
 
 @dataclass(frozen=True)
 class Footing:
-    """Pose of one foot in F frames: ankle (F, 3) in metres, rotation (F, 4), and rotation of the toes (F, 4; None: at
-    rest)."""
+    """Pose of one foot over F frames: position of the ankle (F, 3) in metres, rotation of the foot (F, 4), and rotation
+    of the toes (F, 4), None if they do not bend.
+    """
 
     ankle_m: FloatArray
     foot: FloatArray
@@ -146,7 +147,9 @@ def _moved_parts(side: Side, moved: Mapping[str, FloatArray]) -> dict[str, Float
 
 
 def _where_moved(parts: Mapping[str, FloatArray]) -> IndexArray:
-    """Return the frames (K,) in which any of a foot's motions is not zero; in all others it stands exactly still."""
+    """Indices (K,) of the frames in which any of a foot's motions is not zero; in other frames the foot stands exactly
+    still.
+    """
     if not parts:
         return np.zeros(0, np.intp)
     return np.flatnonzero(np.logical_or.reduce([values != 0.0 for values in parts.values()]))
@@ -210,8 +213,8 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
 
 
 def exact_target(limb: Limb, root_m: FloatArray, target_m: FloatArray) -> FloatArray:
-    """Return the target (F, 3) for `solve_limb` that makes the limb end exactly at ``target_m``, although it approaches
-    full extension softly.
+    """Shift a target (F, 3) so that `solve_limb`, which approaches full extension softly, makes the limb end exactly at
+    ``target_m``.
 
     Exact up to `STRAIGHTEST` of the limb's length, approximate beyond.
     """
@@ -232,7 +235,7 @@ def solve_legs(
     hips_rotation: FloatArray,
     feet: Mapping[str, FloatArray],
 ) -> dict[int, FloatArray]:
-    """Rotations of legs and feet by joint, with feet standing or moved."""
+    """Solve both legs: rotations (F, 4) by joint index, for feet that stand or move as given in ``feet``."""
     frames = len(hips_m)
     rotations: dict[int, FloatArray] = {}
     for side in SIDES:
@@ -268,7 +271,7 @@ class Trunk:
 
 
 def trunk(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, motion: BodyMotion) -> Trunk:
-    """Compute the chain from hips to head from the trunk's angles."""
+    """Compute the pose of the joints from hips to head, given the trunk's angles in ``motion``."""
     chest_joint = skeleton.parents[skeleton.index("leftShoulder")]
     hips, head = skeleton.index("hips"), skeleton.index("head")
     chain = [head]

@@ -72,7 +72,7 @@ def joined(parts: Sequence[UpperBody]) -> UpperBody:
 
 
 def upper_body(player: StillPlayer, curves: ContactCurves) -> UpperBody:
-    """Compute the upper body on which contacts are solved."""
+    """Compute hips, trunk and instrument, from which arms and legs are solved."""
     hips_m, hips = hips_path(player.place, player.skeleton, curves.body)
     upper = trunk(player.skeleton, hips_m, hips, curves.body)
     carried = _carry(player, curves, upper)

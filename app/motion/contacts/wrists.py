@@ -54,18 +54,22 @@ class Wrist:
     high_rad: FloatArray
 
     def aside_rad(self, hand: FloatArray) -> FloatArray:
-        """Sideways angle (F,) of ``forearm_from_hand`` (F, 4)."""
+        """Sideways angle (F,) in radians of the hand, given its rotation (F, 4) relative to the forearm."""
         aside: FloatArray = np.ascontiguousarray(self._swing(hand)) @ self.axes[1]
         return aside
 
     def outside_rad(self, hand: FloatArray) -> FloatArray:
-        """Return the largest excess (F,) of ``forearm_from_hand`` (F, 4) over its ranges."""
+        """Largest angle (F,) in radians by which the hand's rotation relative to the forearm (F, 4) exceeds the wrist's
+        ranges; 0 within them.
+        """
         bent = np.ascontiguousarray(self._swing(hand)) @ self.axes.T
         outside: FloatArray = np.maximum(0.0, np.maximum(bent - self.high_rad, self.low_rad - bent)).max(axis=1)
         return outside
 
     def _swing(self, hand: FloatArray) -> FloatArray:
-        """Rotation vectors (F, 3) of the shortest rotation between the twist axis and its rotated direction."""
+        """Bend of the hand without its twist, as rotation vectors (F, 3), given its rotation (F, 4) relative to the
+        forearm.
+        """
         taken = quaternion.rotate(hand, self.twist)
         across = quaternion.cross(self.twist, taken)
         sine = np.sqrt(quaternion.dot(across, across))
@@ -86,7 +90,8 @@ class Wrist:
     def relief_rad(
         self, aside_rad: FloatArray, beyond_rad: FloatArray, at: Callable[[FloatArray], FloatArray]
     ) -> FloatArray:
-        """Return the rotation (F,) of the elbow about the line from shoulder to wrist.
+        """Angle (F,) in radians by which the elbow turns about the line from shoulder to wrist to bring the sideways
+        angle back into range.
 
         Parameters
         ----------
@@ -140,7 +145,7 @@ class BellRoom:
         )
 
     def back_rad(self, down_rad: FloatArray) -> FloatArray:
-        """Correction that brings angles (F,) into the range; 0 well within it."""
+        """Correction (F,) in radians that brings tilt angles (F,) into the range; 0 well within it."""
         back: FloatArray = softly_over(self.low_rad - down_rad, ROOM_EASE_RAD)
         return back - softly_over(down_rad - self.high_rad, ROOM_EASE_RAD)
 

@@ -108,7 +108,7 @@ class Curve:
 
     @property
     def still(self) -> bool:
-        """True if the value never changes."""
+        """True if the value is the same at all times."""
         return len(self.start_s) == 0
 
     def changed_s(self, other: Curve | Trace) -> FloatArray:
@@ -187,7 +187,7 @@ class Trace:
 
 
 def moves(segments: Sequence[tuple[float, float, float]], initial: float = 0.0) -> Curve:
-    """A curve of moves ``(start_s, end_s, value)``, each from the end of the previous one.
+    """Create a curve from moves ``(start_s, end_s, value)``, each beginning at the value of the previous one.
 
     Moves without change are dropped. Raises ValueError if moves overlap or take no time.
     """
@@ -196,8 +196,8 @@ def moves(segments: Sequence[tuple[float, float, float]], initial: float = 0.0) 
 
 
 def moves_to(start_s: FloatArray, end_s: FloatArray, values: FloatArray, initial: float = 0.0) -> Curve:
-    """Return a curve that moves to each value (S,) from ``start_s`` to ``end_s`` and holds it until the next move;
-    before the first one it is ``initial``. Moves to the value already held are dropped.
+    """Create a curve that moves to each value (S,) from ``start_s`` to ``end_s`` and holds it until the next move;
+    before the first move it is ``initial``. Moves to the value already held are dropped.
 
     Raises ValueError if moves overlap.
     """
@@ -243,7 +243,7 @@ class Envelopes:
 
     @property
     def spans_s(self) -> FloatArray:
-        """Spans (N, 2) in seconds in which it may be raised."""
+        """Start and end (N, 2) in seconds of each raised span, including its rise and fall."""
         return np.stack((self.start_s, self.end_s), axis=1)
 
     @property
@@ -252,13 +252,15 @@ class Envelopes:
 
     @classmethod
     def of(cls, rows: Sequence[tuple[float, float, float, float, float]] | FloatArray) -> Envelopes:
-        """Make it from rows (start_s, full_s, fall_s, end_s, height); times in wrong order are sorted."""
+        """Create the envelopes from rows (start_s, full_s, fall_s, end_s, height); times of a row in wrong order are
+        sorted.
+        """
         table = np.array(rows, dtype=np.float64).reshape(-1, 5)
         table[:, :4] = np.maximum.accumulate(table[:, :4], axis=1)
         return cls(table[:, 0], table[:, 1], table[:, 2], table[:, 3], table[:, 4])
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """Largest value of the raised spans at each of the ascending times, (F,); 0 outside them."""
+        """Values (F,) at ascending times: the largest of all raised spans at each, 0 outside them."""
         result = np.zeros(len(times_s))
         first = np.searchsorted(times_s, self.start_s, side="left")
         last = np.searchsorted(times_s, self.end_s, side="right")

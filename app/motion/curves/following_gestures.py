@@ -26,7 +26,7 @@ def path(events: Sequence[GestureEvent]) -> Path:
 
 
 def _targets(events: Sequence[GestureEvent], transition_s: float | None) -> FloatArray:
-    """Return ``start_s``, ``end_s`` and value, (S, 3), of the moves to gestures' amounts.
+    """Compute the moves to the amounts of gestures, as rows (S, 3) of ``start_s``, ``end_s`` and value.
 
     Returns to 0 if the next gesture is farther away than its own length (at least a second).
     """

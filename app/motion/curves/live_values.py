@@ -33,11 +33,11 @@ class Reach:
 
     @classmethod
     def at_rest(cls, value: float) -> Reach:
-        """Return a motion that rests at a value."""
+        """Create a motion that stays at a value."""
         return cls(0.0, LEAST_MOVE_S, value, 0.0, 0.0, value)
 
     def at(self, now_s: float) -> float:
-        """The value at a time; it may overshoot if reversed at speed."""
+        """Value at a time; it may overshoot if the motion was reversed at speed."""
         return self._state(now_s)[0]
 
     def speed_at(self, now_s: float) -> float:
@@ -45,7 +45,7 @@ class Reach:
         return self._state(now_s)[1]
 
     def toward(self, now_s: float, target: float, length_s: float) -> Reach:
-        """Return a move to another target from the current value and speed."""
+        """Begin a move to a new target, continuing from the value and speed at ``now_s``."""
         value, speed, push = self._state(now_s)
         return Reach(now_s, now_s + max(length_s, LEAST_MOVE_S), value, speed, push, target)
 
@@ -122,8 +122,9 @@ class Journey:
             self._share = self._share.toward(now_s, end, length_s)
 
     def at(self, now_s: float) -> tuple[int, int, float]:
-        """Return the index of the place before, the index of the place after, and the share of the way between them,
-        0..1."""
+        """Position at a time: the indices of the place left last and of the place reached next, and the share 0..1 of
+        the way between them.
+        """
         self._arrive(now_s)
         if self.before == self.after:
             return self.after, self.after, 1.0

@@ -30,7 +30,8 @@ class Path:
 
     @classmethod
     def through(cls, segments: Sequence[tuple[float, float, float]] | FloatArray) -> Path:
-        """A path from rows ``(start_s, end_s, value)``: it moves to each value over the span, starting at 0.
+        """Create a path from rows ``(start_s, end_s, value)``: it starts at 0 and moves to each value over the row's
+        span.
 
         Raises ValueError if spans overlap or take no time.
         """
@@ -50,7 +51,7 @@ class Path:
 
     @classmethod
     def of(cls, times_s: FloatArray, values: FloatArray) -> Path:
-        """A path through values at ascending times, without overshoot between neighbours."""
+        """Create a path through values at ascending times, without overshoot between neighbours."""
         slopes = np.zeros(len(times_s))
         if len(times_s) > 2:
             steep = np.diff(values) / np.diff(times_s)

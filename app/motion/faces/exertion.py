@@ -74,7 +74,7 @@ class Lungs:
 
     @classmethod
     def of(cls, parameters: PlayerParameters, air: Air | None) -> Lungs:
-        """Return the lungs of a player with an instrument that uses air as given."""
+        """Return the lungs of a player whose instrument uses air as ``air`` describes."""
         return cls(lungful_s(parameters, air), air)
 
 
@@ -121,7 +121,8 @@ def _load(face: FaceMotion, tension: FloatArray, air: FloatArray, effort: FloatA
 def _asked(
     plan: PlayerPlan, at_s: FloatArray, note: IntArray, sounds: BoolArray, *, as_planned: bool
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Tension, air and effort on the grid, 0 in silences; recorded values where available, otherwise by note.
+    """Lip tension, air and effort on the time grid, each 0 in silences: recorded values where there are any, else those
+    of the notes.
 
     ``as_planned`` excludes values set by hand.
     """
@@ -144,7 +145,9 @@ def _whole(values: FloatArray) -> Whole:
 
 
 def _sum(values: Whole, before_s: float, after_s: float) -> Whole:
-    """Windowed sums around each value, by cumulative sums; integer wrap-around cancels out."""
+    """Sum values over a window from ``before_s`` before to ``after_s`` after each, by cumulative sums; integer
+    wrap-around cancels out.
+    """
     before, after = (max(round(width_s / STEP_S), 0) for width_s in (before_s, after_s))
     total = np.zeros(before + 1 + len(values) + after, np.int32)
     upto = total[before + 1 : before + 1 + len(values)]
@@ -155,14 +158,14 @@ def _sum(values: Whole, before_s: float, after_s: float) -> Whole:
 
 
 def _mean(values: Whole, before_s: float, after_s: float) -> Whole:
-    """Mean over a window, applied twice for a smooth fall-off."""
+    """Average values over a window from ``before_s`` before to ``after_s`` after each, twice, for a smooth fall-off."""
     for _ in range(2):
         values = _sum(values, before_s, after_s) // (round(before_s / STEP_S) + round(after_s / STEP_S) + 1)
     return values
 
 
 def _apart(values: Whole, playing: Whole) -> Whole:
-    """Return the excess of the notes over the surrounding ones; 0 in a rest."""
+    """Excess of each value over the average of the surrounding notes; 0 in rests."""
     sounds = np.flatnonzero(playing)
     here, around = (
         _sum(values, width_s, width_s)[sounds] // _sum(playing, width_s, width_s)[sounds]
@@ -174,7 +177,7 @@ def _apart(values: Whole, playing: Whole) -> Whole:
 
 
 def _strain(load: Whole, rise_s: float, decay_s: float) -> Whole:
-    """Strain that grows with the mean of a heavy load and decays after it."""
+    """Strain of the face, which grows within ``rise_s`` under a heavy load and decays within ``decay_s`` after it."""
     heavy = np.maximum(load - round(LIGHT * ONE), 0)
     grown = _mean(heavy, rise_s / 2.0, 0.0) * ONE // round((1.0 - LIGHT) * ONE)
     steps = round(decay_s / STEP_S)

@@ -34,7 +34,7 @@ USUAL_EYE_M: Final = np.array([0.03, 0.035, 0.076])
 
 
 def shape_name(side: EyeSide, way: str) -> str:
-    """ARKit's name of the shape that turns an eye ``In``, ``Out``, ``Up`` or ``Down``."""
+    """Return ARKit's name of the morph that turns an eye ``In``, ``Out``, ``Up`` or ``Down`` (``way``)."""
     return f"eyeLook{way}{side.capitalize()}"
 
 
@@ -80,12 +80,14 @@ def directions_to(
 
 
 def point(yaw_rad: FloatArray, down_rad: FloatArray, away_m: FloatArray) -> FloatArray:
-    """Point (F, 3) at a distance and direction; left and down are positive."""
+    """Point (F, 3) in metres at a distance ``away_m`` in a direction given by angles; left and down are positive."""
     return away_m[..., None] * _direction(yaw_rad, -down_rad)
 
 
 def eye_turn(sight: FloatArray) -> FloatArray:
-    """Rotation (F, 4) of an eye from straight ahead to a direction, without roll (Listing's law)."""
+    """Rotation (F, 4) of an eye from straight ahead to the directions ``sight`` (F, 3), without roll
+    (Listing's law).
+    """
     across = np.hypot(sight[..., 0], sight[..., 1])
     angle = np.arctan2(across, sight[..., 2])
     scale = np.where(across > 1e-12, angle / np.maximum(across, 1e-12), 1.0)
@@ -95,7 +97,9 @@ def eye_turn(sight: FloatArray) -> FloatArray:
 
 
 def weights_for(side: EyeSide, sight: FloatArray) -> dict[str, FloatArray]:
-    """Weights 0..1 (F,) of the four shapes of an eye for which the centre of its iris is in a direction (F, 3)."""
+    """Weights (F,) 0..1 of the four eyeLook morphs of an eye that make the centre of its iris point in the directions
+    ``sight`` (F, 3).
+    """
     ahead = np.maximum(sight[..., 2], 1e-6)
     left, up = sight[..., 0] / ahead, sight[..., 1] / ahead
     outwards = left if side == "left" else -left
@@ -109,7 +113,9 @@ def weights_for(side: EyeSide, sight: FloatArray) -> dict[str, FloatArray]:
 
 
 def sight_by(side: EyeSide, weights: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-    """Unit direction (F, 3) of the centre of an iris for shape weights; missing ones are 0."""
+    """Unit direction (F, 3) in which the centre of an iris points with the given weights of eyeLook morphs; missing
+    weights are 0.
+    """
     place = np.tile([0.0, 0.0, 1.0], (frames, 1))
     for way in SHAPES_RAD:
         weight = weights.get(shape_name(side, way))
@@ -119,7 +125,7 @@ def sight_by(side: EyeSide, weights: Mapping[str, AnyFloatArray], frames: int) -
 
 
 def shape_turn(side: EyeSide, way: str) -> FloatArray:
-    """Rotation (4,) of an eye by a shape at weight 1."""
+    """Rotation (4,) of an eye by an eyeLook morph at weight 1."""
     turn: FloatArray = eye_turn(_turned_ahead(side, way)[None])[0]
     return turn
 

@@ -65,7 +65,9 @@ def _tracked(spans_s: FloatArray, targets: FloatArray, shift_s: float, rest_valu
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """A value of every embouchure, (N,) or (N, 2); comparing it is cheaper than making curves."""
+    """Values of the embouchures of all N notes, (N,) or (N, 2); two columns are compared to decide whether a curve can
+    be reused.
+    """
 
     values: FloatArray
 
@@ -90,7 +92,7 @@ def _at_lips(spans: Column) -> Curve:
 
 
 def _tension(spans: Column, tensions: Column, traces: SampledCurves | None, embouchure_tension: float) -> Curve | Trace:
-    """Lip tension as recorded, or else from note to note."""
+    """Curve of lip tension: as recorded if there are recorded values, else moving from note to note."""
     if traces is None:
         return _tracked(spans.values, np.minimum(embouchure_tension * tensions.values, 1.0), SHIFT_S, None)
     return Trace(traces.start_s, traces.step_s, np.minimum(embouchure_tension * traces.tension, 1.0))
@@ -109,7 +111,9 @@ def _air(spans: Column, airs: Column, traces: SampledCurves | None) -> Curve | T
 
 
 def breath_opening(plan: PlayerPlan) -> Envelopes:
-    """Return the opening of the mouth for breaths: opening in a breath's first part, closed at its end."""
+    """Return the opening of the mouth for breaths: it opens in the first part of each breath and is closed
+    at its end.
+    """
     rows = []
     for breath in plan.breaths:
         if not breath.draws_air:

@@ -78,8 +78,8 @@ class GazeFrames:
 
 
 def with_instrument(look: GazeFrames, lowered: FloatArray) -> GazeFrames:
-    """Limit the head's part of a look while the instrument is at the mouth, since hands cannot follow far; the eyes
-    compensate as far as they can.
+    """Reduce the head's part of each look while the instrument is at the lips, since the hands cannot follow far; the
+    eyes turn more instead, as far as they can.
 
     Parameters
     ----------
@@ -150,7 +150,9 @@ class Watching(NamedTuple):
 
 
 def plan_gaze(plan: PlayerPlan, watching: Watching, silences: Silences) -> Gaze:
-    """Plan fixations and blinks of a whole performance, with the player's seed."""
+    """Plan the directions of the eyes and the blinks of a whole performance; chance is determined by the
+    player's seed.
+    """
     at_s, looks = _fixations(plan, silences, watching)
     yaw, pitch = looks.yaw, looks.pitch
     far = np.hypot(np.diff(yaw, prepend=yaw[:1]), np.diff(pitch, prepend=pitch[:1]))
@@ -170,8 +172,9 @@ def plan_gaze(plan: PlayerPlan, watching: Watching, silences: Silences) -> Gaze:
 
 
 class _Fixed(NamedTuple):
-    """The K targets on which the eyes rest in turn: directions and nearness as in `Gaze`, and the share that the head
-    follows; each (K,)."""
+    """The K directions in which the eyes look one after another, each (K,): direction and nearness as in `Gaze`, and
+    the share of the turn that the head follows.
+    """
 
     yaw: FloatArray
     pitch: FloatArray
@@ -239,7 +242,7 @@ def _random(plan: PlayerPlan, watching: Watching, purpose: str) -> np.random.Gen
 
 
 def _about(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
-    """Looks around in rests, and occasional looks up while playing."""
+    """Plan looks around in rests, and occasional looks up while playing."""
     frame = plan.time_frame
     slots = int(np.ceil((frame.end_s - frame.first_frame_s) / LOOK_S))
     chances = _random(plan, watching, "about").random((slots, 3))
@@ -260,7 +263,7 @@ def _about(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
 
 
 def _audience(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
-    """Gaze after the end: still during the last note, then at several places in the audience."""
+    """Plan the gaze after the end: on the music during the last note, then to several places in the audience."""
     chances = _random(plan, watching, "audience").normal(0.0, 1.0, (4, 2))
     last_s = float(silences.ends_s[-1]) if len(silences.ends_s) else np.inf
     at_s = last_s + np.array([-0.3, AUDIENCE_S, AUDIENCE_S + 1.7, AUDIENCE_S + 3.9, np.inf])
@@ -270,8 +273,8 @@ def _audience(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Look
 
 
 def _cues(plan: PlayerPlan, side: float) -> _Looks:
-    """Looks up from the music while giving a cue, and back for the entry; the plan provides their targets
-    (`_glances`).
+    """Plan looks up from the music while the player gives a cue, and back for the entry; the targets are those of the
+    plan (`_glances`).
     """
     spans_s = [(cue.start_s - CUE_LEAD_S, cue.end_s - CUE_BACK_BEATS * cue.beat_s) for cue in plan.cues]
     rows = np.array(spans_s).reshape(-1, 2)

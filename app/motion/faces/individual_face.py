@@ -44,7 +44,9 @@ _BANDS: Final = {
 
 @dataclass(frozen=True, eq=False)
 class Wandering:
-    """Slow variation of the parts of a face at F frames, each (F,), factors about 1; ``sides`` is -1..1."""
+    """Slow random variation of the parts of a face over F frames: factors (F,) near 1, and ``sides`` (F,) -1..1 for the
+    difference of left and right.
+    """
 
     lips: FloatArray
     corners: FloatArray
@@ -107,7 +109,9 @@ class OwnFace:
 
 @lru_cache(maxsize=512)
 def own_face(player_id: str, seed: int, least: float, most: float, vibrato_hz: tuple[float, float]) -> OwnFace:
-    """Traits of a player's face; left and right differ by a share between ``least`` and ``most``."""
+    """Draw the individual traits of a player's face from the seed; left and right differ by a share between ``least``
+    and ``most``.
+    """
     random = generator(player_id, seed, "own face")
     side = 1.0 if random.random() < 0.5 else -1.0
     with_it = np.where(random.random(len(PAIRS)) < STRONGER_SIDE, side, -side)
@@ -124,5 +128,5 @@ def own_face(player_id: str, seed: int, least: float, most: float, vibrato_hz: t
 
 
 def face_of_player(player_id: str, seed: int, face: FaceMotion, embouchure: EmbouchureWeights) -> OwnFace:
-    """Traits of a player's face, with sizes from a body's tables."""
+    """Return the individual traits of a player's face, with sizes from the body's table and the kind of embouchure."""
     return own_face(player_id, seed, *face.left_right, embouchure.vibrato_hz)

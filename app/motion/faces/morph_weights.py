@@ -68,7 +68,7 @@ def face_sizes(
     vibrato: float,
     recorded: bool,
 ) -> FaceSizes:
-    """Sizes of a player's facial motion.
+    """Compute the sizes of a player's facial motion.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def face_morphs(
     sizes: FaceSizes,
     times_s: FloatArray,
 ) -> dict[str, FloatArray]:
-    """Weights 0..1 of all morphs that move, each (F,).
+    """Compute the weights (F,) 0..1 of all morphs of a face that move.
 
     Parameters
     ----------
@@ -144,7 +144,9 @@ def _lips(
     wandering: Wandering,
     times_s: FloatArray,
 ) -> list[Driver]:
-    """Return the contributions to the morphs of the embouchure and of lip motion within notes."""
+    """Return the contributions of the embouchure and of lip motion within notes to the face's morphs, as pairs of a
+    curve and morph weights.
+    """
     embouchure = sizes.embouchure
     # In a breath the upper lip stays where the mouthpiece is.
     alive = sizes.lips * formed * np.square(1.0 - face.mouth_open)

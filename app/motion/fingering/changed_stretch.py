@@ -61,7 +61,7 @@ def changed_stretch(
 
 
 def _alike(before: Sequence[FingeringEvent], after: Sequence[FingeringEvent]) -> int:
-    """Return the number of equal notes at the start of two versions."""
+    """Number of notes at the start of two versions of a part that are equal in both."""
     pairs = enumerate(zip(before, after, strict=False))
     differ = (index for index, (one, other) in pairs if one is not other and one != other)
     return next(differ, min(len(before), len(after)))
@@ -76,8 +76,8 @@ def _apart(fingerings: Sequence[FingeringEvent], index: int, felt_beats: FeltBea
 def spliced(
     before: Mapping[str, Curve], within: Mapping[str, Curve], stretch: ChangedStretch
 ) -> dict[str, Curve] | None:
-    """Curves of the previous version with those of a stretch (`ChangedStretch.notes`) inserted; None if they do not
-    fit.
+    """Insert the curves of a recomputed stretch (`ChangedStretch.notes`) into those of the previous version; None if
+    they do not fit together.
     """
     if before.keys() != within.keys():
         return None

@@ -59,14 +59,16 @@ CARRY_BACK_SHARE = 0.5
 
 
 def need_s(control: Control, distance: float) -> float:
-    """Least time in seconds for a move over ``distance`` (0..1 of the travel); 0 if the map gives no speed."""
+    """Least time in seconds of a control's move over ``distance`` (share 0..1 of its travel); 0 if the map gives no
+    speed.
+    """
     if control.max_speed_m_s is None or not control.travel_m:
         return 0.0
     return abs(distance) * control.travel_m / control.max_speed_m_s
 
 
 def _unhurried_s(control: Control, distances: FloatArray) -> FloatArray:
-    """Times in seconds of unhurried moves over ``distances`` (M,); 0 if the map gives no such speed."""
+    """Times (M,) in seconds of unhurried moves over ``distances`` (M,); 0 if the map gives no unhurried speed."""
     if control.unhurried_speed_m_s is None:
         return np.zeros(len(distances))
     return np.abs(distances) * control.travel_m / control.unhurried_speed_m_s
@@ -101,7 +103,8 @@ def window_s(control: Control, distances: FloatArray, durations_s: FloatArray, g
 
 
 def tail_of_note_s(control: Control, distances: FloatArray, durations_s: FloatArray, gaps_s: FloatArray) -> FloatArray:
-    """Return the seconds (M,) before its onsets that a slide may take beyond its own share of the notes before.
+    """Time (M,) in seconds before each onset that a slide's move may take from the previous note in addition to the
+    slide's usual share of it.
 
     They are 0 for controls without an unhurried speed. Parameters are those of `window_s`.
     """
@@ -246,7 +249,7 @@ def _free_window_s(control: Control, distance: float) -> float:
 
 
 def release_s(control: Control, value: float) -> float:
-    """Time in seconds of an unhurried return to rest."""
+    """Time in seconds of an unhurried return of a control from ``value`` to its rest position."""
     distance = value - control.rest_value
     need = need_s(control, distance)
     unhurried = float(_unhurried_s(control, np.array([distance]))[0])
@@ -256,7 +259,8 @@ def release_s(control: Control, value: float) -> float:
 def _through_rest(
     control: Control, end_s: float, onset_s: float, value: float, target: float
 ) -> list[tuple[float, float, float]]:
-    """Moves through a rest: back to rest after the note, and out again just before the next onset.
+    """Moves of a control in a rest, as (start, end, value): back to its rest position after the note, and out again
+    just before the next onset.
 
     If both moves would be hurried, a control with an unhurried speed stays out and moves directly to the next value.
     """

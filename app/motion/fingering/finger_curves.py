@@ -145,7 +145,7 @@ def _visits(
     places: Sequence[Station],
     controls: Mapping[str, Curve],
 ) -> list[_Visit]:
-    """Spans in which a finger works; consecutive notes at one station form one visit.
+    """Find the spans in which a finger works; consecutive notes at one station form one visit.
 
     ``worked`` (N,) selects one of ``sets`` of controls for each note; ``follows`` (N,) marks notes that follow the
     previous one without a rest that would lift the finger.
@@ -287,7 +287,7 @@ def _givings(
 
 
 def _straight(last: _Visit, visit: _Visit) -> Span:
-    """Return the span in which a finger moves from one key to another that it needs soon: between the notes, or while
+    """Return the span in which a finger moves directly to the next key that it needs soon: between the notes, or while
     the keys move.
     """
     if last.up is not None and visit.down is not None:

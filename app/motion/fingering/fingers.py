@@ -43,7 +43,9 @@ def fingers_of(
     farthest: Mapping[str, float],
     before: Fingers | None,
 ) -> Fingers:
-    """Compute the curves of controls, finger positions and waiting heights; after an edit only around it."""
+    """Compute the curves of controls, finger positions and waiting heights; with an earlier result ``before``, only
+    around the edit.
+    """
     made_for = (instrument, felt_beats, farthest)
     stretch = controls = stations = None
     if before is not None and before.made_for == made_for:

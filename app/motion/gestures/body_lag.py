@@ -11,7 +11,7 @@ from metadata.model import Overlap
 
 
 class Overlapped(NamedTuple):
-    """Motion that reaches each part of the body with its own delay, at F frames; (F,) each."""
+    """Values of one motion for each part of the body, each with the part's own delay, as arrays (F,) over F frames."""
 
     hips: FloatArray
     chest: FloatArray
@@ -40,7 +40,7 @@ class Leads(NamedTuple):
 
     @classmethod
     def of(cls, overlap: Overlap) -> Leads:
-        """Leads of the body's parts, from the delays in its table."""
+        """Compute the leads of all body parts from the delays in the body's table."""
         return cls(overlap.chest_s + overlap.head_s, overlap.head_s, 0.0, overlap.head_s - overlap.elbows_s)
 
     def at(self, times_s: FloatArray) -> Overlapped:
@@ -52,7 +52,8 @@ class Leads(NamedTuple):
         return Overlapped(*map(curve.sample, self.at(times_s)))
 
     def widened(self, spans_s: FloatArray) -> FloatArray:
-        """Return the K spans (K, 2) in which the body changes, from the spans in which curves change: widened by the
-        leads of its parts."""
+        """Convert spans (K, 2) in seconds in which curves change to spans in which the body changes, by adding the
+        leads of its parts.
+        """
         widened: FloatArray = spans_s + np.array([-max(self), -min(self)])
         return widened

@@ -120,8 +120,7 @@ def body_motion(
 
 
 def _wandering_rad(name: str, sizes: Sizes, times_s: FloatArray, share: FloatArray | float) -> FloatArray:
-    """Return the slow random turn (N,) of the head in radians at given times; ``name`` selects the random sequence,
-    ``share`` scales it."""
+    """Slow random turn (N,) of the head in radians; ``name`` selects the random sequence, ``share`` scales it."""
     return np.deg2rad(sizes.wander(name, sizes.body.sway.head_deg, times_s, share))
 
 
@@ -170,8 +169,9 @@ def _bent_rad(levels: LayerSamples, sizes: Sizes, down: FloatArray) -> FloatArra
 
 
 def _turned_bell(held: dict[PoseTarget, PoseAngles]) -> dict[str, FloatArray]:
-    """Return the bell's turn set by the animator in radians (N,), by ``"pitch"``, ``"yaw"`` and ``"roll"``; empty if
-    there is none."""
+    """Angles (F,) in radians by which the animator turns the bell: ``"pitch"``, ``"yaw"`` and ``"roll"``; empty if
+    there are none.
+    """
     if "bell" not in held:
         return {}
     bell = held["bell"]
@@ -180,7 +180,8 @@ def _turned_bell(held: dict[PoseTarget, PoseAngles]) -> dict[str, FloatArray]:
 
 def _hold_posture(total: Sum, posture: Posture, lowered: FloatArray) -> FloatArray:
     """Add the bends of a posture to ``total``, and return the turn (F,) of the head towards the instrument in radians;
-    ``lowered`` is how far it is off the lips, 0..1."""
+    ``lowered`` is 0 with the instrument at the lips, 1 with it lowered.
+    """
     still = np.ones(len(lowered))
     for joint, angle_deg in posture.spine_deg.items():
         total.forward({joint: 1.0}, np.deg2rad(angle_deg) * still)
@@ -196,7 +197,9 @@ def _hold_posture(total: Sum, posture: Posture, lowered: FloatArray) -> FloatArr
 def _aside_m(
     levels: LayerSamples, sizes: Sizes, steps: bool, times_s: FloatArray, uneasy: FloatArray | float
 ) -> FloatArray:
-    """Sideways motion of the hips (left positive): with the weight, and over the standing foot during a step."""
+    """Sideways motion (F,) of the hips in metres (left positive): with the shifted weight, and over the standing foot
+    during a step.
+    """
     side_m, acting = sizes.body.weight_shift.side_m, sizes.acting
     aside_m: FloatArray = acting.weight_shift * levels.weight.hips * sizes.of(side_m)
     aside_m = aside_m + sizes.wander("weight", side_m, times_s, uneasy)

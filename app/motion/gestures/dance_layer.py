@@ -62,7 +62,9 @@ class BodyLayer:
     feet: DancedFeet = field(default_factory=DancedFeet.none)
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """Values (F, 12) at any times, smoothly interpolated; end values extend outwards."""
+        """Values (F, 12) of the twelve channels at any times, smoothly interpolated; the first and last sample extend
+        outwards.
+        """
         last = len(self.values) - 1
         place = np.clip((times_s - self.start_s) / self.step_s, 0.0, float(last))
         at = np.minimum(place.astype(np.int64), last - 1)
@@ -81,7 +83,7 @@ _TURNS: Final = [CHANNELS.index(f"{part}_{angle}_rad") for part in ("hips", "tru
 
 
 def breath_envelopes(breaths: Sequence[BreathEvent]) -> Envelopes:
-    """Return the degree to which a dance gives way to breaths, 0..1."""
+    """Return the degree over time, 0..1, to which a dance is reduced for breaths."""
     drawn = [breath for breath in breaths if breath.draws_air]
     return Envelopes.of(
         [

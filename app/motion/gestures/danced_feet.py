@@ -111,7 +111,7 @@ class DancedFeet:
 
     @classmethod
     def none(cls) -> DancedFeet:
-        """Return feet that stand throughout, without any dance step."""
+        """Return the foot movements of a player who does not dance: both feet stand."""
         whole, real = np.zeros(0, np.int64), np.zeros(0)
         return cls(whole, whole, whole, real, real, real, np.zeros((0, 2)))
 
@@ -173,7 +173,7 @@ class DancedFeet:
         return rows_changed_s(mine, theirs, mine_s, theirs_s)
 
     def giving_way(self, gestures: Iterable[GestureEvent]) -> DancedFeet:
-        """The moves without those close to foot gestures corrected by the animator."""
+        """Return the moves without those close to foot gestures that the animator corrected by hand."""
         kinds = answered_by("feet")
         spans = [(event.start_s, event.end_s) for event in gestures if event.corrected and event.kind in kinds]
         if not spans or not len(self):
@@ -194,8 +194,9 @@ class DancedFeet:
         return _Moves(own.kinds, own.start_s, own.lands_s, own.size, own.seated, places_m[before], places_m[after])
 
     def _rows(self) -> tuple[FloatArray, FloatArray]:
-        """Return rows (N, C) that describe N moves with their places in C numbers, and the spans (N, 2) of their
-        effect: a place lasts until the foot lands elsewhere."""
+        """Describe the N moves as rows (N, C) of numbers, for comparing two dances, and the spans (N, 2) in seconds of
+        their effect; the effect of a step lasts until the foot lands elsewhere.
+        """
         rows, spans_s = list[FloatArray](), list[FloatArray]()
         for side in range(2):
             own = self._of(side)
@@ -215,8 +216,9 @@ class DancedFeet:
 def with_danced(
     moved: Mapping[str, FloatArray], danced: Mapping[str, FloatArray], amount: float
 ) -> dict[str, FloatArray]:
-    """Return the moves of feet by component, generated ones (`app.motion.gestures.feet.feet_moved`) combined with
-    danced ones scaled by ``amount``."""
+    """Combine generated foot movements (`app.motion.gestures.feet.feet_moved`) with those of a dance, which are scaled
+    by ``amount``; by name of the movement.
+    """
     feet, size = dict(moved), amount**GROWTH
     for name, values in danced.items():
         if name not in IN_HIPS:
@@ -269,7 +271,7 @@ def with_danced_feet(
 
 
 def within_range(angle_rad: FloatArray, further_rad: FloatArray, range_deg: tuple[float, float]) -> FloatArray:
-    """Add to an angle (F,), softly limited to its joint's range."""
+    """Add ``further_rad`` to an angle (F,), with the sum softly limited to the joint's range."""
     low, high = np.deg2rad(range_deg)
     return np.asarray(angle_rad + within(further_rad, high - angle_rad, angle_rad - low))
 
@@ -318,21 +320,22 @@ def _lifted(times_s: FloatArray, span_s: tuple[float, float]) -> FloatArray:
 
 
 def _bump(times_s: FloatArray, rises_s: float, up_s: float, falls_s: float, lasts_s: float) -> FloatArray:
-    """Return a bump (N,) at given times: it rises from 0 at ``rises_s`` to 1 at ``up_s``, stays, and falls from
-    ``falls_s`` on within ``lasts_s``."""
+    """Smooth bump (N,) at given times: 0 before ``rises_s``, 1 from ``up_s`` to ``falls_s``, 0 again
+    ``lasts_s`` later.
+    """
     up = minimum_jerk(np.clip((times_s - rises_s) / (up_s - rises_s), 0.0, 1.0))
     down = minimum_jerk(np.clip((times_s - falls_s) / lasts_s, 0.0, 1.0))
     return np.asarray(up * (1.0 - down))
 
 
 def _sunk(times_s: FloatArray, lands_s: float) -> FloatArray:
-    """Return the bend of the knees (N,), 0..1, at given times around a landing."""
+    """Bend (N,) of the knees, 0..1, that absorbs a landing at ``lands_s``."""
     before_s, after_s = SINK_S
     low_s = lands_s + after_s / 3.0
     return _bump(times_s, lands_s - before_s, low_s, low_s, after_s - after_s / 3.0)
 
 
 def _eased(times_s: FloatArray, lands_s: float) -> FloatArray:
-    """Return the lift (N,), 0..1, of the rear foot's heel at given times around the landing of the other foot."""
+    """Lift (N,), 0..1, of the heel of the rear foot as the other foot lands at ``lands_s``."""
     before_s, up_s, after_s = EASED_S
     return _bump(times_s, lands_s - before_s, lands_s + up_s, lands_s + up_s, after_s)

@@ -46,7 +46,7 @@ class Feet:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent], step_s: float, generated_feet: float = 1.0) -> Feet:
-        """Foot gestures of a player; generated ones are scaled by ``generated_feet``, those set by the animator are
+        """Collect the foot gestures of a player; generated ones are scaled by ``generated_feet``, the animator's are
         not.
         """
         rows = [

@@ -24,7 +24,7 @@ HELD: Final = ("sway", "lean", "accent", "weight", "giving", "height")
 
 
 def holds_of(gestures: Sequence[GestureEvent]) -> Envelopes:
-    """Return the degree to which motion is held by gestures, 0..1."""
+    """Return the degree over time, 0..1, to which gestures of holding still freeze the body."""
     rows = []
     for event in gestures:
         if event.end_s > event.start_s:
@@ -61,8 +61,9 @@ def _held(values: Any, stays: Any, share: FloatArray) -> Any:
 
 
 def with_holds(spans_s: FloatArray, *holds: Envelopes) -> FloatArray:
-    """Return the K spans (K, 2) of changes, widened by every overlapping hold, since held values come from earlier
-    times."""
+    """Extend the K spans (K, 2) in which motion changed by every hold that overlaps them, since held values come from
+    earlier times.
+    """
     held = np.concatenate([one.spans_s for one in holds])
     if not len(held) or not len(spans_s):
         return spans_s

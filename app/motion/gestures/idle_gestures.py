@@ -26,8 +26,9 @@ MOST_BOW_RAD = float(np.deg2rad(36.0))
 
 @dataclass(frozen=True)
 class ConcertSamples:
-    """Strength of each gesture made while not playing (bow, getting up, settling, counting) at F frames, 0..1, each
-    (F,)."""
+    """Strength 0..1 of each gesture made while not playing (bow, getting up, settling, counting), as arrays (F,) over F
+    frames.
+    """
 
     bow: FloatArray | float = 0.0
     up: FloatArray | float = 0.0
@@ -55,7 +56,7 @@ class Beside:
 def beside_playing(
     done: ConcertSamples, sizes: ConcertMotion, amplitude: float, amount: FloatArray | float, seated: bool
 ) -> Beside:
-    """Offsets of the body at some frames; ``amount`` is a factor of the usual."""
+    """Compute the offsets of the body from gestures while not playing; ``amount`` is a factor of the usual size."""
 
     def rad(scale: AmplitudeScale) -> FloatArray | float:
         return amount * float(np.deg2rad(at_amplitude(scale, amplitude)))
@@ -92,7 +93,7 @@ class Counting:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent], felt_beats: FeltBeats) -> Counting:
-        """Counts of a player; overlaps with the previous count are dropped."""
+        """Collect the counting gestures of a player; those that overlap the previous one are dropped."""
         rows: list[tuple[float, float, int, int, float]] = []
         for event in events:
             free_s = rows[-1][0] + rows[-1][1] if rows else -np.inf

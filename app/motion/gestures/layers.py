@@ -104,7 +104,9 @@ class Layers:
     leads: Leads
 
     def sample(self, times_s: FloatArray) -> LayerSamples:
-        """Return the values of all layers of motion at ascending times, held still where the plan demands it."""
+        """Return the values of all layers at ascending times; in spans in which the plan holds the body still, they
+        keep their earlier values.
+        """
         return held_still(self._moving(times_s), self.still, times_s, self._moving)
 
     def _moving(self, times_s: FloatArray) -> LayerSamples:
@@ -131,7 +133,8 @@ ALIKE: Final = tuple(
 
 
 def lowering_curve(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -> Curve:
-    """Lowering of the instrument: 0 at the lips, 1 lowered; it is raised again by the end of the gesture.
+    """Return the curve of lowering the instrument: 0 at the lips, 1 lowered; at the end of each gesture it is back at
+    the lips.
 
     Overlapping gestures are merged: the instrument stays down from the first to the last, at the lowest of them.
     """

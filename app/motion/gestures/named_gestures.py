@@ -27,8 +27,9 @@ _TURNS = ("up", "left", "roll")
 
 
 def slopes_of(track: AngleTrack) -> FloatArray:
-    """Return the slope of every key of a gesture's track, in degrees per whole length: as given, otherwise level at a
-    turning point and towards the neighbours elsewhere, without overshoot."""
+    """Slope of each key in degrees per length of the gesture: as the key gives it, else level at turning points and
+    towards the neighbours elsewhere, without overshoot.
+    """
     slopes = _monotone(np.array([key.at for key in track.keys]), np.array([key.deg for key in track.keys]))
     given = np.array([np.nan if key.slope is None else key.slope for key in track.keys])
     return np.where(np.isnan(given), slopes, given)
@@ -45,7 +46,7 @@ def _monotone(at: FloatArray, values: FloatArray) -> FloatArray:
 
 
 def angles_deg(track: AngleTrack, phase: FloatArray) -> FloatArray:
-    """A track's angle (F,) in degrees at phases of its gesture; 0 outside 0..1."""
+    """Angle (F,) in degrees of a gesture's track at phases (F,) of the gesture; 0 outside 0..1."""
     at = np.array([key.at for key in track.keys])
     return _between(at, np.array([key.deg for key in track.keys]), slopes_of(track), phase)
 
@@ -104,8 +105,9 @@ class KeyedGestures:
         return True
 
     def done(self, times_s: FloatArray) -> Iterator[tuple[Gesture, float, FloatArray, slice]]:
-        """Yield every gesture active at any of the ascending times, with its amount, its phases 0..1 (K,), and the
-        slice of the times."""
+        """Yield every gesture active at any of the ascending times: the gesture, its amount, its phases 0..1 (K,), and
+        the slice of the times in which it is active.
+        """
         first = np.searchsorted(times_s, self.rows[:, 0])
         last = np.searchsorted(times_s, self.rows[:, 1])
         for index in np.flatnonzero(last > first).tolist():
@@ -141,8 +143,8 @@ class Gestured(KeyedGestures):
 def with_gestures(
     held: dict[PoseTarget, PoseAngles], gestured: Sums | None, amplitude: float, amount: FloatArray | float
 ) -> dict[PoseTarget, PoseAngles]:
-    """Add gestures to the angles held by hand: scaled by the player's amplitude and amount, at most to full amplitude,
-    within the range that hands can follow.
+    """Add gestures to the angles held by pose corrections: scaled by the player's amplitude and amount, and limited to
+    the range that the hands can follow.
     """
     if not gestured or not np.any(amount):
         return held

@@ -46,7 +46,9 @@ class Nods:
 
     @classmethod
     def of(cls, cues: Sequence[CueEvent], answers: Sequence[GestureEvent] = ()) -> Nods:
-        """Nods for a player's cues, and for gestures that nod on the beat at their end."""
+        """Collect the nods of a player: those of the player's own cues, and those in answer to cues of others (gestures
+        that nod at their end).
+        """
         rows = [(cue.downbeat_s, cue.start_s, cue.beat_s, cue.amount) for cue in cues]
         rows += [(one.end_s, one.start_s, (one.end_s - one.start_s) / NOD_BEATS, one.amount) for one in answers]
         rows = [row for row in rows if row[0] > row[1]]
@@ -84,8 +86,7 @@ class Nods:
 
 
 def _dip(times_s: FloatArray, beat_s: float, half_s: float) -> FloatArray:
-    """Return the dip (N,), 0..1, of a nod around a beat, with a prolonged return; at the beat both halves have equal
-    acceleration."""
+    """Dip (N,), 0..1, of a nod around a beat, with a prolonged return; acceleration is continuous at the beat."""
     after = np.maximum(times_s - beat_s, 0.0) / half_s
     stretched = after / (1.0 + after * (AFTER - 1.0) / AFTER)
     return bump(np.minimum(times_s, beat_s) + half_s * stretched, beat_s, half_s)

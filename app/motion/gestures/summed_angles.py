@@ -77,8 +77,9 @@ class Sizes:
         return share, 1.0 + SHOULDERS_INSTEAD * (0.5 * (low + high) - share)
 
     def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray, shown: FloatArray | float) -> FloatArray:
-        """Slow noise (N,) in degrees for one layer of a player's motion: the rest that always remains, plus a part in
-        proportion to ``shown``."""
+        """Slow noise (N,) in degrees for one layer of a player's motion: a part that is always present, plus a part in
+        proportion to ``shown``.
+        """
         noise = _noise(self.player_id, self.parameters.seed, layer, self.body.sway.residual_hz)
         size = NOISE_SHARE * (self.of(scale) - scale[0])
         wandering: FloatArray = noise.sample(times_s) * (RESIDUE_SHARE * scale[0] + shown * size)
@@ -105,15 +106,15 @@ class Sum:
     )
 
     def forward(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
-        """Add a forward bend in radians (F,) to joints, divided by their ``shares``."""
+        """Add a forward bend ``values`` (F,) in radians, distributed over joints by ``shares``."""
         self._add(0, shares, values)
 
     def left(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
-        """Add a lean to the left in radians (F,) to joints, divided by their ``shares``."""
+        """Add a lean to the left ``values`` (F,) in radians, distributed over joints by ``shares``."""
         self._add(1, shares, values)
 
     def turn(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
-        """Add a turn to the left in radians (F,) to joints, divided by their ``shares``."""
+        """Add a turn to the left ``values`` (F,) in radians, distributed over joints by ``shares``."""
         self._add(2, shares, values)
 
     def all(self) -> tuple[dict[str, FloatArray], dict[str, FloatArray], dict[str, FloatArray]]:
@@ -154,7 +155,9 @@ class Angles:
 
     @classmethod
     def of(cls, levels: LayerSamples, sizes: Sizes, times_s: FloatArray, wandering: FloatArray | float) -> Angles:
-        """Angles in a player's sizes; ``wandering`` is the shown share of random motion."""
+        """Compute the summed angles of the layers in the player's sizes; ``wandering`` is the share of
+        random motion.
+        """
         swings, phrase, acting, rad, seated = sizes.body.sway, sizes.body.phrase, sizes.acting, sizes.rad, sizes.seated
         at = Leads.of(sizes.body.overlap).at(times_s)
         share = phrase.seated_share if seated else 1.0
@@ -203,7 +206,7 @@ class Angles:
         return turned
 
     def add_to(self, total: Sum) -> None:
-        """Add to trunk and neck the angles that bring chest and head to these world angles."""
+        """Add to the joints of trunk and neck in ``total`` the angles that give chest and head these world angles."""
         total.forward(TRUNK_SHARES, self.bowed.chest - self.pelvis)
         total.forward(NECK_SHARES, self.bowed.head - self.bowed.chest)
         total.left(TRUNK_SHARES, self.side.chest + WEIGHT_IN_CHEST * self.roll.chest - self.hips_roll_rad)

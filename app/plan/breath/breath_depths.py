@@ -21,8 +21,9 @@ LEAST_DEPTH = 0.3
 def with_depths(
     events: tuple[BreathEvent, ...], used: FloatArray, lung_s: float, refill: FloatArray, index_of: dict[str, int]
 ) -> tuple[BreathEvent, ...]:
-    """Return the breaths, each as deep as the next phrase needs, limited by the available time; depths set by hand
-    stay."""
+    """Set the depth of each breath to what the phrase after it needs, limited by the time available for the breath;
+    depths set by hand stay. ``index_of`` maps note ids to indices.
+    """
     breaths, used_s = [*np.flatnonzero(refill > 0.0).tolist(), len(refill)], used.tolist()
     result = []
     for event in events:

@@ -168,8 +168,8 @@ def _given(
 
 
 def _is_unused(breather: Breather, score: BreathScore, event: BreathEvent) -> bool:
-    """Return whether a rest gets no breath except possibly a catch breath: it is too short without shortening the
-    previous note, or it is under a slur.
+    """Return whether nothing but a catch breath can be taken in the rest of a breath event: the rest is too short
+    without shortening the previous note, or under a slur.
     """
     index = breather.number_of(event)
     is_marked = index > 0 and bool(breather.written.breath[index - 1])
@@ -201,7 +201,9 @@ def _rests_used(breather: Breather, score: BreathScore, given: GivenBreaths) -> 
 def _in_rests(
     breather: Breather, score: BreathScore, given: GivenBreaths, rests: _RestsUsed, catches: list[int]
 ) -> list[BreathEvent]:
-    """Return the breaths taken in rests, each with its preparation and reason, including catch breaths in rests."""
+    """Build the final list of breaths in rests, including catch breaths in rests, each with its preparation
+    and reason.
+    """
     unused = rests.spare.keys() - set(catches)
     result = []
     for event in given.kept:
@@ -222,8 +224,8 @@ def _in_rests(
 
 
 def _cut_notes(breather: Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[int, float], list[Problem]]:
-    """Notes whose lips leave early for a breath, with the time; and problems if a breath set by hand cuts a note too
-    much.
+    """Find the notes whose lips leave early for a breath: the time in seconds by note index, and problems where a
+    breath set by hand cuts a note too much.
     """
     times = breather.times
     early_end_s: dict[int, float] = {}

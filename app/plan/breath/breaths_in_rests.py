@@ -35,7 +35,9 @@ def rest_breaths(
     frame: TimeFrame,
     rests: Rests,
 ) -> tuple[BreathEvent, ...]:
-    """Return the breaths taken in rests, shaped by the player's thresholds; `because` adds the reason for each."""
+    """Plan a breath for each rest, shaped by its length and the player's thresholds; reasons are completed later by
+    `because`.
+    """
     silence, written = rests.sounding_tick.astype(np.float64), rests.written_tick.astype(np.float64)
     silence[0] = written[0] = _before_first(times, piece, frame)
     beats = piece.beat_ticks_at(times.onset_tick)
@@ -123,7 +125,7 @@ class _Report(NamedTuple):
 
 
 def _before_first(times: LineTimes, piece: Piece, frame: TimeFrame) -> float:
-    """Ticks of silence between the beginning of the performance and the first note."""
+    """Length in ticks of the silence between the start of the performance and the first note."""
     frame_tick = round(piece.clock.ticks(frame.first_frame_s), 3)
     return max(float(times.onset_tick[0]) - frame_tick, 0.0)
 
@@ -166,7 +168,7 @@ def _event(id: str, start: tuple[int, float], end: tuple[int, float], reason: Me
 
 
 def breath_at(id: str, piece: Piece, start_s: float, end_s: float, reason: Message) -> BreathEvent:
-    """A planned breath from ``start_s`` to ``end_s``; ``reason`` explains it to the user."""
+    """Create a breath event from ``start_s`` to ``end_s``; ``reason`` explains it to the user."""
     start, end = ((round(piece.clock.ticks(at_s)), at_s) for at_s in (start_s, end_s))
     return _event(id, start, end, reason)
 
@@ -194,8 +196,8 @@ def _rest_reason(
 
 
 def because(reason: Message, why: Mapping[str, Argument]) -> Message:
-    """Add to the reason of a breath in a rest why the rest is used; ``why`` has the id of that text and its
-    arguments.
+    """Complete the reason of a breath in a rest with the explanation why this rest is used; ``why`` has the
+    explanation's text id and arguments.
     """
     return reason if reason.id == "breath.first" else Message(reason.id, {**reason.arguments, **why})
 

@@ -71,7 +71,7 @@ def catch_breaths(
 def _made(
     breather: Breather, score: BreathScore, stock: AirStock, catches: list[int], after_hold: Collection[int]
 ) -> dict[int, BreathEvent]:
-    """Catch breaths out of the tail of the previous note, by index of the note after."""
+    """Create the catch breaths that take time from the end of the previous note, by index of the note that follows."""
     if not catches:
         return {}
     notes, times, room = breather.notes, breather.times, stock.room
@@ -129,14 +129,18 @@ def _made(
 
 
 def _catch(breather: Breather, rests: IntArray, index: int) -> str:
-    """Message id of a catch breath for lack of air, depending on the slur above it."""
+    """Return the id of the message that explains a catch breath for lack of air; it depends on whether the note is
+    under a slur.
+    """
     if not breather.written.joined[index - 1]:
         return "breath.catch"
     return "breath.catch_rest_slurred" if rests[index] > 0 else "breath.catch_slurred"
 
 
 def _dropping(breather: Breather, index: int, dropped: int, why: dict[str, Argument]) -> Message:
-    """Reason of a breath for which notes are left out, depending on the slurs over them."""
+    """Return the message that explains a breath for which ``dropped`` notes are left out; it depends on whether they
+    are under a slur.
+    """
     arguments: dict[str, Argument] = {"after_note": breather.notes[index - 1].id, **why}
     if dropped > 1:
         arguments["first_note"] = breather.notes[index - dropped].id
@@ -151,8 +155,8 @@ def _dropping(breather: Breather, index: int, dropped: int, why: dict[str, Argum
 
 
 def _needed_s(stock: AirStock, lung_s: float, first: IntArray, last: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Air needed by stretches of notes and air available, in seconds: as played if the stretch is short of air only
-    when played, else at the tempo of the score.
+    """Return, for stretches of notes from ``first`` to ``last``, the air they need and the air available, in seconds of
+    playing. Both are computed at the tempo of the score, or as played for stretches that lack air only as played.
     """
     played_s, steady_s = (used[last] - used[first] for used in (stock.used, stock.steady_used))
     full_s = levels(stock.steady_used, lung_s, stock.refill)[first] * lung_s
@@ -199,7 +203,7 @@ def broken_slurs(breather: Breather, caught: list[BreathEvent], room: Room, rest
 
 
 def hasty_at_marks(breather: Breather, caught: list[BreathEvent]) -> list[Problem]:
-    """Return problems for breath marks after notes too short for an unhurried breath."""
+    """Return problems for breath marks that follow notes too short to leave time for an unhurried breath."""
     problems = []
     for event in caught:
         before, lasts_s = breather.number_of(event) - 1, event.end_s - event.start_s

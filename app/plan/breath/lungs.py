@@ -69,7 +69,9 @@ def air_rate(loudness: FloatArray, air: Air | None = None) -> FloatArray:
 
 
 def lungful_s(parameters: PlayerParameters, air: Air | None = None) -> float:
-    """Return the seconds that a full breath lasts at mezzoforte: the map's value scaled to the player's lungs."""
+    """Seconds that a full breath of the player lasts at mezzoforte: the value of the instrument map (``air``), scaled
+    to the player's lungs.
+    """
     return parameters.lung_s * (1.0 if air is None else min(air.mezzoforte_s, STALE_S) / USUAL_LUNG_S)
 
 

@@ -204,8 +204,9 @@ def _phrase_end(times: LineTimes, places: _Places, rests: IntArray, at: IntArray
 
 
 def _against(line: ComparedLine, places: _Places, at: IntArray) -> FloatArray:
-    """Return the cost (K,) of a breath before each of the K notes ``at`` among running, dotted and staccato notes;
-    mostly positive."""
+    """Cost (K,) that running, dotted and staccato notes add to a breath before each of the K notes with indices ``at``;
+    mostly positive.
+    """
     onsets, steps, strength, runs, falls = places.onsets, places.steps, places.strength, places.runs, places.falls
     times, rest = line.times, line.rests[at] > 0
     # Slurs that are known say where a short note before a bar line is an upbeat.
@@ -245,8 +246,8 @@ def slur_costs(line: ComparedLine, at: IntArray) -> FloatArray:
 
 
 def _legato(line: ComparedLine) -> float:
-    """Share, 0..1, to which the whole part is played legato, so that heard slurs indicate no phrases; slurs of a score
-    always count.
+    """Degree, 0..1, to which the whole part is played legato. The higher it is, the less slurs that are heard in the
+    sound count as phrases; slurs in a score always count.
 
     Ignores notes before a rest and repeated notes, where a key must be released before it is pressed again.
     """
@@ -274,7 +275,7 @@ def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray
 
 
 def _like_entries(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray) -> FloatArray:
-    """Return the share (K,) of the entries after rests that have the same position in the bar as each of K places."""
+    """For each of K places the share (K,) of all entries after rests that begin at the same position in the bar."""
     place = np.maximum(np.searchsorted(bars, onsets, side="right") - 1, 0)
     bar = _usual_bar(bars)
     phase = (onsets - bars[place]) % max(bar // 2 if bar % 2 == 0 else bar, 1)

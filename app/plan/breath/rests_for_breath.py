@@ -111,7 +111,7 @@ def rest_needs(rest_s: FloatArray, need: float, lung_s: float) -> RestNeeds:
 
 
 def breathed_in(used: FloatArray, played_s: FloatArray, lung_s: float, refill: FloatArray, needs: RestNeeds) -> Decided:
-    """Decide rest by rest, since each decision changes the air left for the next.
+    """Decide for each rest in order whether the player breathes in it; each decision changes the air left for the next.
 
     Parameters
     ----------

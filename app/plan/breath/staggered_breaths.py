@@ -88,7 +88,9 @@ class SharedLine(NamedTuple):
         return self.ordered[first : bisect_right(self.ordered, place, first, key=self.places.__getitem__)]
 
     def holds(self, place: Place, length_s: float) -> bool:
-        """Return whether the part holds a note at a place for about this length."""
+        """Return whether the part has a note at a place (onset and pitch class) that lasts at least about
+        ``length_s``.
+        """
         if place not in self.known:
             return False
         for index in self.notes_at(place):
@@ -148,8 +150,8 @@ def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
 
 
 def after_holds(held: tuple[Fermata, ...], times: LineTimes) -> frozenset[int]:
-    """Return the indices of the notes with which a part continues after fermatas: the first that begin in the last part
-    of the hold or after it.
+    """For each fermata, find the note with which a part continues: the first that begins in the last part of the hold
+    or after it. Returns the notes' indices.
     """
     if not held or not len(times.onset_tick):
         return frozenset()
@@ -263,7 +265,8 @@ def _together(places: Sequence[int], known: frozenset[int], index: int, least: i
 def within_held(
     notes: Sequence[Note], times: LineTimes, piece: Piece, used: FloatArray, lung_s: float, shared: BreathConstraints
 ) -> tuple[BreathEvent, ...]:
-    """Return breaths within each note that needs most of a player's air or more, provided that others hold the note on.
+    """Plan breaths within held notes that need most of a player's air or more, if other players hold the same note on
+    meanwhile.
 
     Parameters
     ----------

@@ -65,7 +65,9 @@ REPORTED: Final[dict[str, float]] = {"deg": 1.0, "m": 0.005, "weight": 0.02}
 def plan_additive(
     corrections: tuple[Correction, ...], instrument: InstrumentMap, parameters: PlayerParameters, clock: TempoMap
 ) -> Planned[AdditiveEvent]:
-    """Events of the enabled curves, ordered by start, and a problem for each that a body cannot follow."""
+    """Convert the enabled additive curves among the corrections to events, ordered by start, with a problem for each
+    curve that a body cannot follow.
+    """
     events: list[AdditiveEvent] = []
     problems: list[Problem] = []
     body = load_body()

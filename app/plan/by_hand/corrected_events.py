@@ -54,19 +54,19 @@ def sound_corrections(
 
 
 def removed_ids(corrections: tuple[Correction, ...]) -> frozenset[str]:
-    """Ids of generated events that must not appear: removed ones, and those moved to another place."""
+    """Collect the ids of generated events that corrections remove or move to another note."""
     return frozenset(item.left_out for item in corrections if item.left_out is not None)
 
 
 def without_removed(events: tuple[E, ...], removed: frozenset[str]) -> tuple[E, ...]:
-    """The events that were not removed by hand."""
+    """Return the events whose ids are not in ``removed``."""
     return tuple(event for event in events if event.id not in removed) if removed else events
 
 
 def correct_embouchures(
     events: tuple[EmbouchureEvent, ...], corrections: tuple[Correction, ...]
 ) -> tuple[EmbouchureEvent, ...]:
-    """Return the embouchures of notes with the values that the user set by hand."""
+    """Apply corrections to the embouchures of notes: values set by hand replace the generated ones."""
     by_note = {item.note_id: item for item in corrections if isinstance(item, SetEmbouchure)}
     if not by_note:
         return events
@@ -88,7 +88,9 @@ def correct_embouchures(
 def correct_gestures(
     events: tuple[GestureEvent, ...], corrections: tuple[Correction, ...], clock: TempoMap
 ) -> tuple[GestureEvent, ...]:
-    """Gestures without the removed ones, with the changed and the added ones, ordered by start."""
+    """Apply corrections to generated gestures: drop removed ones, change others, and add the animator's own; ordered by
+    start.
+    """
     added = [item.event(clock) for item in corrections if isinstance(item, AddGesture)]
     changes = {item.event_id: item for item in corrections if isinstance(item, ChangeGesture)}
     return _corrected_spans(events, corrections, changes, added, clock)
@@ -97,7 +99,9 @@ def correct_gestures(
 def correct_expressions(
     events: tuple[ExpressionEvent, ...], corrections: tuple[Correction, ...], clock: TempoMap
 ) -> tuple[ExpressionEvent, ...]:
-    """Expressions without the removed ones, with the changed and the added ones, ordered by start."""
+    """Apply corrections to generated expressions: drop removed ones, change others, and add the animator's own; ordered
+    by start.
+    """
     added = [item.event(clock) for item in corrections if isinstance(item, AddExpression)]
     changes = {item.event_id: item for item in corrections if isinstance(item, ChangeExpression)}
     return _corrected_spans(events, corrections, changes, added, clock)

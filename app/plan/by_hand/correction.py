@@ -41,7 +41,7 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
     @property
     def place(self) -> tuple[str, ...]:
-        """Key of the correction: a player has at most one correction with a key."""
+        """Key by which corrections are distinguished: a player has at most one correction with each key."""
         return self.tag, self.anchor
 
     @property
@@ -58,18 +58,20 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
     @property
     def title(self) -> str:
-        """Title given by the user; empty if this kind has none."""
+        """Title that the user gave to the correction; empty for kinds of corrections without titles."""
         return ""
 
     @property
     def is_empty(self) -> bool:
-        """True if its span ends before it begins."""
+        """True if the correction covers a span that has no length."""
         start, end = getattr(self, "start_tick", None), getattr(self, "end_tick", None)
         return start is not None and end is not None and start >= end
 
     @property
     def is_added(self) -> bool:
-        """True if the generator has no event there, so that deleting it removes the correction."""
+        """True if the correction adds an event that the generator does not make, so that deleting the event removes the
+        correction; by default False.
+        """
         return False
 
     @property
@@ -120,7 +122,7 @@ class OfEvent(Correcting, frozen=True):
 
 
 class Own(Correcting, frozen=True):
-    """An event added by the animator; ``name`` makes its event id unique."""
+    """Base of corrections that add an event of the animator's own; ``name`` makes the event's id unique."""
 
     name: str
 

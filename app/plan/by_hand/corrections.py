@@ -47,8 +47,8 @@ class RemoveEvent(OfEvent, frozen=True, tag="remove"):
         return self.event_id
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Return whether the event's note, or an event without a note, no longer exists, or whether events of its kind
-        cannot be removed.
+        """Return whether the note of the removed event no longer exists, or the event itself if it has no note; also
+        True for kinds of events that cannot be removed.
         """
         known = self.note_id in note_ids if self.note_id is not None else self.event_id in event_ids
         return not known or EventId.parse(self.event_id).kind not in REMOVABLE
@@ -72,7 +72,7 @@ class SetBreath(OfNote, frozen=True, tag="set_breath"):
 
     @property
     def place(self) -> tuple[str, ...]:
-        """Key of the correction: one breath and one preparation for each note."""
+        """Key by which corrections are distinguished: each note has at most one breath and one preparation."""
         return self.tag, self.anchor, self.kind
 
     @property

@@ -107,7 +107,7 @@ def mark_corrections(corrections: Iterable[Correcting]) -> tuple[SetMark | Remov
 
 
 def corrected_marks(marks: tuple[Mark, ...], corrections: Iterable[Correcting]) -> tuple[Mark, ...]:
-    """Return a player's marks: those of the part with the corrections applied; marks written by hand come last."""
+    """Apply the corrections to the marks of a part; marks written by hand come last."""
     said = mark_corrections(corrections)
     if not said:
         return marks

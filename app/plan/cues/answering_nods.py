@@ -25,7 +25,8 @@ UNDER_CONDUCTOR: Final = 0.6
 def answering_nods(
     notes: tuple[Note, ...], times: NoteTimes, answered: Sequence[CueEvent], piece: Piece, seeds: Seeds
 ) -> list[GestureEvent]:
-    """A nod for every cue with which a player comes in; none if the player's own note comes later than the cue's beat.
+    """Plan a nod of a player for every cue with which the player comes in, unless the player's first note comes later
+    than the cue's beat.
 
     Parameters
     ----------

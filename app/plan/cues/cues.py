@@ -110,8 +110,8 @@ def plan_cues(
     frame: TimeFrame,
     conducted: bool = False,
 ) -> CuePlan:
-    """Plan every cue of the ensemble, with corrections applied. ``found`` are the `entries`. If ``conducted``, the
-    conductor gives the cues that no player was chosen to give.
+    """Plan every cue of the ensemble, with corrections applied. ``found`` are the results of `entries`. If
+    ``conducted``, the conductor gives all cues except those given to a player by hand.
 
     A cue's id is ``cue:`` and the note it cues, or ``cue:@`` and the tick if the leader does not play there.
     """
@@ -182,13 +182,16 @@ def _takers(leader: int, players: tuple[tuple[int, int], ...], parts: tuple[Mono
 
 
 def _chosen(takers: tuple[str, ...], parts: tuple[MonophonicPart, ...]) -> tuple[tuple[int, int], ...]:
-    """Return the players chosen by hand to receive a cue, in the same form as `_takers`; players that no longer exist
-    are left out."""
+    """Convert the player ids chosen by hand to receive a cue into pairs of part index and note index; ids that no
+    longer exist are left out.
+    """
     return tuple((index, 0) for index, part in enumerate(parts) if part.player_id in takers)
 
 
 def _entering(tick: int, all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[tuple[int, int], ...]:
-    """Players cued by a cue placed by hand: those that were silent before, or else all that begin there."""
+    """Find the players whom a cue at a tick, placed by hand, concerns: those that begin after a silence there, or else
+    all that begin there; as pairs of part index and note index.
+    """
     found = coming_in([(part, times) for part, times in enumerate(all_times)], tick, played_together(piece, tick))
     least = beat_ticks(piece, tick) / 2
     rested = tuple((part, index) for part, index in found if all_times[part].silence_tick[index] >= least)
@@ -206,7 +209,7 @@ def _cue(
     amount: float,
     takers: tuple[str, ...],
 ) -> CueEvent:
-    """The cue of an entry, timed in the tempo that begins there."""
+    """Create the cue for an entry, timed in the tempo that begins there."""
     clock, tick, beat = piece.clock, entry.tick, beat_ticks(piece, entry.tick)
     end_s = clock.seconds(float(tick))
     beat_s = clock.seconds(float(tick + beat)) - end_s
@@ -238,7 +241,9 @@ def _cue(
 def _cue_by_hand(
     player_id: str, note: str, tick: int, beats: float, piece: Piece, frame: TimeFrame, takers: tuple[str, ...]
 ) -> CueEvent:
-    """A cue set by hand, with a preparatory beat of this many beats of the score."""
+    """Create a cue placed by hand; ``beats`` is the distance of the preparatory beat from the entry in beats of the
+    score.
+    """
     seconds, beat = piece.clock.seconds, beat_ticks(piece, tick) * beats
     start_tick = tick - LEAD_BEATS * beat
     end_s, peak_s = seconds(float(tick)), seconds(tick - beat)

@@ -93,7 +93,7 @@ def entries(
 
 
 class _Spans(msgspec.Struct, frozen=True):
-    """Spans in which something sounds: starts in order, and the latest end so far."""
+    """Spans of ticks in which something sounds: starts in ascending order, and for each the latest end so far."""
 
     starts: IntArray
     ends: IntArray
@@ -105,7 +105,7 @@ class _Spans(msgspec.Struct, frozen=True):
         return cls(starts[order], np.maximum.accumulate(ends[order]))
 
     def sounds_before(self, tick: int, ticks: float) -> bool:
-        """Return whether a note that began before a tick still sounds within this many ticks before it."""
+        """Return whether a note that began before ``tick`` still sounds less than ``ticks`` before it."""
         index = int(np.searchsorted(self.starts, tick)) - 1
         return index >= 0 and bool(self.ends[index] > tick - ticks)
 

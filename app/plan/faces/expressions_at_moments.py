@@ -107,7 +107,7 @@ def _given(notes: tuple[Note, ...], times: LineTimes, cues: tuple[CueEvent, ...]
 def _taken(
     notes: tuple[Note, ...], times: LineTimes, breaths: tuple[BreathEvent, ...], cues: tuple[CueEvent, ...]
 ) -> list[_Found]:
-    """Moments of breaths before entries that another player cues."""
+    """Return the moments in which the player takes the breath before an entry that another player cues."""
     given_s = {cue.end_s for cue in cues}
     index_of = {note.id: index for index, note in enumerate(notes)} if breaths else {}
     found = []
@@ -122,7 +122,9 @@ def _taken(
 
 
 def _ended(gestures: tuple[GestureEvent, ...], ending: Ending, frame: TimeFrame) -> list[_Found]:
-    """Moment from the lowering of the instrument on, if the piece ends brightly."""
+    """Return the moment from the lowering of the instrument to the end, if the piece ends brightly; else an
+    empty list.
+    """
     lowered_s = [event.start_s for event in gestures if event.id == "lower_instrument:end"]
     if not ending.bright or not lowered_s:
         return []
@@ -130,7 +132,7 @@ def _ended(gestures: tuple[GestureEvent, ...], ending: Ending, frame: TimeFrame)
 
 
 def neutral_face(clock: TempoMap, frame: TimeFrame, face: Expression) -> ExpressionEvent:
-    """The neutral face, beneath all others, for the whole performance."""
+    """Create the event of the neutral face, which lasts through the whole performance beneath all other expressions."""
     return ExpressionEvent(
         id="expression:neutral",
         expression=face.name,

@@ -109,7 +109,9 @@ def _to_giver(cue: CueEvent, player_id: str, places: Mapping[str, StagePlace], s
 
 
 def _to_takers(cue: CueEvent, places: Mapping[str, StagePlace], seeds: Seeds) -> list[GlanceEvent]:
-    """Looks of the cueing player at one or two cued players, nearest first, back at the music for the entry."""
+    """Plan the looks of the cueing player at one or two of the cued players, the nearest first; the player looks back
+    at the music for the entry.
+    """
     if cue.player_id not in places:
         return []
     own = places[cue.player_id]
@@ -141,7 +143,7 @@ def _about(event: GestureEvent, seeds: Seeds) -> list[GlanceEvent]:
 
 
 def _at_own_hands(event: GestureEvent, gaze: GazeTrack) -> GlanceEvent:
-    """Return the glance at the own hands that belongs to a gesture."""
+    """Return the glance at the player's own hands that belongs to a gesture."""
     length_s = event.end_s - event.start_s
     return GlanceEvent(
         f"glance:{event.id}",
@@ -199,7 +201,7 @@ def _turned(glance: GlanceEvent, lowered: Spans) -> GlanceEvent:
 
 
 def _in_turn(glances: list[GlanceEvent]) -> list[GlanceEvent]:
-    """End each glance where the next begins, and drop those that become too short."""
+    """Shorten overlapping glances so that each ends where the next begins, and drop those that become too short."""
     ordered = sorted(glances, key=lambda one: (one.start_s, one.id))
     kept: list[GlanceEvent] = []
     for glance in ordered:

@@ -127,7 +127,7 @@ def _by_chance(times: NoteTimes, piece: Piece, amount: float, seeds: Seeds) -> l
 
 
 def _bars(times: NoteTimes, piece: Piece) -> tuple[IntArray, FloatArray]:
-    """Ticks and seconds (N,) of the bar lines near played notes; of bar lines close together only one."""
+    """Ticks and seconds (N,) of the N bar lines near played notes; of bar lines close together only one is used."""
     bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
     bars_s: FloatArray = piece.clock.seconds(bars.astype(np.float64))
     following = np.minimum(np.searchsorted(times.onset_s, bars_s), len(times.onset_s) - 1)

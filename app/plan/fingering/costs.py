@@ -152,8 +152,9 @@ class FingeringProblem:
 
     @cached_property
     def local_cost(self) -> FloatArray:
-        """Cost (N, K) of each of K fingerings of N notes by itself, such as poor intonation; inf where there is none or
-        a correction excludes it."""
+        """Cost (N, K) of each of K fingerings of N notes by itself, such as for poor intonation; infinite where the
+        note has fewer fingerings or a correction excludes one.
+        """
         table, index, times = self.table, self.pitch_index, self.times
         out_of_tune = np.maximum(np.abs(table.cents) - np.abs(table.cents[:, :1]), 0.0) / CENTS_PER_UNIT
         audible = np.minimum(times.duration_s / FULLY_AUDIBLE_S, 1.0)[:, None]
@@ -255,8 +256,8 @@ class FingeringProblem:
         return Motions(pair, moves, slide_m, needed_s, share, cost)
 
     def _repeated(self, gap: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
-        """Steps that repeat a pitch, and the costs of changing to a worse and to a better fingering there; steps pinned
-        by a correction are excluded.
+        """Indices of the steps that repeat a pitch, and for each the costs of changing to a worse and to a better
+        fingering; steps fixed by a correction are excluded.
         """
         alike = (self.allowed[1:] == self.allowed[:-1]).all(axis=1)
         again = np.flatnonzero((self.pitch_index[1:] == self.pitch_index[:-1]) & alike)
@@ -353,9 +354,9 @@ def fingering_problem(
     by_hand: BoolArray | None = None,
     written: WrittenFingerings = NO_FINGERINGS,
 ) -> FingeringProblem:
-    """Set up the search. ``pins`` maps note ids to labels required by corrections; labels unknown to the map, here or
-    in ``written`` (fingerings in the score), are ignored (see `plan_fingerings`). ``by_hand`` (N,) marks hand-stopped
-    notes.
+    """Set up the search for fingerings. ``pins`` maps note ids to labels required by corrections; labels unknown to the
+    map, here or in ``written`` (fingerings in the score), are ignored (see `plan_fingerings`). ``by_hand`` (N,) marks
+    notes stopped by the hand in the bell.
     """
     stopped = instrument.stopped if by_hand is not None and by_hand.any() else None
     if stopped is not None and by_hand is not None:

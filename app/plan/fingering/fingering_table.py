@@ -80,7 +80,7 @@ def pitch_controls(instrument: InstrumentMap) -> tuple[Control, ...]:
 
 
 def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> FingeringTable:
-    """The fingerings of these concert pitches, in the given order."""
+    """Build the fingering table of an instrument for these concert pitches, in the given order."""
     choices = tuple(instrument.fingerings_for(pitch) for pitch in pitches)
     controls = pitch_controls(instrument)
     shape = (len(choices), max((len(ranked) for ranked in choices), default=1))

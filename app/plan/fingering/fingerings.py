@@ -119,7 +119,9 @@ def _unplayed(
 
 
 def _searched(fingering: Fingering, first_choice: Fingering, in_trill: bool, step_s: float) -> Message:
-    """Return the reason for a fingering chosen by the search; ``step_s`` is the shorter step from or to a neighbour."""
+    """Return the message that explains a fingering chosen by the search; ``step_s`` is the time to the nearer
+    neighbouring note in seconds.
+    """
     if fingering.rank <= 1:
         return _reason("fingering.first_choice", fingering.label)
     rule = "fingering.trill" if in_trill else "fingering.speed"
@@ -138,8 +140,8 @@ def _glides_s(glides: tuple[bool, ...], onset_s: Sequence[float]) -> dict[int, f
 def _controls(
     problem: FingeringProblem, chosen: Sequence[tuple[int, int]], instrument: InstrumentMap
 ) -> list[dict[str, float]]:
-    """Control values of every note: of its fingering, given by pitch and rank, with tuning adjustments on notes that
-    last.
+    """Control values 0..1 of every note, from the fingering chosen for it (pitch row and rank), with tuning corrections
+    on long notes.
     """
     held = [
         (control.name, control.held_min_s or 0.0) for control in instrument.controls if control.role == "intonation"

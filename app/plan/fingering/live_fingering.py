@@ -22,7 +22,7 @@ REMEMBERED = TRILL_NOTES
 
 @dataclass(frozen=True)
 class Fingered:
-    """A note played live: it sounds from ``onset_s`` to ``end_s`` with one of its pitch's fingerings."""
+    """A note played live, from ``onset_s`` to ``end_s``; ``column`` is the rank of its fingering."""
 
     pitch: int
     onset_s: float

@@ -111,7 +111,7 @@ def footwork(
 
 
 def _steps(times: NoteTimes, found: tuple[Phrase, ...], clock: TempoMap, seeds: Seeds) -> list[GestureEvent]:
-    """Steps at ends of phrases; the foot returns at the end of the next phrase or the one after."""
+    """Plan steps of one foot at ends of phrases; the foot returns at the end of the next phrase or the one after."""
     ends_s = times.played_end_s[np.array([phrase.end for phrase in found]) - 1]
     ticks = times.onset_tick[np.array([phrase.first for phrase in found])]
     chances, sizes = seeds.chances_at("step", ticks), seeds.chances_at("step size", ticks)
@@ -179,7 +179,7 @@ def _heels(
     steps: Sequence[GestureEvent],
     taps: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
-    """Raised heels of the foot that carries little weight, while no foot steps or taps."""
+    """Plan raised heels of the foot that carries little weight, at times when no foot steps or taps."""
     busy = np.array(
         [(event.start_s - CLEAR_S, event.end_s + CLEAR_S) for event in (*steps, *taps)], np.float64
     ).reshape(-1, 2)

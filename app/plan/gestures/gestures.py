@@ -67,7 +67,9 @@ def in_order(kinds: tuple[Sequence[GestureEvent], ...]) -> tuple[GestureEvent, .
 def weight_shifts(
     times: NoteTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: TempoMap, dynamics: Dynamics
 ) -> list[GestureEvent]:
-    """Shifts of weight at irregular times (T7), about every `SHIFT_MEAN_S`; decided bar by bar."""
+    """Plan shifts of weight from foot to foot at irregular times (T7), about every `SHIFT_MEAN_S`, by chance for each
+    bar.
+    """
     places = spans_near_notes(times, frame, pulse.bars_s)
     ticks, ends = pulse.bar_ticks[places], pulse.bar_ticks[places + 1]
     chances = np.minimum((pulse.bars_s[places + 1] - pulse.bars_s[places]) / SHIFT_MEAN_S, 0.9)
@@ -125,9 +127,9 @@ def _weights(times: LineTimes) -> FloatArray:
 def bell_heights(
     notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynamics: Dynamics, usual_pitch: float
 ) -> list[GestureEvent]:
-    """Bell height that follows the melody: for each felt beat the mean pitch (by sounding time) relative to
-    ``usual_pitch``, the part's mean. Beats of about the same height are one gesture; a silence of a beat ends it. The
-    height grows with loudness, rises with accents and to the climax of a phrase, and sinks at its end.
+    """Plan the height of the bell along the melody: for each felt beat the mean pitch (by sounding time) relative to
+    ``usual_pitch``, the part's mean. Beats of about the same height form one gesture; a silence of a beat ends it. The
+    height grows with loudness, rises with accents and towards the climax of a phrase, and sinks at its end.
     """
     if not notes:
         return []
@@ -198,7 +200,9 @@ def _at_height(pitch: float, mean_pitch: float) -> Message:
 
 
 def _bell_starts(heights: list[float], vigour: list[float], breaks: list[bool], accented: list[float]) -> list[int]:
-    """Indices of beats at which the bell moves: another height, another vigour, after a break, after an accent."""
+    """Indices of the beats at which a new bell movement begins: at a new height or vigour, after a break, and after an
+    accent.
+    """
     firsts: list[int] = []
     for place, height in enumerate(heights):
         if firsts and not breaks[place] and not accented[firsts[-1]]:

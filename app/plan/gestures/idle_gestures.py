@@ -57,7 +57,9 @@ def in_long_rests(
     frame: TimeFrame,
     seeds: Seeds,
 ) -> list[GestureEvent]:
-    """Gestures while the instrument is lowered (``lowered``) in rests of at least `LONG_REST_S`."""
+    """Plan the gestures of a player who rests for at least `LONG_REST_S`, while the instrument is lowered
+    (``lowered``).
+    """
     events: list[GestureEvent] = []
     index_of = {note.id: index for index, note in enumerate(notes)} if lowered else {}
     for low in lowered:
@@ -145,7 +147,7 @@ def _looks(
 def holding_at_end(
     times: NoteTimes, lowered: Sequence[GestureEvent], piece: Piece, frame: TimeFrame
 ) -> list[GestureEvent]:
-    """The player keeps still from the end of the last note until the instrument comes down."""
+    """Plan the gesture of keeping still from the end of the last note until the instrument is lowered."""
     lows = [event for event in lowered if event.id == "lower_instrument:end"]
     if not lows:
         return []
@@ -154,7 +156,9 @@ def holding_at_end(
 
 
 def after_the_end(last_s: float, piece: Piece, frame: TimeFrame, seeds: Seeds) -> list[GestureEvent]:
-    """The look up and the bow after the last note of all at ``last_s``; empty if the performance ends too soon."""
+    """Plan the look up to the audience and the bow after the last note of all players, which ends at ``last_s``; empty
+    if the performance ends too soon.
+    """
     if last_s + BOW_S + BOW_LASTS_S + AFTER_S > frame.end_s:
         return []
     look_s = last_s + LOOK_UP_S + 0.3 * seeds.chance("look up")

@@ -133,7 +133,7 @@ def leans(
 
 @lru_cache(maxsize=256)
 def _leant(length_s: float) -> Message:
-    """Return the reason of a lean; equal ones are one shared object."""
+    """Return the message that explains a lean, cached so that equal ones are one object."""
     return Message("gesture.lean", {"length_s": length_s})
 
 
@@ -208,8 +208,9 @@ def _on_beat(times: NoteTimes, pulse: Pulse, piece: Piece) -> tuple[BoolArray, F
 
 
 def _nearest(places: IntArray, ticks: IntArray, back: int = 0) -> IntArray:
-    """Return for each tick (N,) the first of the sorted ``places`` (ticks) at or after it, or the one ``back`` places
-    earlier."""
+    """Return for each tick (N,) the first of the ascending ticks ``places`` at or after it, or the one that comes
+    ``back`` entries earlier.
+    """
     found: IntArray = places[np.clip(np.searchsorted(places, ticks) - back, 0, len(places) - 1)]
     return found
 

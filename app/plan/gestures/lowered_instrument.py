@@ -86,8 +86,8 @@ def _before_first(
     cues: tuple[CueEvent, ...],
     seeds: Seeds,
 ) -> list[GestureEvent]:
-    """Event for an instrument lowered at frame 0: raised before everything that belongs to the entry if there is time,
-    else at least before cue and breath, together with the preparation.
+    """Plan the lowered instrument at the start of the performance: it is raised before everything that belongs to the
+    entry if there is time, else at least before cue and breath, together with the preparation.
     """
     events: list[BreathEvent | CueEvent] = [*breaths, *cues]
     starts_s = [event.start_s for event in events if event.end_s > frame.first_frame_s and event.start_s < onset_s]
@@ -112,9 +112,7 @@ class _Busy:
         self._last_ends_s = list(itertools.accumulate((end_s for _, end_s in spans_s), max))
 
     def free_until(self, start_s: float, end_s: float) -> float:
-        """Start of the first span that ends after ``start_s`` and begins before ``end_s``; ``end_s`` if there is
-        none.
-        """
+        """Return the start of the first busy span that overlaps ``start_s``..``end_s``; ``end_s`` if there is none."""
         index = bisect_right(self._last_ends_s, start_s)
         return min(self._starts_s[index], end_s) if index < len(self._starts_s) else end_s
 

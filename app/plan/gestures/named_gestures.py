@@ -23,7 +23,7 @@ from metadata.load import load_body
 
 
 class Defined(NamedTuple):
-    """Gesture events with their fitted definitions, and problems with some of them."""
+    """Gesture events with their definitions fitted to the player, and problems with those that do not fit."""
 
     gestures: tuple[GestureEvent, ...]
     problems: tuple[Problem, ...]
@@ -84,7 +84,8 @@ def with_definitions(
 
 
 def fitted(gesture: Gesture, length_s: float, limits: Mapping[str, Mapping[str, tuple[float, float]]]) -> Gesture:
-    """Return the gesture limited to the range of the instrument and the speed of a body: smaller if it must be faster.
+    """Adapt a gesture to the range of the instrument and the speed of a body: it becomes smaller if it would be too
+    fast for ``length_s``.
 
     Parameters
     ----------
@@ -130,8 +131,8 @@ def without_idle_hands(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, 
 
 @lru_cache(maxsize=256)
 def _acceleration_deg(track: AngleTrack) -> float:
-    """Approximate largest acceleration of a track, in degrees per square second for a gesture of one second, with eased
-    moves between keys.
+    """Approximate largest acceleration of an angle's keys, in degrees per square second if the gesture lasts one
+    second.
     """
     at, deg = np.array([key.at for key in track.keys]), np.array([key.deg for key in track.keys])
     slopes = np.array([abs(key.slope or 0.0) for key in track.keys])

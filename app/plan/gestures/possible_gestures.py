@@ -43,7 +43,9 @@ class LoweredSpans:
 
 
 def may_start(gesture: Gesture, start_s: float, end_s: float, times: LineTimes, lowered: LoweredSpans) -> bool:
-    """Return whether a gesture may be made from ``start_s`` to ``end_s``, such as only while the player rests."""
+    """Return whether a gesture's own condition allows it from ``start_s`` to ``end_s``, for example only while the
+    player rests.
+    """
     if gesture.may_start == "resting":
         first = int(np.searchsorted(times.played_end_s, start_s, side="right"))
         return first == len(times.onset_s) or float(times.onset_s[first]) >= end_s
@@ -72,8 +74,8 @@ def impossible(gesture: Gesture, instrument: InstrumentMap) -> Message | None:
 
 
 def belongs(gesture: Gesture, instrument: InstrumentMap) -> bool:
-    """Return whether rules may place a gesture for players of an instrument: it is possible, and a gesture that drains
-    water is the one of the instrument's map.
+    """Return whether rules may use a gesture for an instrument: it must be possible and, if it drains water, be the one
+    named in the instrument's map.
     """
     if gesture.lets_out_water and (instrument.water is None or instrument.water.gesture != gesture.name):
         return False

@@ -92,7 +92,7 @@ def plan_embouchures(
 
 @lru_cache(maxsize=8192)
 def _reason(reported: str, pitch: int, low: int, high: int, loudness: float) -> Message:
-    """Return the reason of an embouchure; equal ones are one shared object."""
+    """Return the message that explains an embouchure, cached so that equal ones are one object."""
     return Message(reported, {"pitch": pitch, "low": low, "high": high, "loudness": loudness})
 
 

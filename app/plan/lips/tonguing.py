@@ -137,7 +137,9 @@ def _write_strokes(
 
 
 def single_limit_s(instrument: InstrumentMap, seeds: Seeds) -> float:
-    """Shortest step in seconds between strokes that a player makes with the tip of the tongue alone."""
+    """Shortest time in seconds between strokes that a player makes with the tip of the tongue alone; faster strokes are
+    double-tongued.
+    """
     slow, fast = SINGLE_BPM
     bpm = slow + (fast - slow) * seeds.chance("tongue")
     if instrument.embouchure.kind in REEDS:
@@ -147,7 +149,7 @@ def single_limit_s(instrument: InstrumentMap, seeds: Seeds) -> float:
 
 @lru_cache(maxsize=1024)
 def _reason(kind: str, rate: float, limit: float, by_hand: bool) -> Message:
-    """Return the reason of a tongue stroke; equal ones are one shared object."""
+    """Return the message that explains a tongue stroke, cached so that equal ones are one object."""
     if kind in ("double", "triple"):
         return Message(f"tongue.{kind}", {"rate": rate, "limit": limit})
     if kind.startswith(WRITTEN) and by_hand:
@@ -211,8 +213,8 @@ def _articulations(notes: tuple[Note, ...], times: LineTimes, slurred: BoolArray
 def _strokes(
     times: LineTimes, attacked: IntArray, piece: Piece, limit_s: float
 ) -> tuple[list[Stroke], list[tuple[str, float]]]:
-    """Stroke of each attacked note; and the tonguing pattern it belongs to (empty: none), with the strokes per
-    second.
+    """Choose the stroke of each attacked note; also return for each the tonguing pattern it belongs to (empty: none)
+    and the strokes per second.
     """
     strokes: list[Stroke] = ["ta"] * len(attacked)
     why = [("", 0.0)] * len(attacked)
@@ -243,7 +245,9 @@ def _strokes(
 
 
 def _in_threes(metre: Metre, step: float, quarter: int) -> bool:
-    """Decide whether steps are triplets: three or six in a beat, or the three of a dotted beat."""
+    """Return whether notes at a distance of ``step`` ticks are in groups of three: three or six in a beat, or the three
+    of a dotted beat.
+    """
     unit = 4.0 * quarter / metre.denominator
     if metre.numerator % 3 == 0 and metre.denominator >= 8:
         return abs(unit - step) <= EVEN * step

@@ -101,7 +101,7 @@ class BreathGaps:
 
 
 def blown(steps: ControllerSteps, clock: TempoMap) -> BreathEnvelope:
-    """Return the recorded breath of a controller in seconds, with the gaps in which nothing is blown."""
+    """Convert the steps of a breath controller from ticks to seconds, with the gaps in which nothing is blown."""
     at_s = clock.seconds(steps.ticks)
     return BreathEnvelope(at_s, steps.values, find_gaps(at_s, steps.values))
 

@@ -59,7 +59,7 @@ class Dynamics:
 
 
 def dynamics_of(times: LineTimes, envelope: BreathEnvelope | None) -> Dynamics:
-    """Dynamics of a part, by its recorded or drawn curve, else by its notes."""
+    """Compute the dynamics of a part from its recorded or drawn loudness curve, else from its notes."""
     lasts_s = times.duration_s
     parts = np.maximum(np.ceil(lasts_s / HELD_S), 1.0).astype(np.int64)
     within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
@@ -109,8 +109,8 @@ def mean_around(
 
 
 def louder_by(times: LineTimes) -> FloatArray:
-    """Excess loudness (N,) of each note over the notes around it, and over the dynamic in force if known (three *forte*
-    notes are no accents). 0 for a part that is too even.
+    """Excess of the loudness (N,) of each note over that of the notes around it, and over the dynamic in force if that
+    is known (three *forte* notes are no accents). 0 throughout in a part whose loudness varies too little.
     """
     loudness = times.loudness
     if len(loudness) < 2 or np.ptp(loudness) < ACCENT:
@@ -121,8 +121,9 @@ def louder_by(times: LineTimes) -> FloatArray:
 
 
 def _accents(times: LineTimes) -> FloatArray:
-    """Return by how much each accented note (N,) is louder than its surroundings, else 0; of consecutive accents only
-    the first counts."""
+    """Excess loudness (N,) of each accented note over its surroundings, 0 for other notes; of consecutive accents only
+    the first counts.
+    """
     more = louder_by(times)
     louder = np.append(-np.inf, times.loudness[:-1]) + ACCENT / 2.0 <= times.loudness
     return np.where((more >= ACCENT) & louder, more, 0.0)

@@ -124,7 +124,9 @@ def _array(values: Sequence[int] | IntArray) -> IntArray:
 
 
 def _distribution(unread: Sequence[IntArray], constant: bool) -> tuple[float, float, float]:
-    """Usual level, degree of intended dynamics, and shift, for velocities that fit no ladder."""
+    """Interpret velocities that fit no notation program: their usual level, the degree 0..1 to which they are intended
+    dynamics, and the shift to add before comparing them with `DYNAMICS`.
+    """
     if not unread:
         return 80.0, 0.0, 0.0
     several = np.concatenate([_smoothed(velocities) for velocities in unread])
@@ -146,7 +148,9 @@ def _distribution(unread: Sequence[IntArray], constant: bool) -> tuple[float, fl
 
 
 def is_level(velocity: FloatArray) -> bool:
-    """Return whether the velocities (N,) of enough notes spread no more than those of a hand playing at one level."""
+    """Return whether velocities (N,) vary no more than the strokes of a player who keeps one dynamic, with enough notes
+    to tell.
+    """
     if len(velocity) < 4 * STROKES:
         return False
     low, high = np.percentile(_smoothed(velocity), [10, 90])

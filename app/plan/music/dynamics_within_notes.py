@@ -27,7 +27,7 @@ ATTACK_S, FALL_S = 0.15, 0.25
 def dynamics_within(
     times: LineTimes, marks: tuple[Mark, ...], source: Source, clock: TempoMap
 ) -> BreathEnvelope | None:
-    """Loudness of a part through its notes, by written dynamics and hairpins.
+    """Compute the loudness of a part over time, also within notes, from written dynamics and hairpins.
 
     Returns
     -------

@@ -78,7 +78,7 @@ def with_felt_bars(piece: Piece, lines: tuple[NoteTimes, ...], low: tuple[bool, 
 
 
 def _late_ticks(lines: Sequence[NoteTimes], onsets: Sequence[IntArray], unit_ticks: int) -> int:
-    """Ticks from the written beats to the felt ones: less than a beat, 0 unless long notes show otherwise.
+    """Ticks by which felt beats come after the written ones, less than a beat; 0 unless long notes show otherwise.
 
     Parameters
     ----------
@@ -98,7 +98,8 @@ def _late_ticks(lines: Sequence[NoteTimes], onsets: Sequence[IntArray], unit_tic
 def _weights(
     lines: Sequence[NoteTimes], lowest: Sequence[bool], onsets: Sequence[IntArray], unit_ticks: int, count: int
 ) -> FloatArray:
-    """Strength (count,) of each beat of the bar, 1 on average; equal with too little evidence.
+    """Evidence (count,) that each beat of the bar is the first, 1 on average; equal for all if there is too little
+    evidence.
 
     Parameters
     ----------

@@ -127,8 +127,9 @@ class _Gaps(msgspec.Struct, frozen=True):
 
 
 def _rows(gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[list[tuple[int, Fermata]]]:
-    """Return rows of fermatas on successive chords, each with the index of its gap: two to `MOST_IN_A_ROW` gaps, much
-    slower than the music before and after all of them."""
+    """Find rows of two to `MOST_IN_A_ROW` fermatas on successive chords, much slower than the music before and after;
+    each fermata comes with the index of its gap.
+    """
     rows: list[list[tuple[int, Fermata]]] = []
     slowness: list[float] = gaps.slowness.tolist()
     done = -1
@@ -185,7 +186,7 @@ def _row(first: int, last: int, gaps: _Gaps, sounding: list[NoteTimes], piece: P
 
 
 def _fermata(place: int, gaps: _Gaps, piece: Piece) -> Fermata | None:
-    """Fermata that ends with a gap; None if there is none."""
+    """Return the fermata whose hold ends with the gap at index ``place``; None if there is none."""
     start, entry = int(gaps.starts[place]), int(gaps.ends[place])
     slowness = float(gaps.slowness[place])
     after = _beats(entry, AFTER_BEATS, piece)
@@ -229,7 +230,7 @@ def _beats(tick: int, count: int, piece: Piece) -> FloatArray:
 
 
 def _released(sounding: list[NoteTimes], start: int, entry: int) -> int:
-    """End of the last note that began at or before the start of a fermata."""
+    """Tick at which the last of the notes held at the start of a fermata ends."""
     ends = []
     for times in sounding:
         index = int(np.searchsorted(times.onset_tick, entry)) - 1

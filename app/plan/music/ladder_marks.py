@@ -61,7 +61,9 @@ def is_written(velocity: IntArray) -> bool:
 
 
 def _levels(velocity: IntArray) -> dict[int, int]:
-    """Velocities at which the music stays, with their number of notes; velocities within hairpins are excluded."""
+    """Find the velocities at which the music stays for a while, and the number of notes at each; velocities within
+    hairpins are excluded.
+    """
     edges = np.flatnonzero(np.append(True, velocity[1:] != velocity[:-1]))
     lengths = np.diff(np.append(edges, len(velocity)))
     for least in (3, 1):
@@ -95,7 +97,9 @@ def recognised(written: Sequence[tuple[IntArray, int | None]]) -> tuple[str, boo
 
 
 def _gain(name: str, program: int | None, levels: dict[int, int]) -> float:
-    """Return the log likelihood ratio of a part's levels on a ladder against random velocities."""
+    """Log likelihood ratio of a part's velocity levels being written by a program (its ladder ``name``), against random
+    velocities.
+    """
     gains = _gains(name, program)
     return sum(gains[value] * math.log1p(count) for value, count in levels.items())
 
@@ -138,7 +142,7 @@ def _range_cost(wrote: int | None, program: int | None) -> float:
 
 @lru_cache(maxsize=256)
 def _gains(name: str, program: int | None) -> tuple[float, ...]:
-    """Log likelihood ratio (128,) of each velocity on a ladder against random velocities."""
+    """Log likelihood ratio (128,) of each velocity 0..127 being on a ladder, against random velocities."""
     ladder = ladder_of(name, program)
     likely = np.full(128, 0.2 / 60.0)
     for mark, velocity in ladder.steps:
@@ -153,8 +157,8 @@ def _gains(name: str, program: int | None) -> tuple[float, ...]:
 
 
 def has_no_marks(name: str, written: Sequence[tuple[IntArray, int | None]], whole_range: bool) -> bool:
-    """Return whether all parts stay at a program's velocity without dynamics, except for articulations and single
-    notes.
+    """Return whether all parts stay at the velocity that a program writes without dynamics, except for articulations
+    and single notes.
     """
     default: int | None = None
     for velocities, program in written:
@@ -189,8 +193,9 @@ _MARK_COST = _CHANGE_COST
 
 @lru_cache(maxsize=64)
 def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return cost and accent (128, S) of every velocity on each of the S steps of a ladder, and the cost (S, S) of a
-    change of step."""
+    """Cost and accent (128, S) of reading each velocity as each of the S steps of a ladder, and cost (S, S) of a change
+    between steps.
+    """
     ladder = ladder_of(name, program)
     values = np.array([velocity for _, velocity in ladder.steps])
     loud = np.array([LEVELS[MARKS.get("fff" if mark == "sf" else mark, MF)] for mark, _ in ladder.steps])
@@ -263,8 +268,8 @@ def ladder_marks(velocity: IntArray, name: str, program: int | None, whole_range
 
 @lru_cache(maxsize=128)
 def _along(velocities: bytes, name: str, program: int | None, whole_range: bool) -> LadderMarks:
-    """Find the cheapest sequence of ladder steps, where each change of level has a cost; cached, since most edits
-    change no velocity.
+    """Read the dynamics of a part as the cheapest sequence of ladder steps, where each change of level has a cost;
+    cached, since most edits change no velocity.
     """
     velocity = np.frombuffer(velocities, np.uint8).astype(np.int64)
     program = _written_as(name, _levels(velocity), program, whole_range)

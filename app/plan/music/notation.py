@@ -106,7 +106,7 @@ def are_written(ticks: IntArray, quarter_ticks: int) -> bool:
 
 
 def notated(times: LineTimes, piece: Piece) -> LineTimes:
-    """The part in notated timing.
+    """Convert the played timing of a part to notated timing.
 
     Onsets move to the simplest nearby position. Where ends were played, a note lasts until the next onset if it may
     have been released early, otherwise to the simplest position for the start of a rest.
@@ -160,7 +160,7 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
 
 
 def _meant_slurs(times: LineTimes, onset_s: FloatArray) -> BoolArray:
-    """Mask (N,) of notes slurred to the next on purpose, not because the next one came early.
+    """Mask (N,) of notes that overlap the next because a slur is intended, not because the next note came early.
 
     If slurs are intended, most slurred notes last as long as written.
 
@@ -194,7 +194,8 @@ def early_share(times: LineTimes) -> float:
 
 
 def heard_rests_s(times: LineTimes, release: float) -> FloatArray:
-    """Length (N,) in seconds of the heard rest before each note, less the usual early release of the previous note.
+    """Length (N,) in seconds of the rest before each note as listeners hear it: the silence minus the early release
+    that is usual in the part.
 
     The whole silence counts if the part's release is unknown, or if the silence is longer than any release.
 
@@ -209,7 +210,7 @@ def heard_rests_s(times: LineTimes, release: float) -> FloatArray:
 
 
 def at_score_tempo(times: LineTimes, piece: Piece) -> LineTimes:
-    """The part without ritardandi and other short tempo changes, which do not affect breathing."""
+    """Return the part's times without ritardandi and other short tempo changes, which do not affect breathing."""
     quarter = piece.clock.ticks_per_quarter
     grid = np.arange(times.onset_tick[0] // quarter, -(-int(times.played_end_tick[-1]) // quarter) + 1) * quarter
     seconds = piece.clock.seconds(grid.astype(np.float64))
@@ -233,7 +234,8 @@ def simplest_places(
     quarter_ticks: int,
     rarer: int = 0,
 ) -> IntArray:
-    """Position (N,) in ticks between ``first`` and ``last`` with the simplest division, and the nearest of those.
+    """Choose a position (N,) in ticks between ``first`` and ``last`` with the simplest division of the quarter; of
+    several the one nearest to ``near``.
 
     Parameters
     ----------

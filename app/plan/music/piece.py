@@ -198,7 +198,7 @@ class LineTimes(NoteTimes):
 
     @cached_property
     def contour(self) -> LineTimes:
-        """The part reduced to what divides it into phrases: direction of each step, and whether it is a leap, instead
+        """Reduce the part to what its phrases depend on: the direction of each step and whether it is a leap, instead
         of pitches.
         """
         steps = np.sign(np.diff(self.pitch)) * np.where(self.leaps, LEAP_SEMITONES, 1)
@@ -301,7 +301,7 @@ def note_times(
 
 
 def _swelled(loudness: FloatArray, rows: FloatArray) -> FloatArray:
-    """Return loudness (N,) 0..1 raised by a number of dynamic levels (N,), such as by 1 from p to mp."""
+    """Raise loudness (N,) 0..1 by a number of dynamic levels (N,): 1 raises p to mp."""
     if not rows.any():
         return loudness
     return np.where(rows == 0.0, loudness, loudness_of_rows(rows_of_loudness(loudness) + rows))
@@ -341,11 +341,11 @@ class Seeds(msgspec.Struct, frozen=True):
     varied: tuple[tuple[int, int, int], ...] = ()
 
     def chance(self, *purpose: str | int) -> float:
-        """Return a random number in [0, 1) for a purpose without a place in the score."""
+        """Return a random number in [0, 1) for a purpose that has no position in the score."""
         return chance(*self.names, *purpose)
 
     def chance_at(self, purpose: str, tick: int) -> float:
-        """A number in [0, 1) for a purpose at a place of the score."""
+        """Return a random number in [0, 1) for a purpose at a tick of the score."""
         for start_tick, end_tick, seed in reversed(self.varied):
             if start_tick <= tick < end_tick:
                 return chance(*self.names, "varied", seed, purpose, tick)

@@ -26,8 +26,8 @@ LEAST_BEND: Final = 0.3
 
 
 def bends(notes: Sequence[Note], bend: ControllerSteps | None) -> list[tuple[str, ...]]:
-    """Bends of each note: ``scoop`` (into its start from below), ``plop`` (from above), ``fall`` (down at its end) or
-    ``doit`` (up at its end).
+    """Recognise the bends of each note: ``scoop`` (into its start from below), ``plop`` (from above), ``fall`` (down at
+    its end) or ``doit`` (up at its end).
 
     Parameters
     ----------
@@ -67,7 +67,9 @@ def _of_note(bend: ControllerSteps, onset_tick: float, end_tick: float) -> tuple
 
 
 def written_bends(notes: Sequence[Note], marks: Sequence[Mark], clock: TempoMap) -> ControllerSteps | None:
-    """Pitch bend in whole tones of the marks for bends; None if there are none."""
+    """Convert the marks for bends in a score to a curve of pitch bend in whole tones; None if there are no
+    such marks.
+    """
     kinds: dict[str, set[str]] = {}
     for mark in marks:
         if mark.kind in WRITTEN_BENDS:

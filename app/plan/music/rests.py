@@ -78,8 +78,8 @@ def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
 
 
 def are_certain(times: LineTimes, beat_ticks: IntArray, released: float = 0.0) -> BoolArray:
-    """Mask (N,) of silences that are rests however the part is articulated: audible (see `are_audible`), or a felt beat
-    long.
+    """Mask (N,) of silences that are rests in any articulation: they are audible as such (`are_audible`), or last a
+    felt beat.
     """
     return are_audible(times, released) | np.concatenate(([False], times.silence_tick[1:] >= beat_ticks[1:]))
 
@@ -126,7 +126,7 @@ def _in_a_run(steps: FloatArray, gates: FloatArray, notes: int) -> BoolArray:
 
 
 def _habit(gates: FloatArray, silent: BoolArray) -> float:
-    """Share of its step for which most notes of a part sound; nan if there is no such habit."""
+    """Share of the time to the next onset for which most notes of a part sound; NaN if notes vary too much."""
     counts = np.bincount(np.round(gates[silent] / HABIT_GATE).astype(np.int64), minlength=1)
     usual = float(np.argmax(counts)) * HABIT_GATE
     near = silent & (np.abs(gates - usual) < HABIT_GATE)

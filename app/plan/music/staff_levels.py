@@ -31,13 +31,15 @@ class MarkChanges(msgspec.Struct, frozen=True):
 
 
 class StaffLevels(msgspec.Struct, frozen=True):
-    """Dynamics in force on every staff, and those of most staves."""
+    """Dynamics in force over time on every staff, and those in force on most staves."""
 
     staves: dict[int, MarkChanges]
     most: MarkChanges
 
     def at(self, staff: int, onsets: IntArray) -> IntArray:
-        """Dynamic (N,) of a staff at each onset; before its first one, that of most staves; mezzoforte before any."""
+        """Dynamic (N,) of a staff at each onset, as a row of `DYNAMICS`; before the staff's first dynamic that of most
+        staves, and mezzoforte before any.
+        """
         marks = self.staves.get(staff, MarkChanges()).at(onsets)
         marks = np.where(marks < 0, self.most.at(onsets), marks)
         return np.where(marks < 0, MF, marks)

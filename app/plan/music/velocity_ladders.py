@@ -98,7 +98,7 @@ def _lilypond(program: int | None) -> Ladder:
 
 
 def _ladder(name: str, velocities: str, **more: object) -> Ladder:
-    """A ladder of eight steps from *ppp* to *fff*."""
+    """Create a ladder from eight velocities for *ppp* to *fff*, given as text."""
     values = [int(value) for value in velocities.split()]
     marks = [mark for mark, _ in DYNAMICS]
     return Ladder(name, tuple(zip(marks, values, strict=True)), **more)  # type: ignore[arg-type]
@@ -127,7 +127,9 @@ def ladder_of(name: str, program: int | None) -> Ladder:
 
 
 def articulated(ladder: Ladder, velocity: int) -> list[tuple[int, float]]:
-    """Return the velocities that articulations add on a ladder, with their frequency."""
+    """Return the differences in velocity that articulations make to a note of this ladder at ``velocity``, 0 for none
+    included, each with its frequency.
+    """
     more = [*ladder.added]
     if ladder.accent_share != 1.0:
         # Rounded down as MuseScore does it: the product, not what is added.

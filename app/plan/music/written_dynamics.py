@@ -76,7 +76,7 @@ NONE_WRITTEN: Final = WrittenDynamics(np.empty(0), np.empty(0), (), (), ())
 
 
 def written_dynamics(marks: Iterable[Mark], source: Source, quarter: int) -> WrittenDynamics:
-    """Return the dynamics among the marks of a line."""
+    """Collect the dynamics and hairpins among the marks of a part."""
     of_dynamics = [mark for mark in marks if mark.kind in ("dynamic", "crescendo", "diminuendo")]
     if not of_dynamics:
         return NONE_WRITTEN
@@ -127,7 +127,7 @@ def rows_of_loudness(loudness: FloatArray) -> FloatArray:
 
 
 def struck_notes(onsets: IntArray, written: WrittenDynamics, quarter: int) -> list[int]:
-    """Indices of the notes with a sforzando: the first note within a quarter after each."""
+    """Indices of the notes with a sforzando: for each sforzando the first note within a quarter after it."""
     found = []
     for tick in written.struck:
         index = int(np.searchsorted(onsets, tick))
@@ -137,7 +137,7 @@ def struck_notes(onsets: IntArray, written: WrittenDynamics, quarter: int) -> li
 
 
 def _is_of_one_note(text: str) -> bool:
-    """Return whether a dynamic begins with an accent for one note."""
+    """Return whether a dynamic text begins with an accent that applies to one note only, such as "sfz"."""
     return text in SFORZANDI or (text in FORTE_THEN and text != "pf")
 
 
@@ -152,7 +152,7 @@ def _knots(holding: dict[int, float], hairpins: Sequence[Mark], quarter: int) ->
     rows: list[float] = []
 
     def go(tick: int, row: float) -> None:
-        """Add a knot; of two knots at one tick the earlier is placed just before it."""
+        """Add a knot; if there already is one at the same tick, that one is moved just before it."""
         if ticks and tick <= ticks[-1]:
             rows[-1] = row
             return

@@ -89,7 +89,7 @@ class WrittenMarks:
 
     @cached_property
     def tongued_next(self) -> BoolArray:
-        """Mask of notes whose next note is tongued by a mark of its own or follows a slur's end."""
+        """Mask (N,) of notes after which the next note is tongued, because of its own mark or because a slur ends."""
         marked = np.fromiter(map(bool, self.stroke), bool, len(self.stroke))
         return np.append(marked[1:], False)[: len(marked)] | self.tongued
 
@@ -189,7 +189,7 @@ def _divided(joined: BoolArray, stroke: list[str]) -> tuple[BoolArray, BoolArray
 
 
 def unwritten(count: int) -> WrittenMarks:
-    """Marks of a number of notes without any, as read from sound."""
+    """Return the data of ``count`` notes without any marks, as for a part read from sound."""
     none = np.zeros(count, dtype=bool)
     names = ("",) * count
     level, swell = np.full(count, np.nan), np.zeros(count)
