@@ -42,7 +42,7 @@ class AccentGrid:
 
     @cached_property
     def beats(self) -> FloatArray:
-        """Position (G,) of each of G accents in beats from the first one."""
+        """Position (G,) of each grid time in beats, counted from the first grid time."""
         on_beat = np.flatnonzero(self.on_beat)
         return np.asarray(np.interp(np.arange(len(self.times_s)), on_beat, np.arange(len(on_beat))))
 

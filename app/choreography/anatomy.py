@@ -95,8 +95,9 @@ def _trunk(body: Captured) -> dict[str, FloatArray]:
 
 
 def _column(body: Captured, name: str, across: FloatArray, ways: FloatArray) -> FloatArray:
-    """Return the rotation (4,) of a part of the trunk in the captured bone's frame: X along the line `across` (hips or
-    shoulders), made horizontal, and the next joint at the usual lean of `LEANS_DEG`."""
+    """T-pose rotation (4,) of a part of the trunk in its bone's axes: X along the line ``across`` (between hips or
+    shoulders), made horizontal, and the next joint at the usual lean `LEANS_DEG`.
+    """
     upright = middle(body.within(name, body.up)[body.standing])
     if name != "hips":
         # Not the vertical: who runs leans ahead all the time.
@@ -112,8 +113,9 @@ def _column(body: Captured, name: str, across: FloatArray, ways: FloatArray) -> 
 
 
 def _head(body: Captured, chest: FloatArray) -> FloatArray:
-    """Return the rotation (4,) of the head in the captured bone's frame, so that its eyes are level and look ahead: by
-    the positions of the eyes, by a T-pose beside the motion, or by the usual posture in the motion."""
+    """T-pose rotation (4,) of the head in its bone's axes, such that the eyes are level and look ahead: found from the
+    eyes' positions, from a T-pose in the clip, or from the usual posture during the motion.
+    """
     if {"leftEye", "rightEye"} <= body.joints.keys():
         left, right = body.at("leftEye"), body.at("rightEye")
         level = _framed(body.mean("head", left - right), body.mean("head", 0.5 * (left + right) - body.at("head")))
@@ -189,8 +191,9 @@ def _along(body: Captured, side: str) -> FloatArray:
 
 
 def _palm(body: Captured, side: str, sign: float) -> FloatArray | None:
-    """Return the rotation (4,) of a hand in the captured bone's frame, fingers along the arm and palm down, found from
-    knuckles or thumb; None if neither shows the palm. ``sign`` is 1 for the left hand, -1 for the right."""
+    """T-pose rotation (4,) of a hand in its bone's axes (fingers along the arm, palm down), found from knuckles or
+    thumb; None if the file has neither. ``sign`` is 1 for the left hand, -1 for the right.
+    """
     name, knuckles, along = f"{side}Hand", body.knuckles(side), _along(body, side)
     if len(knuckles) > 1:
         ahead = body.mean(name, knuckles[0] - knuckles[-1])
@@ -231,8 +234,9 @@ def _hand(body: Captured, side: str, sign: float, forearm: FloatArray) -> FloatA
 
 
 def _foot(body: Captured, side: str) -> FloatArray:
-    """Return the rotation (4,) of a foot in the captured bone's frame: toes forward, sideways in agreement with the
-    knee's hinge, sole about horizontal when standing."""
+    """T-pose rotation (4,) of a foot in its bone's axes: toes forward, sideways as the knee's hinge, the sole about
+    horizontal when standing.
+    """
     name = f"{side}Foot"
     has_toes = f"{side}Toes" in body.joints
     toes = body.mean(name, body.at(f"{side}Toes") - body.at(name)) if has_toes else body.tips[name]
@@ -261,7 +265,7 @@ def _foot(body: Captured, side: str) -> FloatArray:
 
 
 def _sole_up(body: Captured, name: str) -> FloatArray:
-    """Return the most frequent up direction (3,) in a foot's bone while the foot is slow."""
+    """Most frequent up direction (3,) of the world in the axes of a foot's bone while the foot moves slowly."""
     places = body.start(name)
     tips = places + quaternion.rotate(body.rotations[:, body.segments[name]], body.tips[name])
     slow = np.zeros(len(places))
@@ -285,8 +289,9 @@ def _framed(across: FloatArray, up: FloatArray) -> FloatArray:
 
 
 def _beside(vector: FloatArray, axis: FloatArray) -> FloatArray:
-    """Return the unit vector (3,) of the part of ``vector`` that is orthogonal to an axis; any orthogonal direction if
-    there is none."""
+    """Unit vector (3,) of the component of ``vector`` orthogonal to ``axis``; any orthogonal direction if there is
+    none.
+    """
     axis = unit(axis)
     for candidate in (vector, Z, X):
         part = candidate - axis * (candidate @ axis)

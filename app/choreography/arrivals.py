@@ -59,8 +59,8 @@ def arrival_frames(speed_m_s: FloatArray, fps: float) -> IntArray:
 
 
 def alignment(arrivals_s: FloatArray, beats_s: FloatArray) -> float:
-    """Return a score of how well arrivals meet beats, 0..2: each arrival its nearest beat, and each beat its nearest
-    arrival.
+    """Score, 0..2, of the match between arrivals of the body and beats: the sum of the closeness of each arrival to its
+    nearest beat, and of each beat to its nearest arrival.
 
     The sum of beat alignment as of Li et al. (ibid.) and as of Siyao et al., "Bailando: 3D Dance Generation by
     Actor-Critic GPT with Choreographic Memory", CVPR 2022.

@@ -112,8 +112,9 @@ def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = No
 
 
 def _automatic(motion: _Motion) -> tuple[CapturedBody | None, JointMapping, Sequence[str], Sequence[str]]:
-    """Return the body found in a motion without the user, its bones (or the likeliest ones if it fails), and the wrong
-    and the missing joints."""
+    """Find the body in a motion without the user's help. Returns the body (None if it fails), its bones or the
+    likeliest ones, and the wrong and the missing joints.
+    """
     named, by_names = map_joints(motion.figure), _by_names(motion.figure)
     by_lengths = motion.by_lengths()
     ways = [(by_names, True), (motion.by_zero_pose(), True)] if named.profile else []
@@ -132,8 +133,9 @@ def _automatic(motion: _Motion) -> tuple[CapturedBody | None, JointMapping, Sequ
 def _by_hand(
     motion: _Motion, mapping: JointMapping, kept: Collection[str]
 ) -> tuple[CapturedBody | None, Sequence[str], Sequence[str]]:
-    """Return the body made from bones with the user's corrections, and the wrong and the missing joints; ``kept`` are
-    the corrected joints."""
+    """Build the body from bones with the user's corrections; ``kept`` are the corrected joints. Returns the body (None
+    if it fails), and the wrong and the missing joints.
+    """
     if missing := _missing(mapping.bones):
         return None, (), missing
     body = motion.read(mapping, bool(mapping.profile), kept)
@@ -150,7 +152,9 @@ class _Motion:
         self._file = file
 
     def skeleton(self, found: JointMapping, bones: Mapping[str, int]) -> RawSkeleton:
-        """Return the first frame, with Y up as far as the bones show the up direction."""
+        """Return the skeleton of the first frame for showing it to the user, with Y up if the up direction can be
+        found.
+        """
         known = {"head", *FEET} <= bones.keys()
         turn = np.asarray(UPS[_up(self.places, bones) if known else "+Y"].as_quat(), np.float64)
         places = quaternion.rotate(turn, self.places[0])
@@ -221,8 +225,8 @@ class _Motion:
 
 
 def _by_the_mean(body: Captured) -> list[Message]:
-    """Return notes about parts whose rotation follows only from their mean in the motion: a head without eyes, hands
-    without fingers, limbs that never bend.
+    """Return notes about body parts whose rotation could only be guessed from their mean in the motion: a head without
+    eyes, hands without fingers, limbs that never bend.
     """
     parts = [] if {"leftEye", "rightEye"} <= body.joints.keys() or len(body.posed) else ["head"]
     for side, sign in SIDES:
@@ -236,7 +240,7 @@ def _by_the_mean(body: Captured) -> list[Message]:
 
 
 def _with_sides_said(body: CapturedBody, figure: Figure) -> CapturedBody:
-    """Return the body with a note about limbs whose bones are named after the other side."""
+    """Add a note to the body if limbs have bones that are named after the other side."""
     against = called_after_the_other_side(body.found.bones, figure.bone_names)
     if not against:
         return body
@@ -247,7 +251,7 @@ def _with_sides_said(body: CapturedBody, figure: Figure) -> CapturedBody:
 
 
 def _by_names(figure: Figure) -> JointMapping:
-    """Return joints by names only, since a figure without size has no shape to check them."""
+    """Find joints by the names of bones only, without checking the shape, for a figure without size."""
     mapping = map_joints(replace(figure, translations_m=np.zeros_like(figure.translations_m)))
     bones = {joint: bone for joint, bone in mapping.bones.items() if joint not in mapping.doubtful}
     return replace(mapping, bones=bones, doubtful=())
@@ -258,8 +262,9 @@ def _missing(bones: Mapping[str, int]) -> list[str]:
 
 
 def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[str, FloatArray]:
-    """Return the tip (3,), metres in the rest pose, of each foot, by side: its end site or that bone below the ankle
-    which is farthest from it horizontally."""
+    """Position (3,) in metres, in the rest pose, of the tip of each foot, by side: its end site or the bone below the
+    ankle that is farthest from it horizontally.
+    """
     rest = rest_of(figure)
     tips = {}
     for side in ("left", "right"):
@@ -274,7 +279,7 @@ def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[s
 
 
 def _world(bvh: BvhClip) -> tuple[FloatArray, FloatArray]:
-    """Return the positions (F, J, 3) and rotations (F, J, 4) of the file's J joints in its own space."""
+    """World positions (F, J, 3) and rotations (F, J, 4) of the file's J joints, in the file's own coordinate system."""
     rotations = np.array(bvh.rotations_xyzw, np.float64)
     positions = np.empty((*rotations.shape[:2], 3))
     for joint, parent in enumerate(bvh.parents):
@@ -289,7 +294,7 @@ def _world(bvh: BvhClip) -> tuple[FloatArray, FloatArray]:
 
 
 def _up(positions: FloatArray, bones: Mapping[str, int]) -> str:
-    """Return the axis along which heads are usually above feet."""
+    """Find the axis of the file that points up, along which heads are usually above feet, such as ``"+Z"``."""
     feet = 0.5 * (positions[:, bones["leftFoot"]] + positions[:, bones["rightFoot"]])
     way = np.median(positions[:, bones["head"]] - feet, axis=0)
     axis = int(np.argmax(np.abs(way)))
@@ -297,8 +302,9 @@ def _up(positions: FloatArray, bones: Mapping[str, int]) -> str:
 
 
 def _segment_bones(parents: Sequence[int], bones: Mapping[str, int]) -> dict[str, int]:
-    """Return the bone of each body segment by segment name. Regardless of names the chest is the bone that both arms
-    are attached to, and the spine the first bone between hips and chest."""
+    """Find the bone of each body segment, by segment name. Regardless of names the chest is the bone to which both arms
+    are attached, and the spine the first bone between hips and chest.
+    """
     hips = bones["hips"]
     carriers = _above(parents, bones["leftUpperArm"])
     right = set(_above(parents, bones["rightUpperArm"]))
@@ -320,8 +326,9 @@ def _above(parents: Sequence[int], bone: int) -> list[int]:
 
 
 def _thumb(bvh: BvhClip, bones: Mapping[str, int], side: str, places: FloatArray, rotations: FloatArray) -> FloatArray:
-    """Return the vector (F, 3), cm in the world, from the wrist to the end of the thumb in every frame; zeros if there
-    are no thumb bones."""
+    """World vector (F, 3) in cm from the wrist to the end of the thumb in every frame; zeros if there are no thumb
+    bones.
+    """
     parts = [bones[name] for part in THUMB if (name := f"{side}Thumb{part}") in bones]
     if not parts:
         return np.zeros_like(places[:, 0])
@@ -332,8 +339,9 @@ def _thumb(bvh: BvhClip, bones: Mapping[str, int], side: str, places: FloatArray
 
 
 def _tip(bvh: BvhClip, name: str, bone: int, thumbs: Collection[int]) -> FloatArray:
-    """Return the vector (3,), cm in the bone's own frame, from a bone to its tip: its longest child offset or end site;
-    for a hand the mean of the fingers without the thumb."""
+    """Vector (3,) in cm from a bone to its tip, in the bone's own axes: to its farthest child or end site; for a hand
+    the mean over the fingers without the thumb.
+    """
     hand = name.endswith("Hand")
     nexts = [joint for joint, parent in enumerate(bvh.parents) if parent == bone and not (hand and joint in thumbs)]
     ways: FloatArray = np.array(
@@ -345,8 +353,9 @@ def _tip(bvh: BvhClip, name: str, bone: int, thumbs: Collection[int]) -> FloatAr
 
 
 def _hanging(bvh: BvhClip, places: FloatArray, rotations: FloatArray, bone: int) -> FloatArray:
-    """Return the points (N, 3) at and below a joint, relative to it in its bone's axes, in the mean of P poses:
-    positions (P, J, 3) and rotations (P, J, 4) of J joints."""
+    """Collect the points of a joint and of everything attached to its bone, (N, 3) relative to the joint in the bone's
+    axes, averaged over P poses with positions (P, J, 3) and rotations (P, J, 4) of J joints.
+    """
     below = {bone}
     for joint, parent in enumerate(bvh.parents):
         if parent in below:

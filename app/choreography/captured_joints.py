@@ -85,8 +85,8 @@ class Captured:
         return mean
 
     def bend(self, limb: Sequence[str], sign: float) -> FloatArray:
-        """Return the axis (F, 3) about which the middle joint of a limb bends, with the sine of the bend as length; in
-        the T-pose +X for legs, +Y for arms.
+        """Axis (F, 3) about which the middle joint of a limb bends, with the sine of the bend as its length; positive
+        bends are about +X for legs and +Y for arms in the T-pose.
 
         Parameters
         ----------
@@ -100,7 +100,9 @@ class Captured:
         return axes if limb[0].endswith("Leg") else -sign * axes
 
     def hinge(self, segment: str, bend: FloatArray) -> tuple[FloatArray, float]:
-        """Return the axis (3,) of a hinge in a bone, and its reliability, 0..1."""
+        """Find the axis (3,) of a knee's or elbow's hinge in the axes of an adjacent bone, with its
+        reliability, 0..1.
+        """
         total, fixed = self.axis(segment, bend)
         return unit(total), min(self.bent(bend), _share(fixed, FIXED))
 
@@ -113,7 +115,7 @@ class Captured:
         return total, float(np.linalg.norm(total) / max(np.linalg.norm(axes, axis=1).sum(), 1e-12))
 
     def bent(self, bend: FloatArray) -> float:
-        """Return the certainty that a joint bends at all, 0..1."""
+        """Certainty, 0..1, that a joint with the bending axes ``bend`` bends at all during the motion."""
         sine = min(1.0, float(np.percentile(np.linalg.norm(bend, axis=1), 90)))
         return _share(float(np.degrees(np.arcsin(sine))), BENT_DEG)
 
@@ -170,7 +172,9 @@ class Captured:
 
     @cached_property
     def standing(self) -> IntArray:
-        """Return the frames with the head in the upper half of its heights, in which the body stands upright."""
+        """Indices of the frames in which the body stands upright: the head is in the upper half of the
+        heights it has.
+        """
         height = self.at("head")[:, 1]
         frames: IntArray = np.flatnonzero(height >= np.median(height))
         return frames

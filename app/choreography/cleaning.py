@@ -50,7 +50,7 @@ class CleanedClip:
 
     @property
     def start_s(self) -> float:
-        """Start time of the clip within the original one in seconds."""
+        """Time in seconds in the original clip at which the cleaned clip starts."""
         return float(self.lead_in / self.clip.fps)
 
     @property
@@ -64,7 +64,9 @@ class CleanedClip:
 
 
 def cleaned(clip: MotionClip) -> CleanedClip:
-    """Clean a clip; one without damage is unchanged."""
+    """Clean a clip: remove repeated frames and rest poses, and repair damage; a clip that needs none of this is
+    unchanged.
+    """
     count = held(clip)
     clip = without_held(clip, count)
     start, stop = proper(clip)
@@ -92,7 +94,7 @@ def without_held(clip: MotionClip, count: int) -> MotionClip:
 
 
 def remarks(done: CleanedClip) -> tuple[Message, ...]:
-    """Return notes about removals and changes in a clip; times are those of the file."""
+    """Return notes for the user about what was removed from a clip and changed in it; times are those of the file."""
     found = []
     if done.held > 1:
         found.append(Message("motion.held", {"n": done.held, "rate": str(done.clip.fps)}))

@@ -36,7 +36,7 @@ class BodyShape:
 
     @classmethod
     def of(cls, offsets_m: FloatArray, ends_m: FloatArray) -> BodyShape:
-        """Return the shape with these offsets, and its skeleton."""
+        """Create the shape of a body from its offsets and end vectors, together with its skeleton."""
         return cls(offsets_m, ends_m, body_skeleton(offsets_m))
 
 
@@ -88,7 +88,7 @@ class MotionClip:
 
 
 def write_motion(path: str | os.PathLike[str], clip: MotionClip) -> None:
-    """Write a BVH file of the body's joints, named as the segments, whole or not at all. Raises FileError."""
+    """Write a motion as a BVH file with joints named as the segments, atomically. Raises FileError."""
     names = list(SEGMENTS)
     parents = [names.index(parent) if parent in names else -1 for parent in PARENT_OF.values()]
     ends_cm = {names.index(name): 100.0 * end_m for name, end_m in zip(ENDS, clip.shape.ends_m, strict=True)}

@@ -73,7 +73,9 @@ def proper(clip: MotionClip) -> tuple[int, int]:
 
 
 def idle(clip: MotionClip) -> tuple[int, int]:
-    """Return the numbers of frames at the start and at the end in which the body stands idle, except for a rest."""
+    """Count the frames at the start and at the end of a clip in which the body only stands idle; a short rest next to
+    the motion is not counted.
+    """
     over_s, rest = IDLE_S * float(clip.fps), round(REST_S * float(clip.fps))
     start, stop = (_first_run(_still(one)) for one in (clip, _backwards(clip)))
     if max(start, stop) >= len(clip) - 1:
@@ -134,8 +136,8 @@ def _in_t_pose(clip: MotionClip, within_rad: float = T_POSE_RAD) -> BoolArray:
 
 
 def _off_t_pose(rotations: FloatArray, segments: Sequence[int]) -> FloatArray:
-    """Return the angles (F, S) of segments from the T-pose, ignoring turns of the hips about +Y and twists of limbs,
-    since facing is no pose and twists of straight limbs are unknown.
+    """Angles (F, S) of S segments from the T-pose in radians. Turns of the hips about +Y and twists of limbs are
+    ignored, since the facing is no part of a pose and twists of straight limbs are unknown.
     """
     found = np.zeros((len(rotations), len(segments)))
     for at, segment in enumerate(segments):
@@ -162,8 +164,8 @@ def _first_run(of: BoolArray) -> int:
 
 
 def _arms_down(clip: MotionClip, frame: int) -> int:
-    """Return the frame at which both arms, lowered from the T-pose after a frame, slow down; 0 if they are not
-    lowered.
+    """Return the frame at which both arms, after being lowered from the T-pose, slow down; 0 if they are
+    not lowered.
     """
     fps = float(clip.fps)
     arms = [SEGMENTS.index("leftUpperArm"), SEGMENTS.index("rightUpperArm")]

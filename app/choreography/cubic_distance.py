@@ -24,8 +24,9 @@ GROWS: Final = 1.2
 def between(
     before: FloatArray, after: FloatArray, slopes: tuple[FloatArray, FloatArray], share: float | FloatArray
 ) -> FloatArray:
-    """Return a cubic between the values ``before`` and ``after`` at a share 0..1 of the way; ``slopes`` at both ends
-    are per whole way."""
+    """Evaluate a cubic from ``before`` to ``after`` at a share 0..1 of the way; ``slopes`` are those at both ends, per
+    whole way.
+    """
     square, cube = share * share, share**3
     return np.asarray(
         (2.0 * cube - 3.0 * square + 1.0) * before
@@ -47,8 +48,9 @@ def part_of_bound(length_s: float) -> float:
 
 
 def turns_off(rotations: FloatArray, start: IntArray, part: IntArray, length: int) -> FloatArray:
-    """Return the largest angle (N,) in radians by which the rotations of a body part between the frame ``start`` and
-    ``length`` frames later differ from a cubic through both ends."""
+    """Largest angle (N,) in radians between the rotations of a body part and a cubic through both ends of a window, for
+    windows of ``length`` frames that begin at the frames ``start`` (N,).
+    """
     ends = [rotations[start + step, part] for step in (-1, 0, length, length + 1)]
     slopes = length * (ends[1] - ends[0]), length * (ends[3] - ends[2])
     off = np.zeros(len(start))

@@ -108,7 +108,8 @@ def segment(clip: MotionClip) -> Segmentation:
 
 
 def angular_acceleration(clip: MotionClip) -> FloatArray:
-    """Return the weighted root mean square of the segments' angular accelerations relative to their parents.
+    """Measure the angular acceleration of the whole body: weighted root mean square over the segments, each relative to
+    its parent.
 
     Returns
     -------
@@ -130,8 +131,10 @@ def angular_acceleration(clip: MotionClip) -> FloatArray:
 
 
 def _minimum(height: FloatArray, first: int, last: int, rest: int) -> tuple[int, int]:
-    """Return the last frame of the motion before a minimum of the height (F,) between two frames, and the first frame
-    of the motion after it. Both are the same, except for a rest longer than twice ``rest`` frames."""
+    """Find the minimum of the curve ``height`` (F,) between two frames. Returns the last frame of the motion before it
+    and the first frame of the motion after it, which are equal unless there is a rest longer than twice ``rest``
+    frames.
+    """
     part = height[first : last + 1]
     lowest = first + np.flatnonzero(part == part.min())
     middle = int(lowest[len(lowest) // 2])

@@ -28,7 +28,7 @@ MOST_FILE_BYTES: Final = 2**20
 
 
 def check_cuts(cuts: Sequence[Cut], frames: int, motion: str) -> None:
-    """Refuse invalid cuts of a clip of a length.
+    """Raise an error if cuts are invalid for a clip with this number of frames; ``motion`` names the clip in the error.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def moved_bound(cuts: Cuts, bound: int, to: int, frames: int) -> Cuts:
 
 
 def moved_accent(cuts: Cuts, accent: int, to: int) -> Cuts:
-    """Return the cuts with an accent moved, limited by the bounds of its motion."""
+    """Return the cuts with one accent moved to the frame ``to``, limited by the start and end of its motion."""
     return tuple(
         replace(cut, accent=min(max(to, cut.start + 1), cut.end - 1)) if cut.accent == accent else cut for cut in cuts
     )
@@ -100,8 +100,8 @@ def added_bound(cuts: Cuts, frame: int, curve_rad_s2: FloatArray) -> Cuts:
 
 
 def removed_bound(cuts: Cuts, bound: int) -> Cuts:
-    """Return the cuts with a bound deleted: adjacent motions become one with the accent of the longer one; a single
-    motion is deleted.
+    """Return the cuts with a bound deleted: the motions on both sides become one, with the accent of the longer one; at
+    the end of a series its motion is deleted.
     """
     before = next((cut for cut in cuts if cut.end == bound), None)
     after = next((cut for cut in cuts if cut.start == bound), None)
@@ -120,8 +120,9 @@ def automatic_accent(cuts: Cuts, accent: int, curve_rad_s2: FloatArray) -> Cuts:
 
 
 def extrema(curve_rad_s2: FloatArray) -> tuple[IntArray, IntArray]:
-    """Return the frames (K,) of all local minima and maxima of a curve including its ends; of equal neighbours the
-    first."""
+    """Frames (K,) of all local minima, and of all local maxima, of a curve including its ends; of equal neighbours the
+    first.
+    """
     rises = np.diff(curve_rad_s2) > 0.0
     falls = np.diff(curve_rad_s2) < 0.0
     none = np.ones(1, np.bool_)
@@ -171,7 +172,8 @@ def _require_group(group: Sequence[float], path: Path, line: int) -> None:
 
 
 def cuts_at(times_s: Sequence[Sequence[float]], fps: Fraction, curve_rad_s2: FloatArray, motion: str) -> Cuts:
-    """Return cuts with bounds at times of a clip, in groups without rests, with accents at the greatest acceleration.
+    """Create cuts at given times of a clip, with accents at the greatest acceleration; each group of times is a series
+    of adjacent motions.
 
     Raises
     ------
@@ -188,6 +190,6 @@ def cuts_at(times_s: Sequence[Sequence[float]], fps: Fraction, curve_rad_s2: Flo
 
 
 def _accent(curve_rad_s2: FloatArray, start: int, end: int) -> int:
-    """Return the frame of the maximum strictly between two frames; the first one if there is none between."""
+    """Frame of the maximum of the curve strictly between two frames; ``start`` if there is none between."""
     between = curve_rad_s2[start + 1 : end]
     return start + 1 + int(np.argmax(between)) if len(between) else start

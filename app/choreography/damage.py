@@ -140,8 +140,9 @@ def damage(clip: MotionClip, tolerance: float = 1.0, *, captured: bool = True) -
 def _unknown(
     spans: Iterable[tuple[int, int, int]], found: Iterable[tuple[int, int, int]], frames: int
 ) -> Iterator[tuple[int, int, int]]:
-    """Yield those spans (start, stop, index of the body part) in which, and at whose ends, no damage of the same part
-    was ``found``."""
+    """Yield those spans (start, stop, index of the body part) that are new: no damage of the same part was ``found``
+    within or next to them.
+    """
     edges = np.zeros((len(PARTS), frames + 1), np.int64)
     for start, stop, part in found:
         edges[part, start] += 1

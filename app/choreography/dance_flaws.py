@@ -35,8 +35,8 @@ SLIDES_M_S: Final = 0.005
 
 
 def usual_change_rad_s(clips: Sequence[MotionClip], fps: Fraction) -> float:
-    """Return the change of angular velocity from frame to frame that all but one in a thousand frames keep within; 0
-    without motion.
+    """Change of angular velocity in rad/s from frame to frame that is exceeded in only one of a thousand frames of the
+    clips; 0 without motion.
     """
     changes = [_changes(resampled(clip, fps).rotations[None], fps).ravel() for clip in clips]
     every = np.concatenate(changes) if changes else np.zeros(0)
@@ -71,7 +71,7 @@ def jolts(clip: MotionClip, seams: Sequence[int]) -> tuple[Damage, ...]:
 
 
 def sliding_stands(clip: MotionClip, standing: Sequence[FootPlant]) -> tuple[FootPlant, ...]:
-    """Return the foot plants of a dance during which the foot slides faster than `SLIDES_M_S`."""
+    """Return those plants of feet in a dance during which the foot slides faster than `SLIDES_M_S`."""
     tips = tips_m(clip)[..., [0, 2]]
     speeds = np.linalg.norm(np.diff(tips, axis=0), axis=-1) * float(clip.fps)
     return tuple(

@@ -49,8 +49,8 @@ logarithms).
 
 
 def audible_rhythm(score: Score) -> Rhythm:
-    """Return the rhythm that a dancer follows: percussion with melody, or the result of `derived_rhythm` if there is no
-    percussion.
+    """Return the rhythm to which a dancer dances: the percussion, with the melody in addition, or the result of
+    `derived_rhythm` if there is no percussion.
     """
     rhythm, melody = score_rhythm(score), derived_rhythm(score)
     if not len(rhythm.hits_s):
@@ -59,7 +59,9 @@ def audible_rhythm(score: Score) -> Rhythm:
 
 
 def derived_rhythm(score: Score) -> Rhythm:
-    """Return the beats of a piece, and hits for melody, bass and accents of its parts, ignoring its percussion."""
+    """Derive a rhythm from the parts of a piece without its percussion: beats, and hits for melody, bass
+    and accents.
+    """
     beats = score_rhythm(score)
     moments = _Moments(score)
     hits: list[tuple[int, int]] = []
@@ -155,7 +157,7 @@ class _Moments:
         return found
 
     def accents(self, beat_s: FloatArray) -> BoolArray:
-        """Return a mask (M,) of the moments that are accents, with no greater one within half a beat."""
+        """Mask (M,) of the moments that are accents; of several within half a beat only the greatest."""
         salience = np.zeros(len(self.times_s))
         reach_s = AROUND_BEATS * beat_s
         start = np.searchsorted(self.times_s, self.times_s - reach_s)

@@ -68,7 +68,7 @@ class DancersDrums:
 
 
 def drums_of(clips: IntArray, symbols: Sequence[Sequence[int]], count: int) -> DancersDrums:
-    """Return the sounds of each dancer from the sounds and the clip of each segment."""
+    """Count the sounds of each dancer (clip), from the sounds and the clip of each segment."""
     counts = np.zeros((count, len(SYMBOLS)))
     for clip, sounding in zip(clips.tolist(), symbols, strict=True):
         np.add.at(counts[clip], list(sounding), 1.0)

@@ -55,7 +55,7 @@ def features(clip: MotionClip, cuts: Sequence[Cut]) -> FloatArray:
 
 
 def facing(clip: MotionClip) -> FloatArray:
-    """Return the rotation (F, 4) about +Y from +Z to the hips' facing, without lean and roll."""
+    """Rotation (F, 4) about the vertical from +Z to the direction in which the hips face, without lean and roll."""
     _, twist = quaternion.swing_twist(clip.rotations[:, 0], _UP)
     return twist
 
@@ -69,8 +69,8 @@ def points_m(clip: MotionClip) -> FloatArray:
 
 
 def joint_points_m(clip: MotionClip) -> FloatArray:
-    """Return the positions (F, 21, 3) of `points_m` derived from joints only: a hand along its forearm, a crown along
-    its neck. So decisions based on them are independent of how a head or hand without further bones was read.
+    """Positions (F, 21, 3) like `points_m`, but with hands along their forearms and the crown along the neck, so that
+    decisions do not depend on head and hand rotations that a file without further bones leaves unknown.
     """
     points = points_m(clip)
     for end, (joint, before) in _ALONG.items():
@@ -82,7 +82,7 @@ def joint_points_m(clip: MotionClip) -> FloatArray:
 
 
 def size_m(clip: MotionClip) -> float:
-    """Return the length of the bones from sole to crown in metres, about the body's height in any pose."""
+    """Size of a body in metres: total length of its bones from sole to crown, which is about its height in any pose."""
     offsets, ends = clip.shape.offsets_m, clip.shape.ends_m
     column = [np.linalg.norm(offsets[SEGMENTS.index(name)]) for name in ("spine", "chest", "head")]
     legs = [np.linalg.norm(offsets[SEGMENTS.index(side + name)]) for side in SIDES for name in ("LowerLeg", "Foot")]

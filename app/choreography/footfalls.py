@@ -112,7 +112,7 @@ def on_beats(
 
 
 def _kicked(standing: Sequence[FootPlant], speeds_m_s: FloatArray) -> set[int]:
-    """Return the indices of the stands at which a foot lands after a kick."""
+    """Indices of the foot plants that follow a kick."""
     found, left = set(), [0, 0]
     for at, stand in enumerate(standing):
         if speeds_m_s[left[stand.foot] : stand.start, stand.foot].max(initial=0.0) > FASTEST_M_S:
@@ -185,8 +185,9 @@ def _chosen(
 
 
 def _options(time_s: float, grid: AccentGrid, earliest_s: float, latest_s: float) -> list[tuple[float, float]]:
-    """Return the possible times of a landing with the value of each: unchanged first, then the accents within reach, of
-    which beats count most."""
+    """Possible times of a landing, with the value of each: its own time first, then the accents of the grid within
+    reach, of which beats have most value.
+    """
     found = [(time_s, 0.0)]
     reach_s = max(time_s - REACH_S, earliest_s), min(time_s + REACH_S, latest_s)
     for at in range(*np.searchsorted(grid.times_s, reach_s).tolist()):

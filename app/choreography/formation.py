@@ -77,8 +77,9 @@ def roles(formation: Formation, dancers: int, manner: Manner, sources: int) -> t
 def dance_together(
     choreographer: Choreographer, rhythm: Rhythm, cast: tuple[Role, ...], fps: Fraction
 ) -> tuple[Dance, ...]:
-    """Choreograph a dance for every role of a cast, each at its place on stage; all last equally long. Equal arguments
-    give identical results."""
+    """Choreograph a dance for every role of a cast, each at its own position on stage and all of equal length. Equal
+    arguments give identical results.
+    """
     rhythms = [delayed(rhythm, role.delay_beats) if role.delay_beats else rhythm for role in cast]
     end_s = max((float(one.beats_s[-1]) for one in rhythms if len(one.beats_s)), default=0.0) + ENDS_S
     return tuple(

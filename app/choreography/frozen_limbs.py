@@ -104,7 +104,7 @@ def _rests(clip: MotionClip, speeds: FloatArray, part: int) -> list[tuple[int, i
 
 
 def _is_abrupt(speeds: FloatArray, start: int, stop: int) -> bool:
-    """Return whether a rest begins or ends within a frame."""
+    """Return whether a body part stops or starts moving within a single frame at the start or stop of a rest."""
     sides = ((speeds[start - 1], speeds[max(start - 2, 0)]), (speeds[stop], speeds[min(stop + 1, len(speeds) - 1)]))
     return any(first > max(LEAST_RAD_S, SMOOTH * second) for first, second in sides)
 

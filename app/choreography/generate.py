@@ -82,8 +82,9 @@ class _Plan:
 
 
 class _Motion(NamedTuple):
-    """Motion of a plan stitched together on its stage: the clip, its way over the floor, captured floor contact of the
-    feet, seams between segments, and speeds."""
+    """Motion of a plan before feet are fixed: the clip, its path over the floor, the captured contacts of the feet, the
+    seams between segments, and speeds.
+    """
 
     clip: MotionClip
     moved_m: FloatArray
@@ -162,7 +163,7 @@ class Choreographer:
 
     @cached_property
     def candidates(self) -> SegmentCandidates:
-        """Return the model's segments with their mutual comparisons."""
+        """Return the model's segments, with the distances and odds of following each other."""
         model, segments = self.model, self.model.segments
         fps = self._fps
         states = np.array([one.state for one in segments], np.int64)
@@ -245,7 +246,9 @@ class Choreographer:
         return self._planned(self.felt(rhythm), manner, constraints, weights).steps
 
     def felt(self, rhythm: Rhythm) -> Rhythm:
-        """Return the rhythm as dancers of this model feel it; constraints refer to the places of its grid."""
+        """Return the rhythm as the dancers of this model feel it, with their own length of beat; constraints refer to
+        the grid of this rhythm.
+        """
         return felt_at(rhythm, self._beat_s)
 
     def _planned(
@@ -332,8 +335,9 @@ class Choreographer:
     def _draft(
         self, plan: _Plan, body: int, times_s: FloatArray, grid: AccentGrid
     ) -> tuple[MotionClip, FloatArray, FloatArray]:
-        """Return the motion of a plan at `DRAFT_FPS` with its feet moved to the beats, and the times (K,) of the
-        footfalls before and after that."""
+        """Compute a draft of a plan's motion at `DRAFT_FPS`, with feet moved to beats, and the times (K,) in seconds of
+        its footfalls before and after that.
+        """
         draft = self._motion(plan, body, DRAFT_FPS, times_s)
         standing = stands(draft.clip, draft.contacts, draft.moved_m)
         falls = self._on_beats(draft.clip, standing, float(times_s[0]), grid)
@@ -350,8 +354,9 @@ class Choreographer:
         return on_beats(standing, len(clip), float(clip.fps), first_s, grid, self._step_s, speeds_m_s)
 
     def _arrivals_s(self, segments: IntArray, hits: FloatArray) -> FloatArray:
-        """Return the times (K,) in seconds along all motions at which movements arrive: speed minima of the
-        concatenated segments."""
+        """Times (K,) of the arrivals (speed minima) in the given segments, in seconds along the segments placed one
+        after another.
+        """
         ends = hits + self.candidates.after_s[segments]
         first = hits[0] - float(self.candidates.before_s[segments[0]])
         along = np.arange(first, ends[-1], 1.0 / FPS)
@@ -364,7 +369,7 @@ class Choreographer:
         return np.asarray(along[arrival_frames(speed, FPS)])
 
     def _falls_along(self, segments: IntArray, hits: FloatArray) -> FloatArray:
-        """Return the times (K,) in seconds along all motions at which feet land in the concatenated segments."""
+        """Times (K,) of the footfalls in the given segments, in seconds along the segments placed one after another."""
         found = []
         for segment, hit, hit_s in zip(segments.tolist(), hits, self._hits_s[segments], strict=True):
             one = self.model.segments[segment]
@@ -374,8 +379,9 @@ class Choreographer:
         return np.concatenate(found)
 
     def _motion(self, plan: _Plan, body: int, fps: Fraction, times_s: FloatArray) -> _Motion:
-        """Return the frames of a plan at ascending times: the segments stitched together for a body, and their way over
-        the stage."""
+        """Compute the motion of a plan at ascending times: its segments joined for the body of the clip with index
+        ``body``, moving over the stage.
+        """
         assert plan.times is not None
         along, speeds = plan.times.at(times_s)
         segments = np.array([step.segment for step in plan.steps])

@@ -48,7 +48,7 @@ ELBOW: Final = (0.0, 0.0, -1.0)
 
 
 def out_of_body(clip: MotionClip) -> MotionClip:
-    """Return the motion with hands outside of the body; the same object if they are."""
+    """Bend arms so that no hand is inside the body; the same object is returned if none was."""
     for _ in range(PASSES):
         clip = _pushed(clip)
     return clip
@@ -78,7 +78,9 @@ def depths_m(clip: MotionClip) -> FloatArray:
 
 
 def _push_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArray:
-    """Return the smooth displacement (F, 3) of a hand, at least its depth."""
+    """Displacement (F, 3) in metres that moves a hand out of the body, smooth over time and at least the
+    hand's depth.
+    """
     fps = float(clip.fps)
     deepest = _deepest_m(clip, world, side)
     depth = np.linalg.norm(deepest, axis=1)
@@ -93,7 +95,9 @@ def _push_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArray:
 
 
 def _deepest_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArray:
-    """Return the shortest way (F, 3) out of the body for the deepest point of a hand; 0 outside."""
+    """Shortest vector (F, 3) in metres that moves the deepest point of a hand out of the body; 0 if the hand is
+    outside.
+    """
     hand = 1 + SEGMENTS.index(f"{side}Hand")
     along = quaternion.rotate(world.rotations[:, hand], clip.shape.ends_m[ENDS.index(f"{side}Hand")])
     ahead = quaternion.rotate(world.rotations[:, 1 + SEGMENTS.index("chest")], np.array((0.0, 0.0, AHEAD_M)))
@@ -127,7 +131,7 @@ def _away_m(point: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray
 
 
 def _place_m(clip: MotionClip, world: JointTransforms, name: str) -> FloatArray:
-    """Position (F, 3) of a joint in the world by its name, or of the ``"crown"``, the top of the head."""
+    """World position (F, 3) of a joint by its name, or of the ``"crown"``, the top of the head."""
     if name != "crown":
         return world.positions_m[:, 1 + SEGMENTS.index(name)]
     head = 1 + SEGMENTS.index("head")

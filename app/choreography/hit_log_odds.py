@@ -35,11 +35,13 @@ class HeardHits:
     summed: FloatArray
 
     def before(self, at_s: FloatArray | float) -> IntArray:
-        """Return the number of hits before given times; a hit at a time is not before it, within rounding."""
+        """Number of hits before each given time; a hit exactly at the time (within rounding) does not count."""
         return np.asarray(np.searchsorted(self.times_s, np.asarray(at_s) - SAME_S))
 
     def between(self, start_s: FloatArray | float, stop_s: FloatArray | float) -> FloatArray:
-        """Return the log odds (S,) of the hits between two times for S segments; the times may differ by segment."""
+        """Sum (S,) of the log odds of all hits between two times, for each of S segments; the times may differ by
+        segment.
+        """
         first, stop = self.before(start_s), self.before(stop_s)
         segments = np.arange(self.summed.shape[1])
         return np.asarray(self.summed[stop, segments] - self.summed[first, segments])
@@ -64,8 +66,9 @@ class SoundOdds:
     drums: DancersDrums
 
     def of_hits(self, rhythm: Rhythm, *, any_dancer: bool) -> FloatArray:
-        """Return the log odds (H, S) of S segments at each of H drum hits; with ``any_dancer`` also those of the
-        dancers whose drums are like the rhythm."""
+        """Log odds (H, S) of each of H drum hits for each of S segments; with ``any_dancer`` including those of the
+        segments' dancers.
+        """
         found = self.of_motions[:, rhythm.symbols].T
         if not any_dancer or len(rhythm.beats_s) < 2:
             return found

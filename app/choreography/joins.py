@@ -63,8 +63,9 @@ _WEIGHTS /= _WEIGHTS.sum()
 
 
 def distances_m(before: Clouds, after: Clouds) -> FloatArray:
-    """Return the root mean square distances (N, M) in metres between N and M bodies' points, each pair turned and moved
-    over the floor for the best match."""
+    """Distances (N, M) in metres between each of N bodies and each of M bodies: root mean square over their points,
+    with each pair turned and moved over the floor for the best match.
+    """
     turned = np.abs((before.flat.conj() * _WEIGHTS) @ after.flat.T)
     flat = _square(np.abs(before.flat), np.abs(after.flat)) - 2.0 * turned
     high = _square(before.height, after.height) - 2.0 * (before.height * _WEIGHTS) @ after.height.T

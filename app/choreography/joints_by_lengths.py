@@ -33,8 +33,9 @@ STRAIGHT: Final = 0.03
 
 @dataclass(frozen=True)
 class _Limb:
-    """An arm or leg of unknown names: its ``root`` joint on the trunk, the ``path`` to its end, the three joints that
-    bound its two parts, and its length."""
+    """An arm or leg found by lengths: its first joint on the trunk (``root``), the ``path`` of joints to its end, the
+    three joints that bound its two parts, and its length.
+    """
 
     root: int
     path: tuple[int, ...]
@@ -48,7 +49,7 @@ def joints_by_lengths(
     end_lengths: Mapping[int, float],
     turning: Collection[int] = (),
 ) -> dict[str, int]:
-    """Return bones by VRM 1.0 joint; empty if there is no body.
+    """Find the bones of a humanoid body by their lengths, by VRM 1.0 joint; empty if there is none.
 
     Parameters
     ----------
@@ -66,7 +67,7 @@ def joints_by_lengths(
 
 
 class _Body:
-    """Lengths of the bones of a tree, and the joints derived from them."""
+    """A tree of bones with their lengths, in which the joints of a humanoid body are searched."""
 
     def __init__(
         self, tree: Tree, poses: FloatArray, end_lengths: Mapping[int, float], turning: Collection[int]
@@ -146,7 +147,7 @@ class _Body:
         return float(np.median(np.linalg.norm(self._poses[:, one] - self._poses[:, other], axis=1)))
 
     def _unsplit(self, path: Sequence[int]) -> list[int]:
-        """Return the path without joints at which it never bends."""
+        """Remove from a path the joints at which it never bends."""
         kept = [path[0]]
         for joint, after in pairwise(path[1:]):
             before, behind = (self._poses[:, one] - self._poses[:, joint] for one in (kept[-1], after))
@@ -156,8 +157,8 @@ class _Body:
         return [*kept, path[-1]]
 
     def _named(self, limb: _Limb, names: Sequence[str]) -> dict[str, int]:
-        """Return the joints of a limb; the first and last names are for the joints before and after it, empty for
-        none.
+        """Assign names to the joints of a limb; the first and last name are for the joints before and after it, empty
+        if not needed.
         """
         before = limb.path[: limb.path.index(limb.joints[0])]
         behind = limb.path[limb.path.index(limb.joints[2]) + 1 :]
@@ -169,7 +170,7 @@ class _Body:
         }
 
     def _head(self, chest: int, arms: set[int], hips: int) -> list[int]:
-        """Return the joints from the chest to the head, which is the last one that has something beyond it or
+        """Return the joints from the chest to the head. The head is the last joint that has something beyond it or that
         rotates.
         """
         children = [one for one in self._tree.children[chest] if one not in arms and one not in self._tree.above[hips]]

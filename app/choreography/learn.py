@@ -186,7 +186,9 @@ def summary(model: ChoreographyModel, file: Path) -> Message:
 
 
 def stored(motion: MotionClip) -> MotionClip:
-    """Return a motion as a file stores it (at `FPS`, float32), so that a model is equal before and after writing."""
+    """Convert a motion to the precision of a file (at `FPS`, float32), so that a model is equal before and after
+    writing.
+    """
     clip = resampled(motion, FPS)
     return replace(
         clip,
@@ -221,7 +223,7 @@ def _source(pair: Pair, clip: MotionClip) -> TrainingPair:
 
 
 def _sounding(pair: Pair, source: TrainingPair, segments: Sequence[MotionSegment]) -> list[MotionSegment]:
-    """Return the segments of a clip with the symbols of the drums that sound during each."""
+    """Add to the segments of a clip the drum sounds during each of them."""
     spans = [(one.start, one.end) for one in segments]
     sounds = _sounds(pair.rhythm, source, spans)
     _require_sounds(pair, sounds)

@@ -108,8 +108,7 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 
 def _softly(distance: FloatArray, longest: float) -> FloatArray:
-    """Return distances (F,) from hip to ankle that approach ``longest`` softly instead of exceeding it, so that the
-    knee does not snap."""
+    """Limit distances (F,) from hip to ankle softly to ``longest``, so that the knee does not snap."""
     band = SOFT_SHARE * longest
     over = np.maximum(distance - (longest - band), 0.0)
     return np.asarray(np.where(over > 0.0, longest - band * np.exp(-over / band), distance))

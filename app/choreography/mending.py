@@ -64,7 +64,7 @@ class Mended:
 
 
 def mended(clip: MotionClip) -> Mended:
-    """Return the repaired clip; the same object if there is no damage."""
+    """Repair the damage of a clip; the same clip is part of the result if there is none."""
     replaced: list[Damage] = []
     left_out: tuple[Damage, ...] = ()
     for last in (*(False,) * ROUNDS, True):
@@ -127,8 +127,7 @@ def _undone(clip: MotionClip, at: int, one: Damage, other: Damage) -> bool:
 
 
 def _united(lost: Sequence[Damage], clip: MotionClip) -> tuple[Damage, ...]:
-    """Return damaged spans, widened by `MARGIN_S` at both ends; overlapping ones become one with the body parts of
-    both."""
+    """Widen damaged spans by `MARGIN_S` at both ends, and merge overlapping ones with all their body parts."""
     margin = round(MARGIN_S * float(clip.fps))
     found: list[Damage] = []
     for one in sorted(lost):
@@ -179,7 +178,8 @@ class _Body:
         return float(angle(quaternion.swing_twist(missing, _UP)[0], quaternion.IDENTITY)) < MOST_LEAN_RAD
 
     def bridge(self, one: Damage, goes_on: bool) -> None:
-        """Replace the frames of damage: of the whole body if its hips are damaged or a postponed change is pending.
+        """Replace the damaged frames: of the whole body if its hips are damaged or a postponed change is pending, else
+        of the damaged parts.
 
         Parameters
         ----------

@@ -80,7 +80,7 @@ _DECODER = msgspec.json.Decoder(_File)
 
 
 def write_model(path: str | os.PathLike[str], model: ChoreographyModel) -> None:
-    """Write a model, whole or not at all; motion is kept as float32.
+    """Write a model to a file atomically; motion is stored as float32.
 
     Raises
     ------

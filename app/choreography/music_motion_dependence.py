@@ -55,12 +55,14 @@ class Pairing:
 
     @property
     def tells(self) -> bool:
-        """True if the music informs about the motion significantly."""
+        """True if the music gives significant information about the motion."""
         return self.bits >= LEAST_BITS and self.chance <= TELLS
 
 
 def pairing_of(model: ChoreographyModel, seed: int = 0) -> Pairing | None:
-    """Return the test's result for a model; None if it lacks sounds or is too short."""
+    """Test whether the music of a model gives information about its motion; None if it has no sounds or is
+    too short.
+    """
     sounds = np.zeros((len(model.segments), len(SYMBOLS)))
     for at, one in enumerate(model.segments):
         np.add.at(sounds[at], list(one.sounds), 1.0)
@@ -92,7 +94,7 @@ def report(model: ChoreographyModel) -> Message:
 
 
 def verdict(found: Pairing) -> Message:
-    """Return a message about the bits and their significance."""
+    """Return a message about the measured information in bits, and its significance."""
     if found.bits < LEAST_BITS:
         # Whatever other music predicts: this one predicts nothing.
         return Message("learn.pairing_predicts_nothing", {})
@@ -108,7 +110,7 @@ def _earliest(groups: IntArray, places: FloatArray) -> FloatArray:
 
 
 class _Test:
-    """Motions of a model, divided into those to learn from and those held out."""
+    """Motions of a model, divided into those that are learned from and those that are held out for the test."""
 
     def __init__(self, model: ChoreographyModel) -> None:
         self._states = np.array([one.state for one in model.segments], np.int64)
@@ -138,7 +140,7 @@ class _Test:
         return used >= LEAST and min(map(len, (*self._parts, self._held_out))) > 0
 
     def bits(self, sounds: FloatArray) -> float:
-        """Return the bits per motion by which the sounds (S, 47) during S motions predict those held out."""
+        """Information in bits per held-out motion that the sounds (S, 47) during all S motions give."""
         tried = self._told(*self._parts, sounds, TRUSTS)
         trust = TRUSTS[max(1, int(tried.argmax()))]
         return float(self._told(self._learned, self._held_out, sounds, (trust,))[0])

@@ -31,7 +31,7 @@ _DIRECTIONS: Final = 8
 
 
 def groups_of_copies(model: ChoreographyModel) -> IntArray:
-    """Return the group (S,) of each of a model's S motions, equal for copies of each other."""
+    """For each of S motions of a model the number (S,) of its group; copies of each other have the same number."""
     clips = np.array([one.clip for one in model.segments], np.int64)
     order = np.argsort(clips, kind="stable")
     groups = np.zeros(len(order), np.int64)
@@ -60,8 +60,9 @@ def _groups(found: FloatArray, clips: IntArray) -> IntArray:
 
 
 def _on_end(pairs: IntArray, clips: IntArray) -> BoolArray:
-    """Return a mask of the pairs (P, 2) of segments that belong to at least `ON_END` consecutive pairs in both clips,
-    so that one is a copy of the other."""
+    """Mask (P,) of the pairs (P, 2) of similar segments that are part of at least `ON_END` consecutive pairs in both
+    clips, so that one is a copy of the other.
+    """
     order = np.lexsort((pairs[:, 0], pairs[:, 1] - pairs[:, 0]))
     one, other = pairs[order].T
     breaks = (

@@ -38,7 +38,7 @@ class BasicMotion:
 
 
 def basic_motions(model: ChoreographyModel) -> tuple[BasicMotion, ...]:
-    """Return the basic motions of a model in the order of their states; each has at least one segment.
+    """Summarise the basic motions of a model in the order of their states; each has at least one segment.
 
     The most typical segment is the one with `features` nearest to their mean.
     """

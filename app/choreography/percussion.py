@@ -21,7 +21,7 @@ from app.score.model import SAME_SOUND, Score
 
 
 def score_rhythm(score: Score) -> Rhythm:
-    """Return the beats of a piece and its percussion; without hits if it has no percussion."""
+    """Return the rhythm of a piece: its beats and its percussion; without hits if it has no percussion."""
     strongest: dict[tuple[int, int], int] = {}
     for struck in score.percussion:
         symbol = SAME_SOUND.get(struck.pitch, struck.pitch) - SYMBOLS[0]

@@ -59,8 +59,9 @@ def returns_of_bars(rhythm: Rhythm) -> FloatArray:
 
 
 def likeness_of_bars(rhythm: Rhythm) -> FloatArray:
-    """Return the cosine similarity (B, B) of the hits in each pair of B bars by sound, position and strength; with a
-    melody, the mean of both."""
+    """Cosine similarity (B, B) of the hits in all pairs of B bars, by sound, position and strength; averaged with that
+    of the melody if there is one.
+    """
     struck = _likeness(rhythm)
     return struck if rhythm.melody is None else 0.5 * (struck + likeness_of_bars(rhythm.melody))
 
@@ -85,7 +86,7 @@ def _likeness(rhythm: Rhythm) -> FloatArray:
 
 
 def returning_places(rhythm: Rhythm, times_s: FloatArray) -> ReturningPlaces | None:
-    """Compare ascending times with those at the same position of earlier bars; None if no bars recur."""
+    """Compare each of the ascending times with those at the same position in earlier bars; None if no bars recur."""
     worths = returns_of_bars(rhythm)
     if not worths.any():
         return None
@@ -102,8 +103,9 @@ def returning_places(rhythm: Rhythm, times_s: FloatArray) -> ReturningPlaces | N
 
 
 def _along_passages(alike: FloatArray) -> FloatArray:
-    """Return the similarity (bars, bars) of each pair of bars averaged with the pairs just before and after, so that
-    similar passages stand out."""
+    """Average the similarity (bars, bars) of each pair of bars with that of the pairs just before and after, so that
+    similar passages stand out.
+    """
     bars = len(alike)
     total, weight = np.zeros_like(alike), np.zeros_like(alike)
     reach = round(3.0 * AROUND_BARS)

@@ -63,8 +63,9 @@ HEARD_S: Final = 2.0
 
 @dataclass(frozen=True)
 class _Touchdown:
-    """A landing of a dancer's foot (0: left): time, offset from its usual place in metres (left, forward), and length
-    of the step."""
+    """A landing of a dancer's foot (0: left): time in seconds, position relative to the foot's usual place in metres
+    (left, forward), and length of the step.
+    """
 
     foot: int
     time_s: float
@@ -122,8 +123,9 @@ def _phrase(time_s: float, rhythm: Rhythm) -> int:
 
 
 def _places(rhythm: Rhythm) -> tuple[FloatArray, BoolArray]:
-    """Return the seconds (N,) at which a step may land (beats and the halves between them), and a mask (N,) of those
-    that are beats."""
+    """Times (N,) in seconds at which a step may land: beats and the middles between them; and a mask (N,)
+    of the beats.
+    """
     beats_s = rhythm.beats_s
     if len(beats_s) < 3:
         return beats_s, np.ones(len(beats_s), bool)
@@ -139,7 +141,7 @@ def _places(rhythm: Rhythm) -> tuple[FloatArray, BoolArray]:
 
 
 def _heard(places_s: FloatArray, rhythm: Rhythm) -> BoolArray:
-    """Return for each time (N,) whether a drum or note of the rhythm sounds within `HEARD_S` of it."""
+    """Mask (N,) of the times at which a drum or note of the rhythm sounds within `HEARD_S`."""
     if not len(rhythm.hits_s):
         return np.zeros(len(places_s), bool)
     low, high = (np.searchsorted(rhythm.hits_s, places_s + way) for way in (-HEARD_S, HEARD_S))
@@ -147,7 +149,7 @@ def _heard(places_s: FloatArray, rhythm: Rhythm) -> BoolArray:
 
 
 def _touchdowns(dance: Dance) -> list[_Touchdown]:
-    """Return the landings of a dance in order, each with the foot's place relative to the middle of the hips' path."""
+    """Collect the landings of a dance in order, with positions relative to the middle of the hips' path."""
     clip, fps = dance.clip, float(dance.clip.fps)
     middle_m = gaussian_filter1d(clip.hips_m, MIDDLE_S * fps, axis=0, mode="nearest")
     back = quaternion.conjugate(facing(clip))
@@ -175,7 +177,7 @@ def _seen_m(stand: FootPlant, middle_m: FloatArray, back: FloatArray) -> FloatAr
 def _stepped(
     touchdowns: list[_Touchdown], places_s: FloatArray, strong: BoolArray, danced_s: tuple[float, float]
 ) -> list[_Row]:
-    """Return the steps on places of the beat, one foot at a time."""
+    """Move the landings of a dance to beats and half beats, one foot at a time."""
     chosen: dict[int, _Touchdown] = {}
     for one in touchdowns:
         place = _nearest(one.time_s, places_s, strong)
@@ -221,7 +223,8 @@ def _is_late(time_s: float, place: int, places_s: FloatArray) -> bool:
 
 
 def _near(step: _Touchdown, far_m: FloatArray) -> tuple[float, float]:
-    """Return the place of a foot (left, forward): as in the dance, scaled down, and never in front of the other foot.
+    """Position of a foot (left, forward) in metres for a player who dances in place: as in the dance, scaled down, and
+    never in front of the other foot.
 
     Most steps of a dance are short; these are scaled down less, so that they stay visible.
     """
@@ -241,8 +244,7 @@ def _with_marks(
     rhythm: Rhythm,
     seed: int,
 ) -> list[_Row]:
-    """Return the steps of a player supplemented with taps of heels and toes at some of the places of the beat that have
-    no step."""
+    """Add taps of heels and toes to the steps, at some of the beats that have no step."""
     rows, lands_s = list(stepped), np.array([row.lands_s for row in stepped])
     apart_s = float(np.median(np.diff(rhythm.beats_s)))
     last_phrase, foot = -1, 0

@@ -165,7 +165,7 @@ def _of_figure(bvh: BvhClip, file: Path, fps: Fraction | None, joints: Mapping[s
 
 
 def guesses(motion: ReadMotion) -> tuple[Message, ...]:
-    """Return guesses about a motion's file that a user may want to correct."""
+    """Return messages about what was guessed when a motion file was read, which the user may want to correct."""
     found = []
     if (rate := motion.clip.fps * motion.cleaned.held) != motion.file_fps:
         found.append(Message("motion.rate", {"rate": str(rate), "said": str(motion.file_fps)}))
@@ -247,7 +247,7 @@ def _places_factor(positions: FloatArray, bones: Mapping[str, int]) -> float:
 
 
 def _with_places(bvh: BvhClip, hips: int, factor: float) -> BvhClip:
-    """Return a clip with the positions of the hips and all their ancestors multiplied by a factor."""
+    """Multiply the positions of the hips and of all their ancestors in a clip by ``factor``."""
     above = {hips}
     while (parent := bvh.parents[min(above)]) >= 0:
         above.add(parent)
@@ -314,7 +314,9 @@ def _unit(height: float) -> tuple[str, float]:
 
 
 def _lengthened(ends: FloatArray, height: float) -> FloatArray:
-    """Return the ends with missing ones (shorter than a third of the usual length) at the usual length."""
+    """Replace end vectors that are missing (shorter than a third of the usual length) by ones of usual length for a
+    body of this height.
+    """
     ways = ((0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 1.0))
     parts = (CROWN_PART, HAND_PART, HAND_PART, FOOT_PART, FOOT_PART)
     result = ends.copy()
@@ -336,8 +338,9 @@ def _floor(positions: FloatArray, rotations: FloatArray, ends: FloatArray) -> fl
 
 
 def _local(rotations: FloatArray) -> FloatArray:
-    """Return rotations (F, S, 4) relative to the parent segment of each of S segments, with signs chosen so that they
-    are continuous."""
+    """Convert the world rotations (F, S, 4) of S segments to rotations relative to their parent segments, continuous
+    over time.
+    """
     local = rotations.copy()
     for at, name in enumerate(SEGMENTS[1:], start=1):
         above = SEGMENTS.index(PARENT_OF[name])

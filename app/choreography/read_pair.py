@@ -88,13 +88,15 @@ def read_pair(
 
 
 def to_check(read: ReadPair) -> list[Message]:
-    """Return guesses about the motion, and a note if its music has no percussion."""
+    """Return messages about what the user should check in a pair: guesses about the motion, and music without
+    percussion.
+    """
     music = [Message("learn.derived", {"music": read.pair.music_name})] if read.pair.rhythm.derived else []
     return [*guesses(read.motion), *music]
 
 
 def _cut(pair: Pair, read: ReadMotion, times_s: Sequence[Sequence[float]]) -> Pair:
-    """Return the pair with cuts at times of its motion file."""
+    """Add cuts to the pair, given as times of its motion file."""
     clip = stored(pair.motion)
     of_clip_s = [[time_s - read.start_s for time_s in group] for group in times_s]
     return replace(pair, cuts=cuts_at(of_clip_s, clip.fps, angular_acceleration(clip), pair.motion_name))

@@ -117,8 +117,8 @@ def _clip_socket_height_m(shape: BodyShape) -> float:
 def _hips_path(
     skeleton: Skeleton, clip: MotionClip, turned: FloatArray, places_m: dict[str, FloatArray], scale: float
 ) -> FloatArray:
-    """Return the path (F, 3) of the character's hips: the middle of its hip joints follows the scaled path of the
-    clip.
+    """Path (F, 3) of the character's hips for which the midpoint of its hip joints follows that of the clip, scaled by
+    ``scale``.
     """
     middle = 0.5 * (places_m["leftUpperLeg"] + places_m["rightUpperLeg"])
     offset = np.mean([skeleton.offsets_m[skeleton.index(f"{side}UpperLeg")] for side in SIDES], axis=0)
@@ -126,7 +126,7 @@ def _hips_path(
 
 
 def _world_rotations(skeleton: Skeleton, segments: dict[str, FloatArray], frames: int) -> dict[int, FloatArray]:
-    """World rotations (F, 4) of the joints above the legs, and of the root."""
+    """World rotations (F, 4), by joint index, of the root and of all joints above the legs."""
     there = set(skeleton.names)
     world = {0: np.tile(quaternion.IDENTITY, (frames, 1)), skeleton.index("hips"): segments["hips"]}
     trunk = [name for name in TRUNK if name in there]
@@ -148,7 +148,7 @@ def _world_rotations(skeleton: Skeleton, segments: dict[str, FloatArray], frames
 
 
 def _collar(chest: FloatArray, upper: FloatArray, sign: float) -> FloatArray:
-    """Rotation (F, 4) of a collar bone in the chest's frame."""
+    """Rotation (F, 4) of a collar bone in the chest's frame, which rises with an upper arm above the shoulder."""
     along = quaternion.rotate(quaternion.multiply(quaternion.conjugate(chest), upper), np.array([sign, 0.0, 0.0]))
     rise = np.arcsin(np.clip(along[:, 1], -1.0, 1.0))
     lifted = COLLAR_SHARE * COLLAR_SOFT_RAD * np.logaddexp(0.0, rise / COLLAR_SOFT_RAD)
@@ -158,8 +158,9 @@ def _collar(chest: FloatArray, upper: FloatArray, sign: float) -> FloatArray:
 
 
 def _socket_paths(skeleton: Skeleton, world: dict[int, FloatArray], hips_m: FloatArray) -> dict[Side, FloatArray]:
-    """Return the position (F, 3) of the hip joint by side, from world rotations (F, 4) by joint and hip positions (F,
-    3)."""
+    """World positions (F, 3) of the hip joints by side, from world rotations (F, 4) by joint and hip
+    positions (F, 3).
+    """
     hips = skeleton.index("hips")
     return {
         side: hips_m + quaternion.rotate(world[hips], skeleton.offsets_m[skeleton.index(f"{side}UpperLeg")])
@@ -175,7 +176,7 @@ def _ankle_path(
     places_m: dict[str, FloatArray],
     scale: float,
 ) -> FloatArray:
-    """Return the path (F, 3) of a character's ankle: the tip of its foot follows the scaled path of the clip's.
+    """Path (F, 3) of a character's ankle for which the tip of its foot follows the scaled path of the clip's foot tip.
 
     So the tip of a standing foot stays in place while the heel rises, for feet of any length.
     """
@@ -189,7 +190,9 @@ def _ankle_path(
 def _floor_m(
     skeleton: Skeleton, segments: dict[str, FloatArray], ankles_m: dict[Side, FloatArray], fps: float
 ) -> FloatArray:
-    """Return the height (3,) of soles while their feet stand, since captured feet are seldom exactly on the floor."""
+    """Position (3,) of the floor relative to the origin: the height of the soles while feet stand, since captured feet
+    are seldom exactly at 0.
+    """
     heights = []
     for side in SIDES:
         if len(ankles_m[side]) < 2:
@@ -208,7 +211,7 @@ def _sink_m(
     hips_m: FloatArray,
     ankles_m: dict[Side, FloatArray],
 ) -> FloatArray:
-    """Return the lowering (F,) of the hips with which legs of other proportions reach feet on the floor."""
+    """Distance (F,) in metres by which the hips must be lowered so that the character's legs reach the floor."""
     sink, sockets_m, fps = np.zeros(len(clip)), _socket_paths(skeleton, world, hips_m), float(clip.fps)
     height_m = {side: rest_positions(skeleton)[skeleton.index(f"{side}Foot"), 1] for side in SIDES}
     for side in SIDES:
@@ -250,8 +253,8 @@ def _leg(
 def _over_the_floor(
     skeleton: Skeleton, side: Side, foot: FloatArray, ankle_m: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the ankle's place (F, 3) and the foot's rotation (F, 4): the tip is lifted to the floor, and a heel below
-    it is raised about the tip.
+    """Keep a foot above the floor: returns the ankle's position (F, 3) with the tip lifted to the floor, and the foot's
+    rotation (F, 4) with a heel below the floor raised about the tip.
     """
     tip, (way, height_m) = foot_tip_m(skeleton, side), sole_way_m(skeleton, side)
     heel = np.array([-HEEL_PART * way[0], -height_m, -HEEL_PART * way[2]])
@@ -266,13 +269,13 @@ def _over_the_floor(
 
 
 def _lift_m(height_m: FloatArray) -> FloatArray:
-    """Return the lift (F,) with which a point at a height is above the floor, with a soft stop."""
+    """Distance (F,) by which a point at a height must be lifted so that it stays above the floor, with a soft stop."""
     soft = FLOOR_SOFT_M * np.logaddexp(0.0, -height_m / FLOOR_SOFT_M)
     return np.asarray(np.where(height_m < 4.0 * FLOOR_SOFT_M, soft, 0.0))
 
 
 def _clip_ankle_height_m(shape: BodyShape, side: Side) -> float:
-    """Return the height of the ankle above the sole for a body standing in the T-pose."""
+    """Height in metres of the captured body's ankle above its sole in the T-pose."""
     height = sum(shape.offsets_m[SEGMENTS.index(name), 1] for name in ("hips", f"{side}UpperLeg", f"{side}LowerLeg"))
     return float(height + shape.offsets_m[SEGMENTS.index(f"{side}Foot"), 1])
 
@@ -286,7 +289,7 @@ def _sole_m(skeleton: Skeleton, side: Side, foot: FloatArray, ankle_m: FloatArra
 
 
 def _bend_fingers(skeleton: Skeleton, local: FloatArray) -> None:
-    """Bend the fingers loosely towards the palm, which faces down in the T-pose."""
+    """Bend the fingers loosely towards the palm, in place in ``local``."""
     for joint, name in enumerate(skeleton.names):
         for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
             if not name.startswith(side):

@@ -51,7 +51,7 @@ class Rhythm:
 
 
 def are_alike(one: Rhythm | None, other: Rhythm | None) -> bool:
-    """Return whether two rhythms are equal for a dancer."""
+    """Return whether two rhythms have equal beats and hits, so that dances to them are equal."""
     if one is None or other is None:
         return one is other
     arrays = ("beats_s", "bar_beats", "hits_s", "symbols", "strengths", "divisions", "written")

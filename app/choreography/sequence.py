@@ -222,8 +222,9 @@ def _varied(returns: ReturningPlaces, random: np.random.Generator) -> ReturningP
 def _danced_again(
     returns: ReturningPlaces, chosen: Sequence[tuple[int, int]], places: range, segments: int
 ) -> FloatArray:
-    """Return for P places of the music and S segments the similarity (P, S) of the place to those where the segment was
-    danced before, minus that to the others."""
+    """For each of P places of the music and each of S segments: similarity (P, S) of the place to earlier places where
+    the segment was danced, minus that to the other earlier places.
+    """
     danced = np.full(returns.earlier.shape[0] + 1, -1, np.int64)
     for place, segment in chosen:
         danced[place] = segment
@@ -240,7 +241,9 @@ def _danced_again(
 
 
 class _Turns:
-    """Alternation of takes between phrases in proportion to their shares."""
+    """Choice of the take (captured dancer) that is favoured in each phrase, so that takes alternate in proportion to
+    their shares.
+    """
 
     def __init__(self, takes: TakeShares, random: np.random.Generator) -> None:
         self._takes = takes
@@ -250,8 +253,9 @@ class _Turns:
     def favoured(
         self, grid: AccentGrid, chosen: Sequence[tuple[int, int]], first: int, again: FloatArray
     ) -> FloatArray:
-        """Return for each of S segments (S,) 1 if it belongs to the take that is favoured from the accent ``first`` on;
-        recurring music (``again`` from `_danced_again`) favours the take that was danced to it."""
+        """Mark (S,) with 1 the segments of the take that is favoured from the accent ``first`` on. Recurring music
+        (``again``, from `_danced_again`) favours the take that was danced to it before.
+        """
         beats, takes = grid.beats, self._takes.takes
         # An accent is danced about its place; what was danced since the last phrase is taken off.
         for (place, segment), (following, _) in pairwise((*chosen[self._counted :], (first, -1))):
@@ -310,7 +314,7 @@ class _Search:
     def phrase(
         self, before: tuple[int, int] | None, first: int, stop: int, extra: FloatArray, ends: FloatArray
     ) -> list[tuple[int, int]]:
-        """Return the best path through the places ``first`` to ``stop``, continuing from an earlier accent.
+        """Find the best path through the places ``first`` to ``stop`` of the grid, continuing from an earlier accent.
 
         ``extra`` (stop - first, S) is added to the score of each accent, ``ends`` (S,) to that of the last one.
         """
@@ -375,8 +379,7 @@ class _Search:
         return way[::-1]
 
     def _allowed(self, place: int) -> FloatArray:
-        """Return the cost (S,) of S segments at an accent: 0 if the user's constraints allow them, a prohibitive value
-        if not."""
+        """Cost (S,) of each segment at an accent: 0 if the user's corrections allow it, else prohibitive."""
         constraints, states = self._constraints, self._candidates.states
         cost = np.zeros(len(states))
         if place in constraints.segments:
@@ -395,8 +398,9 @@ class _Search:
         return place in self._forbidden or place in self._constraints.pinned or place in self._constraints.segments
 
     def _struck(self, earlier: int, place: int) -> tuple[SingleArray | None, FloatArray | float]:
-        """Return the log odds of the hits between two accents for S segments: (SHARES, S) until the change of segments,
-        and (S,) in total."""
+        """Sums of the log odds of the hits between two accents for S segments: (SHARES, S) up to each possible change
+        of segments, and (S,) in total.
+        """
         first, stop = self._hits[earlier], self._hits[place]
         if first == stop:
             return None, 0.0

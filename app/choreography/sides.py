@@ -23,7 +23,7 @@ ARMS: Final = ("Shoulder", "Arm", "Hand", "Thumb", "Index", "Middle", "Ring", "L
 
 
 def joints_by_side(body: Captured, named: bool, kept: Collection[str] = ()) -> dict[str, int]:
-    """Return joints with left and right exchanged if the motion requires it.
+    """Assign left and right to joints by the motion, exchanging them where names or order have them wrong.
 
     Legs are exchanged if knees would bend backwards and toes point back; arms and eyes if their line is opposite to
     that of the hips.
@@ -76,8 +76,7 @@ def _toes_ahead(body: Captured) -> float:
 
 
 def exchanged(joints: Mapping[str, int], names: Sequence[str] = ("",)) -> dict[str, int]:
-    """Return joints with the bones of left and right exchanged, only those whose names contain one of the given
-    texts."""
+    """Exchange the bones of left and right joints, only for joints whose names contain one of the given texts."""
     other = {"left": "right", "right": "left"}
     found = {}
     for joint, bone in joints.items():

@@ -26,7 +26,7 @@ _UP: Final = (0.0, 1.0, 0.0)
 
 
 def without_haste(clip: MotionClip, fastest_rad_s: float = FASTEST_HIPS_RAD_S) -> MotionClip:
-    """Return the motion with the hips' rotation limited; the same object if it is within the limit."""
+    """Limit the rotation speed of the hips; the same object is returned if it is within the limit."""
     fps = float(clip.fps)
     bound = ROOM * fastest_rad_s / fps
     if len(clip) < 2 or hips_rad(clip).max() <= bound:

@@ -100,7 +100,7 @@ def foot_speeds_m_s(clip: MotionClip) -> FloatArray:
 
 
 def steps_s(standing: Sequence[FootPlant], fps: float) -> list[float]:
-    """Return the times in seconds for which feet are off the floor between stands at two places."""
+    """Durations in seconds for which feet are in the air between plants at two different positions."""
     found = []
     for foot in range(2):
         for before, after in pairwise(stand for stand in standing if stand.foot == foot):
@@ -172,8 +172,9 @@ def planted(
 
 
 def _feet_at(tips: FloatArray, world: JointTransforms, shown: FloatArray) -> tuple[FloatArray, JointTransforms]:
-    """Return tips (F, feet, 3) and joint transforms of the feet in the world, taken at other frames ``shown`` (F,
-    feet), which may be fractional."""
+    """World positions of foot tips (F, feet, 3) and world transforms of the feet, taken for each foot from the frame
+    ``shown`` (F, feet), which may be fractional.
+    """
     frames = np.arange(len(tips))
     tips, rotations = tips.copy(), world.rotations.copy()
     for foot, name in enumerate(FEET):
@@ -206,8 +207,8 @@ def _spans(contact: BoolArray, fps: float) -> list[tuple[int, int]]:
 
 
 def _still(tip_m: FloatArray, fps: float) -> list[tuple[int, int]]:
-    """Return the parts of a span (N, 3) in which a tip stays within `DRIFTS_M` of its middle; the span is cut where the
-    tip is fastest, leaving room for a step.
+    """Split a span (N, 3) of a foot tip's positions into parts in which it stays within `DRIFTS_M` of its middle; cuts
+    are where the tip is fastest, with room for a step.
     """
     frames = len(tip_m)
     if frames < LEAST_S * fps:
@@ -267,7 +268,7 @@ def _edge(correction: FloatArray, frame: int, inwards: int) -> tuple[FloatArray,
 
 
 def _eased(value: FloatArray, slope: FloatArray, u: FloatArray, fade: float) -> FloatArray:
-    """Return a cubic (N, 3) with an initial value and slope per frame that ends at rest at ``u`` = 1."""
+    """Cubic (N, 3) with the given initial value and slope per frame that ends at 0 and at rest at ``u`` = 1."""
     u = np.minimum(u, 1.0)[:, None]
     return np.asarray((1.0 - u) ** 2 * (1.0 + 2.0 * u) * value + (1.0 - u) ** 2 * u * fade * slope)
 
@@ -275,8 +276,8 @@ def _eased(value: FloatArray, slope: FloatArray, u: FloatArray, fade: float) -> 
 def _towards_m(
     clip: MotionClip, world: JointTransforms, targets: FloatArray, standing: tuple[FootPlant, ...], lower_m: float
 ) -> FloatArray:
-    """Return the horizontal displacement (F, 3) of the hips that brings standing feet within reach which are out of it
-    even with the hips at `LOWEST_SHARE`.
+    """Horizontal displacement (F, 3) of the hips in metres that brings planted feet within reach which are too far even
+    with the hips at `LOWEST_SHARE`.
     """
     towards = np.zeros((len(clip), 3))
     for foot in range(2):
@@ -297,7 +298,9 @@ def _towards_m(
 def _sink_m(
     clip: MotionClip, world: JointTransforms, targets: FloatArray, standing: tuple[FootPlant, ...], lower_m: float
 ) -> FloatArray:
-    """Return the lowering (F,) of the hips beyond ``lower_m`` where a standing foot would be out of reach."""
+    """Distance (F,) in metres by which the hips are lowered, in addition to ``lower_m``, where a planted foot would be
+    out of reach.
+    """
     sink = np.zeros(len(clip))
     ways = [_ankle_to_hip_m(clip, world, targets, foot) for foot in range(2)]
     for stand in standing:
@@ -312,7 +315,9 @@ def _sink_m(
 def _ankle_to_hip_m(
     clip: MotionClip, world: JointTransforms, targets: FloatArray, foot: int
 ) -> tuple[FloatArray, float]:
-    """Return the way (F, 3) from a foot's ankle, with the tip at its target, to its hip joint, and the leg's length."""
+    """Vector (F, 3) in metres from a foot's ankle, with the foot's tip at its target, to the hip joint; and the length
+    of the leg.
+    """
     limb = leg(clip.shape.skeleton, SIDES[foot])
     end = clip.shape.ends_m[ENDS.index(FEET[foot])]
     ankle = targets[:, foot] - quaternion.rotate(world.rotations[:, limb.end], end)

@@ -81,7 +81,7 @@ class Stitcher:
         self.ends = Clouds(model.clips, [(one.clip, one.end) for one in model.segments])
 
     def feet_standing(self, frames: Sequence[int]) -> IntArray:
-        """Return the number (S,) of standing feet of each of S segments at a frame of its clip."""
+        """Number (S,) of feet that stand at a given frame of each segment's clip."""
         return np.array(
             [
                 self.contacts[one.clip][min(frame, len(self.contacts[one.clip]) - 1)].sum()
@@ -152,8 +152,9 @@ class Stitcher:
     def _captured(
         self, frames: Frames, runs: IntArray, body: int, fps: Fraction
     ) -> tuple[tuple[FloatArray, FloatArray], BoolArray]:
-        """Return hips (N, 3) and rotations (N, B, 4) of every frame for a body, with one more frame after each run for
-        the transition, and whether each foot stands."""
+        """Look up the captured motion for every output frame: hips (N, 3), rotations (N, B, 4), and whether each foot
+        stands. Each run of frames is followed by one more frame for the transition.
+        """
         last = runs[1:] - 1
         after_s = frames.source_s[last] + frames.speeds[last] / float(fps)
         source_s, which = (
@@ -172,7 +173,9 @@ class Stitcher:
         return (hips, rotations), contacts
 
     def _home(self, segment: int, body: int) -> tuple[float, complex]:
-        """Return the rotation and move that put the start of a segment at the dancer's place, facing the audience."""
+        """Rotation in radians and move (complex, metres) that put the start of a segment at the dancer's place, facing
+        the audience.
+        """
         one = self._model.segments[segment]
         source = self._model.clips[one.clip]
         turn = -float(quaternion.twist_angle(facing(source.span(one.start, one.start + 1)), _UP)[0])
@@ -208,7 +211,7 @@ class _SmoothClip:
 
 
 class _Output:
-    """Generated frames, with each new motion blended from the previous one."""
+    """Output frames in progress, in which each new motion is blended from the previous one."""
 
     def __init__(self, fps: Fraction, count: int) -> None:
         self._rate = float(fps)
@@ -251,7 +254,7 @@ class _Output:
         self.hips[here], self.rotations[here] = hips[:-1], rotations[:-1]
 
     def place(self, frame: int) -> complex:
-        """Return the hips' place just before a frame."""
+        """Position of the hips on the floor (complex, metres) just before a frame."""
         return complex(self.hips[frame - 1, 2], self.hips[frame - 1, 0])
 
     def lately(self, frame: int) -> complex | None:
@@ -301,7 +304,9 @@ def _placed(hips: FloatArray, rotations: FloatArray, turn: float, moved: complex
 
 
 def on_stage(hips_m: FloatArray, fps: float) -> FloatArray:
-    """Return the path (F, 3) scaled to within `STAGE_M` of the place, with sway, steps and heights unchanged."""
+    """Scale the path (F, 3) of the hips so that it stays within `STAGE_M` of the dancer's place, with sway, steps and
+    heights unchanged.
+    """
     way = gaussian_filter1d(hips_m, WANDERS_S * fps, axis=0, mode="nearest") * (1.0, 0.0, 1.0)
     sway = np.linalg.norm((hips_m - way) * (1.0, 0.0, 1.0), axis=1)
     wide = 2 * round(2.5 * WANDERS_S * fps) + 1

@@ -76,7 +76,7 @@ def usual_accelerations(clips: Sequence[MotionClip], fps: Fraction) -> UsualAcce
 
 
 def without_twitches(clip: MotionClip, standing: Sequence[FootPlant], usual: UsualAccelerations) -> MotionClip:
-    """Return the motion with accelerations of ends limited to `MOST` times the usual ones, as far as joints allow."""
+    """Limit the accelerations of hands and feet to `MOST` times the usual ones, as far as joints allow."""
     planted = np.zeros((len(clip), 2), bool)
     for stand in standing:
         planted[stand.start : stand.stop, stand.foot] = True
@@ -89,7 +89,7 @@ def without_twitches(clip: MotionClip, standing: Sequence[FootPlant], usual: Usu
 
 
 def _calmer(clip: MotionClip, planted: BoolArray, usual: UsualAccelerations) -> MotionClip:
-    """Return the motion with too sudden changes of speed smoothed; the same object if there are none."""
+    """Smooth too sudden changes of speed; the same object is returned if there are none."""
     world, rotations = clip.world(), clip.rotations.copy()
     nowhere = np.zeros(len(clip), bool)
     found = False
@@ -153,8 +153,8 @@ def _suddenness(points: FloatArray, most: FloatArray) -> float:
 def _calm_points(
     joint: FloatArray, tip: FloatArray, most: FloatArray, held: BoolArray, planted: BoolArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return paths (N, 3) of the joint of a foot or hand and of its tip at constant distance: the tip's is bent first,
-    then the joint's, and each takes the other along.
+    """Smooth the paths (N, 3) of the joint of a hand or foot and of its tip, keeping their distance: first the tip's
+    path is bent, then the joint's, and each moves the other along.
     """
     length, free = np.linalg.norm(tip - joint, axis=-1, keepdims=True), ~planted[:, None]
     for _ in range(PASSES):
@@ -170,7 +170,9 @@ def _calm_points(
 
 
 def _bent(path: FloatArray, most: float, held: BoolArray) -> FloatArray:
-    """Return a path (N, 3) with second differences limited to ``most`` by projections; held places stay."""
+    """Limit the second differences of a path (N, 3) to ``most`` by iterative projections; positions marked in ``held``
+    stay.
+    """
     moved, before = np.zeros_like(path), np.zeros_like(path)
     free = ~held[:, None]
     for number in range(ROUNDS):

@@ -144,12 +144,15 @@ class SegmentMoves:
         self._shortest_s = float(self._lasts_s.min(initial=np.inf)) / SPEEDS[1]
 
     def possible(self, gap_s: float) -> bool:
-        """Return whether any motion can last a time between accents."""
+        """Return whether any pair of segments can fill a time of ``gap_s`` between accents within the
+        limits of speed.
+        """
         return self._shortest_s <= gap_s <= self._longest_s
 
     def table(self, earlier: int, place: int, *, every: bool) -> MoveTable:
-        """Return the scored moves of all segments between the accents ``earlier`` and ``place``; with ``every`` from
-        all predecessors, if not all are allowed."""
+        """Return the scored moves to all segments between the accents ``earlier`` and ``place``; with ``every`` from
+        all predecessors instead of only the best ones.
+        """
         key, beats = self._key(earlier, place)
         full = (key, beats, every)
         if full not in self._tables:
@@ -163,8 +166,9 @@ class SegmentMoves:
         return self._made(np.full((len(self._base), 1), start, np.intp), *self._key(earlier, place))
 
     def _key(self, earlier: int, place: int) -> tuple[int, _Beats]:
-        """Return the logarithm of the seconds between two accents, rounded to a step of 2 %, and time (hundredths of
-        the way) and strength of each beat between them."""
+        """Key of cached tables for a pair of accents: logarithm of the seconds between them, rounded to steps of 2 %,
+        and time (in hundredths of the way) and strength of each beat between them.
+        """
         start_s = self._times_s[earlier]
         gap_s = self._times_s[place] - start_s
         beats = tuple(
@@ -175,7 +179,7 @@ class SegmentMoves:
         return round(50.0 * math.log(gap_s)), beats
 
     def _starts(self, key: int, every: bool) -> IntArray:
-        """Return for each of S segments its K best predecessors (S, K) at a pace; all segments if ``every``."""
+        """Indices (S, K) of the K best predecessors of each of S segments at a pace; of all segments if ``every``."""
         count = len(self._base)
         if every or count <= MOST_STARTS:
             return np.broadcast_to(np.arange(count), (count, count))
@@ -197,8 +201,9 @@ class SegmentMoves:
         return MoveTable(scores.astype(np.float32), np.ascontiguousarray(starts), met + starts, met + ends, taken)
 
     def _met(self, starts: IntArray, lasts_s: FloatArray, gap_s: float, beats: _Beats) -> FloatArray:
-        """Return the value (S, K) of meeting beats between the accents if each of S segments follows its K predecessors
-        at an even pace."""
+        """Value (S, K) of the beats between two accents that arrivals and footfalls meet if each of S segments follows
+        each of its K predecessors at an even pace.
+        """
         meets = self._costs.meets
         total = np.zeros(starts.shape)
         if not meets.times_s.size:

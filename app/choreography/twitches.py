@@ -102,8 +102,9 @@ def _end_m(clip: MotionClip, world: JointTransforms, name: str, reach: float = 1
 
 
 def _far_spans(places: FloatArray, fps: float, most_s: float, far_m: float) -> Iterator[tuple[int, int]]:
-    """Yield spans (start, stop) of frames in which a track of points is farther than ``far_m`` from the cubic between
-    the sound frames around it."""
+    """Yield the spans (start, stop) of frames in which positions are farther than ``far_m`` from the cubic through the
+    sound frames around them.
+    """
     speeds = np.linalg.norm(np.diff(places, axis=0), axis=1) * fps
     for length in window_lengths(fps, most_s):
         count = len(speeds) - length - 1
@@ -119,7 +120,7 @@ def _far_spans(places: FloatArray, fps: float, most_s: float, far_m: float) -> I
 
 
 def _sunk(clip: MotionClip, world: JointTransforms) -> Iterator[tuple[int, int]]:
-    """Yield the spans in which a body sinks into the floor and rises again."""
+    """Yield the spans of frames in which the body sinks into the floor and rises again."""
     soles = [_end_m(clip, world, name, reach)[:, 1] for name in FEET for reach in (0.0, 1.0)]
     lowest, hips = np.min(soles, axis=0), clip.hips_m[:, 1]
     around = 1 + 2 * round(0.5 * FLOOR_S * float(clip.fps))

@@ -75,7 +75,7 @@ class TimeMap:
         return times_s, np.maximum.accumulate(self._inside(times_s))
 
     def at(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the position along the motions at given times, and the speed: 1 as captured, 0 at rest."""
+        """Position along the motions at given times, and the speed there: 1 as captured, 0 at rest."""
         slope = self._inside.derivative()
         first_s, last_s = float(self.times_s[0]), float(self.times_s[-1])
         inside = np.clip(times_s, first_s, last_s)
@@ -88,7 +88,7 @@ class TimeMap:
         return along, speeds
 
     def when(self, along_s: FloatArray) -> FloatArray:
-        """Return the performance time (N,) at which each moment of the original motion is shown."""
+        """Performance time (N,) at which each position along the motions is shown."""
         times_s, along = self._samples
         return np.asarray(np.interp(along_s, along, times_s))
 
@@ -148,7 +148,9 @@ class _Item:
 
 
 def _to_meet(plain: TimeMap, moments: FloatArray, grid: AccentGrid, on_beat: float) -> list[_Item]:
-    """Return the moments along the motions that may be put on places of the grid, each with its values."""
+    """Collect the moments along the motions that may be put on accents of the grid, with the possible times and values
+    of each.
+    """
     items = []
     for along, time in zip(moments.tolist(), plain.when(moments).tolist(), strict=True):
         near = range(*np.searchsorted(grid.times_s, time + np.array([-MOST_S, MOST_S])).tolist())

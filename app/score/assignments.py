@@ -67,14 +67,14 @@ class Suggestion(msgspec.Struct, frozen=True):
 
 
 def usual_assignments(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> tuple[PartAssignment, ...]:
-    """Suggested assignments by names, programs and ranges, for the user to change: one for every playable group of
-    tracks, and one for each instrument of a track that changes instruments.
+    """Suggest assignments of tracks by names, programs and ranges, for the user to change: one for every playable group
+    of tracks, and one for each instrument of a track that changes instruments.
     """
     return tuple(found.assignment for found in suggestions(channels, maps) if found.playable)
 
 
 def suggestions(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> list[Suggestion]:
-    """Suggested assignments of all channels; channels of one player are grouped.
+    """Suggest assignments for all channels; channels of one player are grouped.
 
     Pitches are taken for written ones if many are outside the instrument's range as sounding pitches and none as
     written pitches. If one part of a family of instruments is written so, the other parts of the family are too as soon

@@ -59,8 +59,8 @@ _WITH_NEXT: Final = {
 
 
 def message_of_place(id: str, arguments: dict[str, Argument], runner_up: RunnerUp | None) -> Message:
-    """The message about the position of a recording in the piece; mentions the second likeliest position if there is
-    one.
+    """Create the message about the position found for a recording in the piece, with the second likeliest position if
+    there is one.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ class Following:
         return float(self._there().mean()) if len(self.ticks) else 0.0
 
     def later(self, seconds: float) -> Following:
-        """Return the alignment shifted for a recording that has this many seconds more at its start."""
+        """Return the alignment for the same recording with additional seconds before its start."""
         added = tuple(UnmatchedSpan(span.start + seconds, span.end + seconds) for span in self.added)
         return replace(self, recording_s=self.recording_s + seconds, added=added)
 

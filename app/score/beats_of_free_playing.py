@@ -101,7 +101,7 @@ def _likely_bpm(envelope: FloatArray, start_bpm: float) -> float:
 
 
 def tempo_of_beats(beats_s: FloatArray, ticks_per_quarter: int) -> TempoMap:
-    """A tempo map in which every beat is a quarter; the first lies on tick 0 and second 0.
+    """Create a tempo map in which every beat is a quarter; the first beat is at tick 0 and second 0.
 
     A bar line cannot be found in onsets alone: the first beat begins one.
     """
@@ -124,8 +124,9 @@ def _settled(beats_s: FloatArray, onsets_s: FloatArray) -> FloatArray:
 
 
 def _covering(beats_s: FloatArray, first_s: float, last_s: float) -> FloatArray:
-    """Extend beats (N,) in seconds so that they cover the span from the first note to the last; added beats have the
-    distance of the nearest ones."""
+    """Add beats before the first and after the last of ``beats_s`` (N,) until they cover the span from the first note
+    to the last, at the distance of the nearest beats.
+    """
     inside = beats_s[(beats_s > first_s - 2 * _SPREAD_S) & (beats_s < last_s + 2 * _SPREAD_S)]
     beats_s = inside if len(inside) >= 2 else beats_s
     lead, tail = beats_s[1] - beats_s[0], beats_s[-1] - beats_s[-2]

@@ -99,7 +99,7 @@ class BendRanges:
         return ()
 
     def take(self, one: ModuleRange) -> Collection[int]:
-        """Apply the bend range of a message to a sound module, and return the channels that it sets."""
+        """Apply the bend range of a message to a sound module, and return the channels that it affects."""
         if one.channel is None:
             self._channels.clear()
             self._active.clear()

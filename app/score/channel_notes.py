@@ -26,7 +26,7 @@ class ChannelNotes(msgspec.Struct):
     numbers: list[int] = []
 
     def where(self, kept: list[bool]) -> ChannelNotes:
-        """The notes that a mask selects; the object itself if it selects all."""
+        """Select the notes that a mask marks; returns the object itself if it marks all."""
         if all(kept):
             return self
         return ChannelNotes(*(list(compress(column, kept)) for column in msgspec.structs.astuple(self)))
@@ -79,7 +79,7 @@ def end_unended(notes: ChannelNotes, silenced: Mapping[int, int], most_ticks: in
 
 
 def end_where_struck_again(notes: ChannelNotes) -> None:
-    """End overlapping notes of one pitch where the next one begins, if this alone makes the channel monophonic.
+    """End overlapping notes of one pitch where the next one begins, if the channel becomes monophonic by this.
 
     A wind controller may strike a note again without ending it, and send two note-offs later. Matched first in, first
     out, the second note would sound on below other notes.
@@ -109,7 +109,7 @@ def end_where_struck_again(notes: ChannelNotes) -> None:
 
 
 def end_late(notes: ChannelNotes) -> None:
-    """End notes where their pitch is struck again, if their note-off comes later.
+    """End notes at the tick where their pitch is struck again, if their note-off comes later.
 
     A key must be released before it is struck again, so one instrument never sounds a pitch twice. Two players on one
     channel may: assumed where other notes overlap too and at most two notes of the pitch do. An overlap of less than a

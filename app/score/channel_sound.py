@@ -71,7 +71,7 @@ _ORCHESTRA_SOUNDS: Final[Mapping[int, int]] = {
 
 
 class SoundChange(NamedTuple):
-    """A change of the sound (such as program or bank) of one channel; changes take effect in the order of the list."""
+    """A change of the sound (such as program or bank) of one channel; changes are applied in sorted order."""
 
     tick: int
     rank: int
@@ -151,7 +151,7 @@ class _ChannelState:
 
 
 def timeline(steps: Iterable[SoundChange], channel: int, onset: int, late: int) -> list[tuple[int, ChannelSound]]:
-    """Sounds of a channel from tick to tick, given the tick of its first note.
+    """Return the sounds of a channel over time, as (tick, sound); ``onset`` is the tick of its first note.
 
     Parameters
     ----------

@@ -119,14 +119,17 @@ def players_channels(
 
 
 def leading_channel(events: TrackEvents, channels: Collection[int]) -> int:
-    """The channel of the earliest note among the given channels; rhythm channels count only if all are such."""
+    """Return the channel with the earliest note among the given channels; rhythm channels count only if all are rhythm
+    channels.
+    """
     played = list(filter(events.is_melodic, channels)) or channels
     return min(played, key=lambda channel: events.channels[channel].numbers[0])
 
 
 def sounding_channels(first: int, channels: Collection[int], zones: Mapping[int, frozenset[int]]) -> tuple[int, ...]:
-    """Return the channels whose program may be that of a group, likeliest first: the leading channel, the manager of
-    its MPE zone, the others."""
+    """Order the channels whose program may be that of a group, likeliest first: the leading channel ``first``, the
+    manager of its MPE zone, the others.
+    """
     managers = [one for one, members in zones.items() if len(channels) > 1 and members & {*channels}]
     return tuple(dict.fromkeys((first, *managers, *channels)))
 
@@ -225,7 +228,9 @@ def curves_of(
 def _curve(
     events: TrackEvents, kind: SentKind, players: Collection[int], manager: int | None, spans: Sequence[_Span]
 ) -> _Points:
-    """Merge the steps of one kind from member channels and the manager of their MPE zone."""
+    """Merge the steps of one kind of controller from the channels of a player and the manager channel of their MPE
+    zone.
+    """
     own = {channel: points for channel in players if (points := events.controls.get((channel, kind)))}
     shared = events.controls.get((manager, kind), {}) if manager is not None else {}
     if not own:
@@ -253,8 +258,9 @@ def _held(points: _Points, ticks: Sequence[int]) -> list[float]:
 
 
 def _by_turns(own: Mapping[int, _Points], spans: Sequence[_Span], kind: SentKind) -> _Points:
-    """Return the controller's steps merged from several channels, each used from the onset of one of its notes to the
-    next onset on any channel."""
+    """Merge a controller's steps from several channels: each channel is used from the onset of one of its notes to the
+    next onset on any channel.
+    """
     at = {channel: sorted(points) for channel, points in own.items()}
     merged: _Points = {}
     starts = [-1, *(onset for onset, _, _ in spans[1:])]

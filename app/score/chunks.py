@@ -18,7 +18,7 @@ _END_OF_TRACK = b"\xff\x2f\x00"
 
 
 class TrackChunk(msgspec.Struct, frozen=True):
-    """The events of one track as bytes, with their offset in the file."""
+    """One track of a MIDI file: the bytes of its events, with their offset in the file."""
 
     data: bytes
     first_byte: int
@@ -118,8 +118,8 @@ def _tracks(data: bytes, first: int, file: str) -> tuple[list[TrackChunk], list[
 
 
 def _real_end(data: bytes, begin: int, end: int) -> int:
-    """Return the end of a track in bytes: at its stated length if a chunk or the end of the file follows, else at the
-    next track header.
+    """Find the offset at which a track ends: at its stated length if a chunk or the end of the file follows there, else
+    at the next track header.
     """
     swallowed = data.find(_END_OF_TRACK + b"MTrk", begin, end)
     if swallowed >= 0:

@@ -84,7 +84,7 @@ class Cleaned:
 
     @property
     def kept(self) -> list[int]:
-        """Indices of the notes that are kept."""
+        """Indices of the notes that were not removed."""
         return [index for index, fault in enumerate(self.faults) if not fault]
 
 
@@ -240,8 +240,8 @@ def _is_octave_slip(
     ends: FloatArray,
     notes: Played,
 ) -> bool:
-    """Return whether a note is a slipped octave key: one or two octaves from the next note, and short between long
-    legato notes.
+    """Return whether note ``index`` comes from a slipped octave key: it is one or two octaves from the note
+    ``following``, and short between the long legato notes ``held`` and ``following``.
     """
     lasts_s = ends[index] - onsets[index]
     beside_s = min(ends[held] - onsets[held], ends[following] - onsets[following])

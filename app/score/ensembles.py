@@ -41,8 +41,8 @@ _LINE_SHARE: Final = 0.95
 
 
 def named_by_ensemble(channels: Sequence[TrackChannel], title: str) -> list[TrackChannel]:
-    """Assign instruments of a recognised ensemble to the tracks without one; returns the channels unchanged if there is
-    none.
+    """Assign the instruments of a recognised ensemble to tracks without an instrument; returns the channels unchanged
+    if no ensemble is recognised.
     """
     silent = [says_nothing(channel) for channel in channels]
     sizes = {len(ensemble.parts) for ensemble in vocabulary().ensembles}
@@ -98,8 +98,8 @@ class _Away(NamedTuple):
 
 
 def _away(ensemble: Ensemble, channels: Sequence[TrackChannel], silent: Sequence[bool]) -> _Away | None:
-    """Distance of the parts without instrument from an ensemble, either by the usual range of each staff or by the
-    compass of the instruments, whichever is smaller; None if a part is out of range.
+    """Distance of the parts without an instrument from an ensemble, in semitones: by the usual range of each staff or
+    by the compass of its instrument, whichever is smaller; None if a part is out of range.
     """
     in_place, in_middle, beyond = [], [], []
     for channel, quiet, part, usual in zip(channels, silent, ensemble.parts, ensemble.pitches, strict=True):
@@ -122,7 +122,7 @@ def _away(ensemble: Ensemble, channels: Sequence[TrackChannel], silent: Sequence
 
 
 def _apart(found: tuple[float, float, float], usual: tuple[float, float, float]) -> _Away:
-    """Distance in semitones of a part's (lowest, middle, highest) notes from the usual ones."""
+    """Distance in semitones between a part's notes and the usual ones, each given as (lowest, middle, highest)."""
     low, middle, high = (abs(one - other) for one, other in zip(found, usual, strict=True))
     return _Away(middle, middle + _END * (low + high))
 

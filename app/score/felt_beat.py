@@ -26,7 +26,7 @@ STEADY_BARS = 9
 
 
 def felt_beats(clock: TempoMap, metre_map: MetreMap, bars: IntArray) -> FeltBeats:
-    """The felt beat from each tick on, as (tick, length in ticks), at every change.
+    """Compute the felt beat over time, as (tick, length in ticks) at every change.
 
     Parameters
     ----------

@@ -113,9 +113,10 @@ class MapCandidates(msgspec.Struct, frozen=True):
     refused: Instrument | None = None
 
     def best(self, pitches: Sequence[int], written: bool = False) -> MapChoice:
-        """The map for exactly this instrument if all notes are in its range; else the map that reaches most notes, and
-        among nearly equal ones the map whose range is centred on them. Where players choose an instrument's key by the
-        part, a map that can play all notes is preferred over one that misses a few.
+        """Choose a map for the pitches of a part: the one for exactly this instrument if all notes are in its range;
+        else the map that reaches most notes, and among nearly equal ones the map whose range is centred on them. Where
+        players choose an instrument's key by the part, a map that can play all notes is preferred over one that misses
+        a few.
 
         Parameters
         ----------
@@ -152,7 +153,7 @@ class MapCandidates(msgspec.Struct, frozen=True):
 
 
 def require_map(map_id: str, known: Collection[str]) -> str:
-    """Return the id of an instrument map that the user assigns to a part or player, if it exists.
+    """Return ``map_id``, chosen by the user for a part or player, if a map with this id exists.
 
     Raises
     ------
@@ -165,8 +166,8 @@ def require_map(map_id: str, known: Collection[str]) -> str:
 
 
 def candidates(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> MapCandidates:
-    """Instrument maps for tracks that are played as one part; by range alone if names and programs give no
-    instrument.
+    """Find the instrument maps that can be assigned to tracks played as one part; if names and programs give no
+    instrument, by range alone.
     """
     lead = next((one for one in channels if said_of(one) is not None), channels[0])
     said = said_of(lead)
@@ -196,7 +197,7 @@ def candidates(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> M
 
 
 def refusal(channel: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
-    """Explain why a track has no player; None if it has one."""
+    """Return the message that explains why a track has no player; None if it has one."""
     if use_of(channel) == "effect":
         return Message("score.sound_effect")
     instrument = said_of(channel)

@@ -35,7 +35,8 @@ _MOST_ODD: Final = 0.2
 def without_key_switches(
     channel: TrackChannel, found: MapCandidates, maps: Sequence[MapChoice], tempo_map: TempoMap
 ) -> tuple[TrackChannel, tuple[int, ...]]:
-    """A channel without its key switches, and the indices of the removed notes; the channel itself if it has none.
+    """Remove the key switches from a channel; returns the channel (unchanged if it has none) and the indices of the
+    removed notes.
 
     Parameters
     ----------

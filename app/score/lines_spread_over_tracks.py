@@ -47,7 +47,8 @@ class SpreadLine(NamedTuple):
 def spread_lines(
     tracks: Sequence[TrackEvents], zones: Sequence[Mapping[int, frozenset[int]]], names: Sequence[str]
 ) -> dict[int, SpreadLine]:
-    """Return the spread lines, by the index of each of their tracks.
+    """Find the lines that are spread over several tracks; the result has an entry for each of their tracks, by its
+    index.
 
     Parameters
     ----------
@@ -74,7 +75,7 @@ def spread_lines(
 
 
 def _base(name: str, channel: int) -> str:
-    """The name of a track without its channel number, for comparison."""
+    """Remove the channel number from the name of a track, for comparison."""
     number = _CHANNEL.search(name)
     return (name[: number.start()] if number and int(number[1]) == channel + 1 else name).casefold().strip()
 

@@ -107,7 +107,7 @@ class Mark(msgspec.Struct, frozen=True, gc=False, omit_defaults=True):
 
     @property
     def id(self) -> str:
-        """Id of the mark among its player's events, made of kind and anchor."""
+        """Id of the mark, made of its kind and anchor; unique among the events of its player."""
         return mark_id(self.kind, self.note_id, self.last_note_id, self.tick, self.text)
 
 
@@ -139,7 +139,7 @@ def renamed_marks(marks: Iterable[Mark], ids: Mapping[str, str]) -> tuple[Mark, 
 def marks_of_player(
     marks: Sequence[Mark], all_notes: Mapping[str, int], own_notes: Sequence[tuple[int, str, str]]
 ) -> tuple[Mark, ...]:
-    """The marks of one player of a staff that several players share.
+    """Select the marks of one player from those of a staff that several players share.
 
     A slur that begins or ends at another player's note is shortened to this player's notes; it is dropped if fewer than
     two remain.
@@ -172,7 +172,7 @@ def marks_of_player(
 
 
 def moved_marks(marks: Iterable[Mark], place: Callable[[int], int]) -> tuple[Mark, ...]:
-    """The marks with those anchored to ticks moved by ``place``, which maps old ticks to new ones."""
+    """Move the marks that are anchored to ticks; ``place`` maps old ticks to new ones."""
     return tuple(
         mark
         if mark.note_id

@@ -135,7 +135,7 @@ class _Signals(NamedTuple):
 
 
 def guessed_metres(lines: Sequence[Line], ticks_per_quarter: int) -> tuple[tuple[Metre, ...], int] | None:
-    """Return the metres if the notes leave little doubt about them, and the length of the pickup in ticks.
+    """Guess the metres of a piece and the length of its pickup in ticks, if the notes leave little doubt.
 
     Parameters
     ----------
@@ -312,7 +312,7 @@ def _score(bar: FloatArray, number: int, place: int, signals: _Signals, again: d
 
 
 def _likeliest(candidates: Sequence[tuple[_Kind, int, float]]) -> tuple[_Kind, int] | None:
-    """Return the longest metre whose bar lines are probable, with its first bar line; None if no triple metre is."""
+    """Choose the longest triple metre whose bar lines are probable, with its first bar line; None if there is none."""
     if sum(share for kind, _, share in candidates if kind.is_triple) < TRIPLE_LEAST:
         return None
     likely = []

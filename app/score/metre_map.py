@@ -211,8 +211,8 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return max(len(str(longest - 1)), 3)
 
     def tick_of_label(self, text: str) -> int | None:
-        """Parse a position such as ``label`` returns; None if the text is invalid. A bar number alone is its first
-        beat.
+        """Parse a position as `label` formats it; None if the text is invalid. A bar number alone means its
+        first beat.
         """
         match = _PLACE.match(unicodedata.normalize("NFKC", text))
         if match is None:
@@ -253,8 +253,8 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return ticks
 
     def counted(self, first_bar: int, end_bar: int) -> tuple[IntArray, IntArray]:
-        """Beats counted aloud in some bars: felt beats where they divide the bar (a 6/8 in two), else the beats of the
-        metre; a pickup counts back from the bar line.
+        """Beats that are counted aloud in some bars: the felt beats if they divide the bar (a 6/8 in two), else the
+        beats of the metre; in a pickup they are counted back from the bar line.
 
         Returns
         -------

@@ -203,12 +203,12 @@ class UnplayedPart(msgspec.Struct, frozen=True):
 
     @property
     def is_of_played_part(self) -> bool:
-        """True if only some notes of a part are left out while its other notes have a player."""
+        """True if this stands for left-out notes of a part whose other notes have a player."""
         return self.reason.id in _LEFT_OUT_OF_PARTS
 
 
 def sounding_spans(spans: Iterable[tuple[int, int]], quarter_ticks: int) -> tuple[tuple[int, int], ...]:
-    """Spans (start, end) of ticks in order, joined where less than a quarter lies between them."""
+    """Merge spans (start, end) of ticks where less than a quarter lies between them; ordered."""
     joined: list[tuple[int, int]] = []
     for start, end in sorted(spans):
         if joined and start - joined[-1][1] < quarter_ticks:

@@ -97,8 +97,9 @@ def _sections(section: Instrument) -> tuple[str, ...]:
 
 
 class Mutes(NamedTuple):
-    """Spans (first onset, last end) of ticks in order: all muted ones, and among them the hand-stopped ones; and the
-    changes (tick, kind) of the kind of mute."""
+    """Muted passages of a player: spans of ticks (first onset, last end) played with a mute, the hand-stopped ones
+    among them, and the changes (tick, kind) of the kind of mute.
+    """
 
     muted: tuple[Span, ...] = ()
     stopped: tuple[Span, ...] = ()
@@ -140,7 +141,7 @@ def mutes_of(events: TrackEvents, channels: Collection[int], name: str, texts: S
 
 
 def mutes_in(rows: Sequence[tuple[int, int, How]]) -> Mutes:
-    """Collect the mutes of notes (onset, end, how), given by onset."""
+    """Collect the muted passages from notes (onset, end, way of playing), ordered by onset."""
     changes: list[Change] = []
     for onset, _, how in rows:
         if how not in ("open", "hand") and how != (changes[-1][1] if changes else "mute"):
@@ -149,7 +150,7 @@ def mutes_in(rows: Sequence[tuple[int, int, How]]) -> Mutes:
 
 
 def named_mute(text: str) -> How:
-    """Kind of mute that a text names; ``mute`` if it names no kind."""
+    """Return the kind of mute that a text names; ``mute`` if it names none."""
     found = _NAME.search(text)
     return "mute" if found is None else _NAMES[found[0].lower().replace(" ", "-")]
 
@@ -161,7 +162,7 @@ def mute_at(changes: Sequence[Change], tick: int) -> str:
 
 
 def joined_spans(rows: Sequence[tuple[int, int, How]], ways: Collection[str]) -> tuple[Span, ...]:
-    """Join consecutive notes that are played in one of the given ways into spans."""
+    """Join consecutive notes that are played in one of the given ``ways`` to spans of ticks."""
     spans: list[Span] = []
     before = False
     for onset, end, how in rows:
@@ -181,8 +182,8 @@ def is_muted(spans: Sequence[Span], tick: int) -> bool:
 
 
 def said_of_mute(text: str) -> How | None:
-    """Return the meaning of a text for the mute: insertion with its kind, hand stopping, or the end of both; None for
-    other texts.
+    """Interpret a text about mutes: the kind of mute to insert, hand stopping, or the end of either; None for other
+    texts.
     """
     words = " ".join(text[:MOST_NAME].split()).strip("()[]")
     if _OFF.fullmatch(words):

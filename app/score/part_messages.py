@@ -19,22 +19,22 @@ _MOST_PLACES: Final = 5
 
 
 def about_notes(id_: str, part: str, notes: Sequence[Note], piece: Score, **more: Argument) -> Message:
-    """A message about some notes, with their number and the position and pitch of the first."""
+    """Create a message about some notes of a part, with their number and the position and pitch of the first."""
     first = notes[0]
     where: dict[str, Argument] = {"place": piece.metre_map.label(first.onset_tick), "pitch": first.pitch}
     return Message(id_, {"part": part, "count": len(notes), **where, **more})
 
 
 def begins_after(message: Message, bar: int) -> bool:
-    """Return whether a message is about notes the first of which comes after a bar; False for messages without a
-    position or about a whole part.
+    """Return whether a message is about notes that all come after a bar; False for messages without a position or about
+    a whole part.
     """
     place = message.arguments.get("place")
     return isinstance(place, str) and "total" not in message.arguments and int(place.partition(".")[0]) > bar
 
 
 def cleaned_take(part: str, faults: Mapping[Fault, list[Note]], piece: Score) -> Message:
-    """Report the notes removed from a take: their number, the reasons, and the first positions."""
+    """Create the message about notes removed from a take: their number, the reasons, and the first positions."""
     notes = sorted((note for own in faults.values() for note in own), key=lambda note: note.onset_tick)
     places = list(dict.fromkeys(piece.metre_map.label(note.onset_tick) for note in notes))
     said = ", ".join(places[:_MOST_PLACES]) + (", ..." if len(places) > _MOST_PLACES else "")
@@ -80,7 +80,7 @@ _REASONS: Final = {How.TITLE: "score.instrument_from_title", How.ENSEMBLE: "scor
 
 
 def _refused(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapChoice], piece: Score) -> Message:
-    """A message about notes outside the range of the instrument given by a program."""
+    """Create the message about notes outside the range of the instrument that a track's program names."""
     own = [choice for choice in maps if plays(choice, instrument) or instrument.id in choice.substitutes_for]
     notes = sorted((note for part in parts for note in part.notes), key=lambda note: (note.onset_tick, note.pitch))
     outside = [note for note in notes if all(choice.outside([note.pitch]) for choice in own)]
@@ -138,6 +138,6 @@ def _range_warning(part: Part, maps: Sequence[MapChoice], piece: Score) -> Messa
 
 
 def _outside(id_: str, part: Part, choice: MapChoice, piece: Score) -> Message:
-    """A message about the notes of a part outside its instrument's range."""
+    """Create the message about notes of a part that are outside its instrument's range."""
     notes = [note for note in part.notes if choice.outside([note.pitch])]
     return about_notes(id_, part.name, notes, piece, map=part.map_id, outside=len(notes), total=len(part.notes))

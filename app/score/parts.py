@@ -126,7 +126,9 @@ class _Sorting:
         self._warnings += instrument_warnings(mine, found, assignment, maps, self._piece)
 
     def _clean(self, own: Sequence[int]) -> dict[Fault, list[Note]]:
-        """Remove unintended notes from those channels that are takes, and return them by reason."""
+        """Remove unintended notes from those channels that are recorded takes, and return the removed notes
+        by reason.
+        """
         faults: dict[Fault, list[Note]] = {}
         for index in own:
             self._streams[index], found = without_faults(self._streams[index], self._piece.tempo_map)
@@ -134,7 +136,7 @@ class _Sorting:
         return faults
 
     def _warn_of_tracks(self, part: str, chosen: Sequence[TrackChannel], notes: Sequence[Note]) -> None:
-        """Report tracks that were joined for one player, and instrument changes within one."""
+        """Add warnings about tracks that were joined for one player, and about instrument changes within a track."""
         lead = joined(chosen)
         if lead.change and lead.played_on and len(chosen) == 1:
             instrument = vocabulary().instruments[lead.played_on].names[0]
@@ -144,7 +146,7 @@ class _Sorting:
             self._warnings.append(Message(id_, {"part": part, "count": len(chosen)}))
 
     def _warn_of_players(self, mine: Sequence[Part], notes: Sequence[Note], shared: TrackVoices) -> None:
-        """Report the number of players that share the notes, and the notes that no player has."""
+        """Add warnings about the number of players that share the notes, and about notes left without a player."""
         part, piece = mine[0].name, self._piece
         if shared.unisons:
             self._warnings.append(about_notes("score.unisons", part, shared.unisons, piece))
@@ -159,7 +161,9 @@ class _Sorting:
             self._silent += silent_notes("score.stray_notes", part, shared.left_out, piece)
 
     def unplayed(self) -> tuple[UnplayedPart, ...]:
-        """The channels without a player, and the notes of parts that their players leave out."""
+        """Return the channels without a player, and the notes that the players of a part leave out, as parts without a
+        player.
+        """
         channels = (
             UnplayedPart(
                 stream_name(channel),
@@ -222,8 +226,8 @@ def _shared(
 
 
 def rhythm_parts(channels: Sequence[TrackChannel], assignments: Sequence[PartAssignment] = ()) -> list[TrackChannel]:
-    """Channels whose notes are drum kit sounds, by their own data or by assignment; other assigned channels are not
-    included.
+    """Return the channels whose notes are drum kit sounds, by their own data or by assignment; channels assigned to
+    players are excluded.
     """
     assigned = {index: one.map_id for one in assignments if one.map_id is not None for index in one.channels}
     return [
@@ -244,8 +248,8 @@ def _switches(channels: Sequence[TrackChannel], own: Sequence[int], places: Sequ
 
 
 def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[MapChoice]) -> MapCandidates:
-    """Candidate maps of an assignment: the one the user chose, else those found from names, program and range. Raises
-    as `require_map`.
+    """Find the candidate maps of an assignment: the one that the user chose, else those found from names, program and
+    range. Raises as `require_map`.
     """
     found = candidates(chosen, maps)
     if map_id is not None:
@@ -257,7 +261,7 @@ def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[Ma
 
 
 def _map(map_id: str, maps: Sequence[MapChoice]) -> MapChoice:
-    """The map of an id. Raises as `require_map`."""
+    """Return the map with an id. Raises as `require_map`."""
     by_id = {choice.map_id: choice for choice in maps}
     return by_id[require_map(map_id, by_id)]
 
@@ -314,7 +318,7 @@ def _parts(
 
 
 def _marks(marks: Sequence[Mark], onsets: Mapping[str, int], notes: Sequence[Note]) -> tuple[Mark, ...]:
-    """The marks of a channel that belong to the notes of one of its voices."""
+    """Select the marks of a channel that belong to the notes of one of its voices."""
     return (
         marks_of_player(marks, onsets, [(note.onset_tick, file_id(note.id), note.id) for note in notes])
         if marks

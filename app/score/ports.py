@@ -48,7 +48,7 @@ def split_by_port(messages: Sequence[Any]) -> list[Sequence[Any]]:
 
 
 def _without(messages: Sequence[Any], left_out: set[int], port: int | None) -> list[Any]:
-    """The messages without those left out, and without any port message except ``port``, which comes first."""
+    """Remove the messages with the indices ``left_out`` and all port messages; ``port``, if given, is put first."""
     rows, tick = [], 0
     for message in messages:
         tick += message.time

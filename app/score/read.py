@@ -152,8 +152,8 @@ def _midi_contents(
 
 
 def _tracks(container: Container, unended: int, file: str) -> tuple[list[TrackEvents], list[int], list[Message]]:
-    """Return the tracks of a file, where tracks of several ports are split and the additional ports come last; the
-    number of events of each track without notes; and messages about repairs.
+    """Parse the tracks of a file. Returns the tracks (those with several ports split, with the additional ports last),
+    the number of events of each track without notes, and messages about repairs.
     """
     warnings = list(container.warnings)
     tracks: list[TrackEvents] = []

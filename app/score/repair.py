@@ -112,8 +112,8 @@ def last_suspicious(data: bytes) -> int:
 
 
 def repaired(data: bytes, until: int | None = None) -> Repaired:
-    """Copy a track event by event, each channel message with its own status byte, without events that the score does
-    not use.
+    """Copy the events of a track with repairs: each channel message gets its own status byte, and events that the score
+    does not use are dropped.
 
     Events after an end-of-track are copied too, if they can all be parsed or end with another end-of-track.
 
@@ -243,7 +243,7 @@ def _goes_on(data: bytes, at: int) -> bool:
 
 
 def _after_system_message(data: bytes, at: int) -> int:
-    """Return the offset after a system message and those of its data bytes that are present."""
+    """Offset after a system message and those of its data bytes that are present."""
     size = _SYSTEM_DATA.get(data[at], 0)
     at += 1
     while size and at < len(data) and data[at] < 0x80:

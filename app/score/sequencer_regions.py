@@ -26,7 +26,9 @@ _LEGATO_SHARE: Final = 0.5
 
 
 def groups(channels: Sequence[TrackChannel]) -> list[tuple[int, ...]]:
-    """Groups of channel indices, one for each player, ordered by first channel; most groups have one channel."""
+    """Group the channels that one player plays, as channel indices ordered by the first; most groups have
+    one channel.
+    """
     alone = _alone(channels)
     same: dict[tuple[object, ...], list[int]] = {}
     for place, channel in enumerate(channels):
@@ -78,7 +80,7 @@ def follow_one_another(channels: Sequence[TrackChannel]) -> bool:
 
 
 def joined(channels: Sequence[TrackChannel]) -> TrackChannel:
-    """The first channel with the curves, muted spans and marks of all of them.
+    """Join the channels of one player: the first channel, with the curves, muted spans and marks of all of them.
 
     If the channels do not follow one another, the curves are those of the first channel that has any.
     """

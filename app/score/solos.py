@@ -53,7 +53,7 @@ def _says(text: str) -> int | None:
 
 
 def solo_notes(notes: Sequence[Note], words: Sequence[Word]) -> dict[str, int]:
-    """The notes played by one player alone, as a mapping from note id to player.
+    """Find the notes that only one player plays, and that player's number from 1, by note id.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def _together(one: Note, other: Note) -> bool:
 def with_solos(
     voices: Sequence[tuple[Note, ...]], alone: dict[str, int], original: dict[str, str]
 ) -> list[tuple[Note, ...]]:
-    """Move the notes that one player has alone to that player's voice and remove them from the others.
+    """Move the notes that one player has alone to that player's voice, and remove them from the other voices.
 
     Parameters
     ----------

@@ -140,8 +140,8 @@ def _step(track: int, setup: Setup) -> SoundChange:
 
 
 class _Given(NamedTuple):
-    """Banks and programs of a channel that apply to other tracks: from tracks without notes on it, and from tracks with
-    notes.
+    """Banks and programs of a channel that also apply to other tracks: those set in tracks without notes on the
+    channel, and those set in tracks with notes.
     """
 
     settings: list[SoundChange]
@@ -149,7 +149,7 @@ class _Given(NamedTuple):
 
 
 def _given(tracks: Sequence[Setups]) -> dict[tuple[Port | None, int], _Given]:
-    """Banks and programs that apply to other tracks, by port and channel."""
+    """Collect the banks and programs that also apply to other tracks, by port and channel."""
     given: dict[tuple[Port | None, int], _Given] = {}
     for place, track in enumerate(tracks):
         for setup in track.setups:

@@ -38,8 +38,8 @@ released does so at every place and tempo."""
 
 
 class VoiceSpans(NamedTuple):
-    """Times of notes in seconds, by onset; a release is the earliest time at which another note may begin in the
-    voice.
+    """Times of notes in seconds, ordered by onset: onset, end and release; the release is the earliest time at which
+    the same voice may begin another note.
     """
 
     onsets: FloatArray
@@ -95,8 +95,8 @@ def _within(spans: VoiceSpans, depths: IndexArray, more: int) -> BoolArray:
 
 
 def _sustained(spans: VoiceSpans, depths: IndexArray, more: int, several: int) -> bool:
-    """Return whether ``more`` notes sound together over several consecutive notes and long enough to need that many
-    players.
+    """Return whether ``more`` notes sound together for long enough, and over several consecutive notes, that this many
+    players are needed.
     """
     struck = depths >= more
     if np.count_nonzero(struck) < several:

@@ -47,7 +47,9 @@ class StatedTiming(NamedTuple):
 
 
 def timing_of_file(container: Container, tracks: Sequence[TrackEvents], assumed: Assumed | None) -> StatedTiming:
-    """Return tempo and metres of a file; ``assumed`` metres are used if it is timed in quarters and states none."""
+    """Return tempo and metres of a file; ``assumed`` metres are used if the file is timed in quarters but has no time
+    signature.
+    """
     tempo_map, warnings = _tempo(container, tracks)
     if container.division <= 0 or any(events.metres for events in tracks):
         metres, pickup_ticks, impossible = _stated_metres(tracks, tempo_map.ticks_per_quarter)
@@ -60,7 +62,7 @@ def timing_of_file(container: Container, tracks: Sequence[TrackEvents], assumed:
 
 
 def ticks_per_quarter_of(container: Container) -> int:
-    """Ticks per quarter; for a file timed in SMPTE frames, of the substitute quarters that it is read with."""
+    """Return the ticks per quarter of a file; one timed in SMPTE frames gets substitute quarters."""
     if container.division > 0:
         return container.division
     return TempoMap.of_smpte(_ticks_per_second(container.division)).ticks_per_quarter
@@ -100,7 +102,7 @@ def _ticks_per_second(division: int) -> float:
 def _stated_metres(
     tracks: Sequence[TrackEvents], ticks_per_quarter: int
 ) -> tuple[tuple[Metre, ...], int, list[Message]]:
-    """Metres and pickup length stated in the file, with messages about what was left out.
+    """Return the metres and the pickup length that a file states, with messages about what was left out.
 
     A metre repeated at a bar line is dropped; one repeated within a bar begins a new bar.
     """

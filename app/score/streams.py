@@ -37,8 +37,8 @@ def streams_of(
     alone: bool,
     apart: Set[tuple[int, int]],
 ) -> list[TrackChannel]:
-    """The notes of every track, grouped by channel or by channels that belong together; ``alone``: the file has one
-    track.
+    """Group the notes of every track by channel, or by channels that belong together; ``alone`` is True if the file has
+    a single track.
     """
     lilypond = any(b"LilyPond" in text for _, text in tracks[0].texts)
     given = _given_programs(tracks)
@@ -138,8 +138,9 @@ def _lilypond_name(staff: str, voice: str) -> str:
 
 
 def _kind_order(kind: tuple[Use, str]) -> tuple[int, bool]:
-    """Return a sort key for streams of a track: melodies first, so that the player's main part keeps its place; among
-    them the track's main instrument first."""
+    """Sort key for the groups of notes of a track: melodies first and among them the track's main instrument, so that
+    the player's main part keeps its index.
+    """
     use, instrument = kind
     return ("melodic", "rhythm", "effect").index(use), bool(instrument)
 

@@ -24,7 +24,7 @@ BESIDE_S, TIMES = 600.0, 2.0
 
 
 class _Long(NamedTuple):
-    """A note so long that its end may be missing: its place in the file and its onset."""
+    """A note so long that its end may be missing: track, channel and index, onset, end and pitch."""
 
     track: int
     channel: int

@@ -215,7 +215,7 @@ def is_wired(message: mido.Message, mapping: ControllerMapping) -> bool:
 
 @lru_cache(8192)
 def decoded(raw: str) -> mido.Message | None:
-    """Parse a channel message from hexadecimal; None for any other message and for invalid bytes."""
+    """Parse a MIDI channel message from hexadecimal text; None for other messages and invalid bytes."""
     try:
         message = mido.Message.from_bytes(bytes.fromhex(raw))
     except (ValueError, IndexError, TypeError, KeyError):

@@ -66,7 +66,7 @@ def _is_named(name: str) -> bool:
 
 
 def without_faults(channel: TrackChannel, tempo_map: TempoMap) -> tuple[TrackChannel, dict[Fault, list[Note]]]:
-    """A channel with its notes cleaned as a take's; and the removed notes by reason, as played."""
+    """Clean the notes of a channel like those of a take; also return the removed notes, as played, by reason."""
     clean = clean_notes(notes_as_played(channel, tempo_map), Cleaning())
     before = channel.notes()
     found: dict[Fault, list[Note]] = {}
@@ -83,7 +83,7 @@ def without_faults(channel: TrackChannel, tempo_map: TempoMap) -> tuple[TrackCha
 
 
 def notes_as_played(channel: TrackChannel, tempo_map: TempoMap) -> Played:
-    """Notes of a channel in the form of a take, with the curve that carries its breath."""
+    """Convert the notes of a channel and its breath curve to the form of a take."""
 
     def seconds(ticks: list[int]) -> FloatArray:
         return tempo_map.seconds(np.array(ticks, np.float64))
@@ -127,7 +127,9 @@ def _among(notes: Played, times_s: FloatArray) -> np.ndarray[tuple[int], np.dtyp
 
 
 def _falls_in_rests(notes: Played, breath: Controlled) -> bool:
-    """Return whether the breath drops to silence in the rests or, without rests, before the first note."""
+    """Return whether the breath curve drops to silence in the rests or, if there are no rests, before the
+    first note.
+    """
     starts_s = np.concatenate(([-1.0 + notes.onsets_s[0]], np.maximum.accumulate(notes.ends_s)[:-1]))
     rests = notes.onsets_s - starts_s >= _REST_S
     middles_s = (0.5 * (starts_s + notes.onsets_s))[rests]

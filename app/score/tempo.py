@@ -70,7 +70,7 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _table(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Start tick and second of each tempo, and its seconds per tick; each float64, shape (changes,)."""
+        """Start tick, start second and seconds per tick of each tempo, each float64 (changes,)."""
         ticks = np.array([change.tick for change in self.changes], np.float64)
         slopes = np.array([change.microseconds_per_quarter for change in self.changes], np.float64)
         slopes = slopes / (1e6 * self.ticks_per_quarter)

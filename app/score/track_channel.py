@@ -88,7 +88,9 @@ class TrackChannel(msgspec.Struct, frozen=True):
 
     @property
     def place(self) -> tuple[int, int, int]:
-        """Track, channel and instrument index, as in the parts made from it."""
+        """Key of the channel: track, MIDI channel and instrument index; equal to `Part.place` of the parts made from
+        it.
+        """
         return self.track, self.channel, self.change
 
     def notes(self) -> list[Note]:

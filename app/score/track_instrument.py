@@ -49,7 +49,9 @@ def players_named(name: str) -> int:
 
 
 def recognised(channel: TrackChannel) -> Instrument | None:
-    """The instrument given by a track's names or numbers, else by the title; None if there is none."""
+    """Return the instrument of a track by its names or its program, else by the title of the piece; None if none of
+    them gives one.
+    """
     said = said_of(channel)
     return vocabulary().instruments[channel.reported[0]] if said is None and len(channel.reported) == 1 else said
 
@@ -70,8 +72,8 @@ def use_of(channel: TrackChannel) -> Use:
 
 
 def sounds_of(channel: TrackChannel) -> list[int]:
-    """General MIDI numbers of a rhythm part's sounds; notation often gives a single drum one arbitrary pitch, which is
-    replaced by the drum's number.
+    """General MIDI numbers of the sounds in a rhythm part. Notation often gives a single drum an arbitrary pitch, which
+    is replaced by the drum's number.
     """
     if channel.struck or channel.use != "melodic":
         return channel.struck or channel.pitches
@@ -108,8 +110,9 @@ def _is_after_a_drum(channel: TrackChannel, named: Instrument, numbered: Instrum
 
 
 def _named(channel: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
-    """Return the instruments in a track's names: the first definite one, and, only if there is none, the first vague
-    one."""
+    """Instruments in a track's names: the first definite one, and the first vague one, which is None if there is a
+    definite one.
+    """
     words = vocabulary()
     named = [found for text in (channel.name, channel.instrument_name) if text and (found := words.by_name(text))]
     telling = next((found for found in named if not found.vague), None)
@@ -150,8 +153,8 @@ def says_nothing(channel: TrackChannel) -> bool:
 
 
 def by_program_alone(channel: TrackChannel) -> Instrument | None:
-    """The wind instrument of a melodic track given only by its program; None if names give one, or if it is no wind
-    instrument.
+    """Return the wind instrument of a melodic track if only its program gives it; None if a name gives one, or if it is
+    no wind instrument.
     """
     telling, _ = _named(channel)
     if channel.played_on or channel.program is None or telling is not None or use_of(channel) != "melodic":
@@ -176,9 +179,7 @@ def _member(channel: TrackChannel) -> Instrument | None:
 
 
 def said_of(channel: TrackChannel) -> Instrument | None:
-    """Instrument that names or numbers of the track itself give; None if only the title or the ensemble
-    suggests one.
-    """
+    """Instrument that the names or the program of a track give; None if only the ensemble suggests one."""
     if channel.reported and channel.reported_by == "ensemble":
         return None
     return (None if channel.played_on else _member(channel)) or said_plainly(channel)

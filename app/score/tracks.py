@@ -113,7 +113,7 @@ class TrackEvents(msgspec.Struct):
 
     @property
     def said_of_sounds(self) -> Setups:
-        """Return the track's messages about the sounds of channels."""
+        """Return the track's messages that change the sounds of channels."""
         first_onsets = {channel: notes.onset_ticks[0] for channel, notes in self.channels.items()}
         return Setups(self.setups, first_onsets, self.port)
 
@@ -202,14 +202,14 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
 
 
 def _until_end(events: TrackEvents, messages: Sequence[Any]) -> Sequence[Any]:
-    """The messages up to the end-of-track; all messages if notes follow it."""
+    """Return the messages up to the end-of-track; all messages if notes follow it."""
     ends = next((place for place, message in enumerate(messages) if message.type == "end_of_track"), len(messages))
     events.after_end = sum(message.type == "note_on" and message.velocity > 0 for message in messages[ends:])
     return messages if events.after_end else messages[: ends + 1]
 
 
 def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None:
-    """Add a MIDI message other than notes to the track's events, such as a controller, program or tempo."""
+    """Add a MIDI message that is not a note, such as a controller, program or tempo, to the track's events."""
     if tick > LAST_TICK:
         events.beyond += 1
     elif kind == "control_change":
@@ -255,7 +255,7 @@ def _set_up(
 
 
 def _connect(events: TrackEvents, message: Any) -> None:
-    """Apply a port or device name; ignored once the track has notes."""
+    """Store the port or device that a message selects; ignored once the track has notes."""
     if events.channels:
         return
     number, device = events.port or FIRST_PORT

@@ -46,7 +46,7 @@ class _Hypothesis(NamedTuple):
 def assigned_voices(
     onsets: Sequence[float], groups: Sequence[list[LastPlayed]], count: int, rests_s: Sequence[float]
 ) -> list[tuple[int, ...]]:
-    """For each group of notes struck together (highest first), the voices that play them.
+    """Assign voices to groups of notes struck together: for each group, the voices of its notes from the highest down.
 
     A beam search over the onsets, since the cost of a choice shows only when the next chord forces the voices apart.
     """
@@ -114,7 +114,7 @@ def _choices(free: int, costs: list[list[float]]) -> tuple[tuple[int, ...], ...]
 def _costs(
     voices: tuple[LastPlayed, ...], free: list[int], sounding: list[LastPlayed], onset: float, rest_s: float
 ) -> list[list[float]]:
-    """The cost of each note of a group (rows) in each free voice (columns)."""
+    """Cost of giving each note of a group (rows) to each free voice (columns)."""
     lines: list[tuple[float, float, int]] = []  # per voice: cost = constant + weight * distance
     for voice in free:
         pitch, _, end_s = voices[voice]

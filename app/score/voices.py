@@ -76,18 +76,20 @@ class TrackVoices(NamedTuple):
 
 
 def is_one_voice(notes: Sequence[Note], tempo_map: TempoMap) -> bool:
-    """Return whether one player can play all of the notes, given by onset."""
+    """Return whether one player can play all of the notes, which are ordered by onset."""
     return not notes or int(spans_of(notes, tempo_map).depths().max()) == 1
 
 
 def unison_id(id: str, voice: int) -> str:
-    """Id of a copy of a file's note for the player of another voice; numbers are beyond all note-ons."""
+    """Id for the copy of a note that another voice plays in unison; its number is beyond those of all notes in the
+    file.
+    """
     track, _, number = id.rpartition(":")
     return f"{track}:{int(number) + _UNISON_NUMBERS * (voice + 1)}"
 
 
 def file_id(id: str) -> str:
-    """Id in the file of a note that several players share."""
+    """Return the id that a note has in the file, also for its copies in other voices."""
     track, _, number = id.rpartition(":")
     return f"{track}:{int(number) % _UNISON_NUMBERS}"
 
@@ -192,8 +194,8 @@ def _first(spans: VoiceSpans, _: IntArray, order: IndexArray, count: int) -> lis
 
 
 def _playable(spans: VoiceSpans, pitches: IntArray, order: IndexArray, count: int) -> list[int]:
-    """Return the indices of the notes that ``count`` players can play, by onset and from the highest; releases are
-    moved earlier in place where a player must leave a note for the next one.
+    """Choose the notes that ``count`` players can play, as indices by onset and from the highest; where a player must
+    end a note early for the next one, its release is moved in ``spans``.
 
     If more notes are struck together than there are players, the lowest are dropped, and the lower of two in octaves or
     unison; otherwise the note that ends first is cut at the next onset.
@@ -247,7 +249,7 @@ def _voices(spans: VoiceSpans, pitches: IntArray, kept: list[int], count: int, t
 
 
 def _chords(onsets: FloatArray, releases: FloatArray) -> FloatArray:
-    """Return for each note (N,) the onset of the chord to which it belongs; for a single note its own onset."""
+    """Onset (N,) of the chord to which each note belongs; for a single note its own onset."""
     struck = onsets.tolist()
     begin, free = -1.0, -1.0
     for place, (onset, release) in enumerate(zip(struck.copy(), releases.tolist(), strict=True)):
@@ -259,8 +261,8 @@ def _chords(onsets: FloatArray, releases: FloatArray) -> FloatArray:
 
 
 def _legato(notes: Sequence[Note], spans: VoiceSpans, tempo_map: TempoMap) -> tuple[tuple[Note, ...], list[Note]]:
-    """Notes of one player with overlaps shortened to `LEGATO_OVERLAP_S`; and the original of each note that overlapped
-    by more than legato does.
+    """Shorten the overlaps between notes of one player to `LEGATO_OVERLAP_S`; also return the original of each note
+    that overlapped by more than legato does.
     """
     long = np.flatnonzero(spans.ends[:-1] > spans.onsets[1:] + LEGATO_OVERLAP_S)
     if not len(long):
@@ -323,7 +325,7 @@ def _with_unisons(voices: list[tuple[Note, ...]], tempo_map: TempoMap) -> list[t
 
 
 def _next(onsets: list[int], tick: int) -> float:
-    """The first onset at or after a tick; infinity if there is none."""
+    """Return the first onset at or after a tick; infinity if there is none."""
     place = bisect_left(onsets, tick)
     return onsets[place] if place < len(onsets) else inf
 

@@ -155,7 +155,9 @@ def _channels(parts: Sequence[Part], names: Sequence[str]) -> list[int]:
 
 
 def _instrument(part: Part, performer: PartPlayer | None) -> Instrument | None:
-    """Instrument to write for a part: the part's own if the player's map fits it, else the map's instrument."""
+    """Return the instrument to write for a part: the part's own if the player's map fits it, else the map's
+    instrument.
+    """
     known = vocabulary().instruments
     own = known.get(part.instrument or "")
     if performer is None or (own is not None and _may_play(performer.choice, own)):
@@ -234,7 +236,7 @@ def _part(part: Part, name: str, instrument: Instrument | None, channel: int) ->
 
 
 def _percussion(score: Score) -> list[_Event]:
-    """Percussion hits as notes, each until the next hit of the same sound, at most a sixteenth."""
+    """Convert percussion hits to notes that last until the next hit of the same sound, at most a sixteenth."""
     events: list[_Event] = [(0, _OFF, mido.MetaMessage("track_name", name=vocabulary().instruments[_KIT].names[0]))]
     longest = max(score.ticks_per_quarter // 4, 1)
     again: dict[int, int] = {}
@@ -259,8 +261,8 @@ def _steps(curve: ControllerCurve, channel: int) -> list[_Event]:
 
 
 def _bends(curve: ControllerCurve, channel: int) -> list[_Event]:
-    """Pitch bend messages of a curve, preceded by the bend range they need; always written, since another part may have
-    set the channel's range.
+    """Pitch bend messages of a curve, after messages that set the necessary bend range; the range is always set, since
+    another part may have changed it on the channel.
     """
     semitones = range_for(curve.values)
     events: list[_Event] = [

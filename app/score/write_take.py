@@ -75,8 +75,9 @@ def write_take(
 
 
 def ended(times_us: Sequence[int], messages: Sequence[bytes], last_us: int) -> list[tuple[int, mido.Message]]:
-    """Return the messages with their times and exactly one end for every note, also where it is struck again and at the
-    end of the take; ends without a beginning are dropped."""
+    """Return the messages with their times such that every note has exactly one note-off, also where it is struck again
+    and at the end of the take; note-offs without a note are dropped.
+    """
     found: list[tuple[int, bytes]] = []
     sounding: SoundingNotes[None] = SoundingNotes()
     for time_us, message in zip(times_us, messages, strict=True):

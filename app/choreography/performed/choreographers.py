@@ -40,7 +40,7 @@ def _choreographer(choreography: str, version: tuple[int, int]) -> Choreographer
 
 
 def too_long_to_dance(frame: TimeFrame) -> Message | None:
-    """Return the reason why a performance cannot be danced to (a dance is made as a whole); None if it can."""
+    """Return the reason why a performance is too long for a dance, which is generated as a whole; None if it is not."""
     length_s = frame.end_s - frame.first_frame_s
     if length_s <= MOST_DANCED_S:
         return None

@@ -108,7 +108,9 @@ def dances_of(performance: Performance, stop_requested: StopRequested, progress:
 
 
 def dance_of(performance: Performance, dancer: Dancer) -> DanceSteps:
-    """Return the dance of a dancer; an error that the user can correct is part of it."""
+    """Return the steps of a dancer's dance; an error that the user can correct is stored in the result instead of
+    raised.
+    """
     try:
         dancing = dancing_of(performance, dancer)
     except AppError as error:
@@ -139,8 +141,8 @@ def dance_of(performance: Performance, dancer: Dancer) -> DanceSteps:
 
 
 def figures(choreographer: Choreographer) -> FloatArray:
-    """Return each segment's pose (S, 21, 2) at its accent from the front: X to the right and Y up from the floor below
-    the hips, relative to the body's height.
+    """Pose (S, 21, 2) of each of S segments at its accent, seen from the front: X to the right and Y up from the floor
+    below the hips, relative to the body's height.
     """
     return _FIGURES.step(_figures, choreographer)
 

@@ -109,11 +109,13 @@ class GeneratedDance:
         return manner_of(self.dancer, len(self.choreographer.model.sources))
 
     def dance(self, fps: Fraction) -> Dance:
-        """Return the dance from the first frame of the performance to its last."""
+        """Return the dance for the whole performance at a frame rate, generated on first use."""
         return self._whole(fps).dance
 
     def motion(self, fps: Fraction, first: int, count: int) -> Motion:
-        """Return the motion of some frames of the performance, bitwise equal for any requested span."""
+        """Return the motion of some frames of the performance; a frame is bitwise the same whatever span is
+        requested.
+        """
         whole = self._whole(fps).motion
         here = slice(first, first + count)
         return replace(
@@ -138,7 +140,7 @@ class GeneratedDance:
         return self.choreographer.model.name
 
     def standing(self, fps: Fraction, first: int, count: int) -> BoolArray:
-        """Return whether the left and the right foot stand in each frame (count, 2)."""
+        """Mask (count, 2) of the frames in which the left and the right foot stand."""
         result = np.zeros((first + count, 2), bool)
         for stand in self.dance(fps).standing:
             result[stand.start : stand.stop, stand.foot] = True
@@ -198,7 +200,7 @@ class _Made(NamedTuple):
 
     @property
     def size_bytes(self) -> int:
-        """Return the size of its frames in bytes."""
+        """Memory of the motion in bytes."""
         clip, motion = self.dance.clip, self.motion
         held = (clip.rotations, clip.hips_m, motion.rotations, motion.hips_m)
         instrument = (motion.instrument_position_m, motion.instrument_rotation)
@@ -248,7 +250,9 @@ def _audible_rhythm(score: Score) -> Rhythm:
 
 
 def dance_frame(performance: Performance) -> TimeFrame:
-    """Return the time span of all dances, the same object while equal. Raises AppError if it is too long."""
+    """Return the time span of all dances; equal spans are the same object. Raises AppError if it is too long for
+    dances.
+    """
     long = too_long_to_dance(performance.time_frame)
     if long is not None:
         raise AppError(long.id, **long.arguments)
@@ -279,8 +283,9 @@ def assignments_of(
 def not_held(
     corrections: Sequence[DanceCorrection], steps: Sequence[SegmentStep], grid: AccentGrid, tempo_map: TempoMap
 ) -> tuple[Problem, ...]:
-    """Return a problem for every correction by the user that the planned steps do not meet, because it refers to a
-    missing motion or segment, or contradicts another. The corrections stay."""
+    """Return a problem for every correction by the user that the planned steps do not follow, because it refers to a
+    missing motion or segment, or contradicts another correction. The corrections are kept.
+    """
     there = {step.place: step for step in steps}
     pins = [item for item in corrections if not isinstance(item, ForbidState)]
     pinned = {place_of(item.tick, grid, tempo_map) for item in pins} if len(grid.times_s) else set[int]()
@@ -333,7 +338,7 @@ def visible_faults(dance: Dance, usual_rad_s: float) -> tuple[Problem, ...]:
 
 
 def place_of(tick: int, grid: AccentGrid, tempo_map: TempoMap) -> int:
-    """Return the index of the place of a grid nearest to a tick."""
+    """Index of the grid time that is nearest to a tick."""
     return int(np.abs(grid.times_s - tempo_map.seconds(float(tick))).argmin())
 
 
@@ -363,7 +368,7 @@ def _same_frame(first_frame_s: float, end_s: float) -> TimeFrame:
 
 
 def _same_dancer(dancer: Dancer) -> Dancer:
-    """Return the same object for dancers with equal dances, regardless of place and name."""
+    """Return one shared object for dancers whose dances are equal, regardless of stage position and name."""
     return _interned(msgspec.structs.replace(dancer, name="", colour="", stage=StagePosition(0.0, 0.0, 0.0)))
 
 
@@ -373,7 +378,7 @@ def _interned(dancer: Dancer) -> Dancer:
 
 
 def _same_rhythm(rhythm: Rhythm) -> Rhythm:
-    """Return the same object for equal rhythms, since edits of notes seldom change the rhythm."""
+    """Return one shared object for equal rhythms, so that caches hit; edits of notes seldom change the rhythm."""
     with _recent_rhythms_lock:
         for known in _recent_rhythms:
             if are_alike(known, rhythm):

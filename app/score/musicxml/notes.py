@@ -84,7 +84,7 @@ _LEAST_TICKS: Final = 480
 
 
 def ticks_per_quarter(root: Element) -> int:
-    """The smallest number of ticks per quarter in which all times of a score are whole, if it is not too large."""
+    """Return the smallest number of ticks per quarter for which all times of a score are whole, up to a limit."""
     common = 1
     for text in {(one.text or "").strip() for one in root.iter("divisions")}:
         # Others are refused, or made whole, where they stand.
@@ -239,7 +239,9 @@ def _ticks(exact: Time) -> Time:
 
 
 def _note(part: WrittenPart, one: Element, measure: Measure, state: _State, place: Place) -> None:
-    """Read a MusicXML note into a new chord of the measure, or the previous one if it belongs to that."""
+    """Read a MusicXML note element into a new chord of the measure, or into the previous chord if it
+    belongs to that.
+    """
     found: dict[str, Element] = {}
     ties, notations = set(), []
     for child in one:
@@ -312,7 +314,9 @@ def _tone(part: WrittenPart, found: dict[str, Element], chord: Chord, state: _St
 
 
 def _with_neighbours(tone: Tone, pitch: Element, fifths: int, place: Place) -> None:
-    """Set the upper and lower neighbour of a note with an ornament, in semitones, by the key signature (``fifths``)."""
+    """Set the distance in semitones from an ornamented note to its upper and lower scale neighbour, by the key
+    signature (``fifths``).
+    """
     step, octave = (pitch.findtext("step") or "").strip(), int(place.number(pitch, "octave") or 0)
     written = 12 * (octave + 1) + _STEPS[step] + int(place.number(pitch, "alter") or 0)
     tone.upper, tone.lower = (_neighbour(step, octave, by, fifths) - written for by in (1, -1))

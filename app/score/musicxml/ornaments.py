@@ -81,7 +81,7 @@ def _lead_in(own: Sequence[PlayedChord]) -> None:
 
 
 def write_out(chords: Sequence[PlayedChord], tempo: TempoMap, quarter: int) -> None:
-    """Write out the ornaments of notes (trills, grace notes, tremolos) into the rows of each note."""
+    """Write out the ornaments of all chords (trills, turns, tremolos), in place in the rows of each note."""
     pairs = list(_pairs(chords))
     for first, second in pairs:
         _alternate(first, second, quarter, tempo)
@@ -94,7 +94,7 @@ def write_out(chords: Sequence[PlayedChord], tempo: TempoMap, quarter: int) -> N
 
 
 def _rows(note: PlayedNote, tempo: TempoMap, quarter: int) -> list[tuple[int, int, int]]:
-    """Write out trills, turns, tremolos and the like of one note as (start, end, pitch); empty if it has none."""
+    """Write out the ornament of one note as (start, end, pitch) of each sounding note; empty if it has none."""
     kinds = note.chord.ornaments
     pitch, onset, length = note.tone.pitch, note.onset, note.end - note.onset
     if length < 2 or (not kinds and not note.chord.tremolo[1]):
@@ -128,8 +128,9 @@ def _rows(note: PlayedNote, tempo: TempoMap, quarter: int) -> list[tuple[int, in
 
 
 def _before_main(onset: int, end: int, short: int, first: Sequence[int], pitch: int) -> list[tuple[int, int, int]]:
-    """Write short notes before a main note as (start, end, pitch); they last ``short`` ticks each, together at most
-    half of the time."""
+    """Write out short notes before a main note as (start, end, pitch); each lasts ``short`` ticks, together at most
+    half of the time.
+    """
     each = min(short, (end - onset) // (2 * len(first)))
     if each < 1:
         return []

@@ -130,7 +130,7 @@ def _midi(owner: Element, tag: str, most: int) -> int | None:
 
 
 def _text(element: Element | None) -> str:
-    """All text of an element in one line; accidentals within names are written as signs."""
+    """Return all text of an element in one line, with accidentals as signs."""
     if element is None:
         return ""
     pieces: list[str] = []

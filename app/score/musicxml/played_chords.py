@@ -62,6 +62,8 @@ class PlayedChord:
     desk: Desk = EVERYONE
 
     def desk_of(self, note: PlayedNote) -> Desk:
-        """Return the player (desk) of one of the chord's notes, if its notes are shared among several."""
+        """Return the player who has one of the chord's notes, if the chord is divided among several players
+        of a staff.
+        """
         above = sum(tone.pitch > note.tone.pitch for tone in self.chord.tones)
         return Desk(self.desk.first + above, self.desk.players) if self.desk.first else self.desk

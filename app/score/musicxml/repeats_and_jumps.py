@@ -80,8 +80,8 @@ def _explain(bars: Sequence[Bar]) -> None:
 
 
 def _unnamed_trio(bars: Sequence[Bar]) -> int:
-    """Return the start of the unmarked trio of a minuet: the third strain in a piece of exactly four repeated strains
-    with a *D.C.*; 0 for other pieces.
+    """Return the index of the first measure of an unmarked trio: the third section in a piece of exactly four repeated
+    sections with a *D.C.*, as in a minuet; 0 for other pieces.
     """
     groups = [*_groups(bars, _endings(bars)), None]
     ends = [

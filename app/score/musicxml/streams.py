@@ -169,7 +169,7 @@ def id_of(note: PlayedNote) -> int:
 
 
 def _rows(played: PlayedPart, level: Callable[[int], float], kinds: dict[int, str]) -> list[_Row]:
-    """Return all notes of a part with ornaments written out, numbered."""
+    """Return all sounding notes of a part, with ornaments written out and numbers assigned."""
     rows: list[_Row] = []
     seated = ((note, chord.desk_of(note)) for chord in played.chords for note in chord.begun)
     for note, desk in seated:
@@ -241,7 +241,7 @@ def _how(text: str) -> How:
 
 
 def _marks(played: PlayedPart, prefix: str, spans: Sequence[Mark]) -> list[Mark]:
-    """Return the marks of a part: at its notes (for each player of a chord), and over its staff."""
+    """Collect the marks of a part: those at its notes, for each player of a chord, and those over its staff."""
     found: list[Mark] = []
 
     def first(note: PlayedNote) -> str:
