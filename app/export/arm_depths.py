@@ -1,8 +1,8 @@
-"""Measures how deep forearms and hands, including sleeves, penetrate clothes and skin of trunk and thighs.
+"""Measurement of how deep forearms and hands, including sleeves, penetrate clothes and skin of trunk and thighs.
 
-Measures the surfaces in the file. Frames are tried in order of the distance between the line from elbow to wrist and
-the trunk in its bind pose, some time apart; surfaces are computed only for these. The result is at or near the largest
-depth, and never too large.
+The surfaces in the file are measured. Frames are tried in order of the distance between the trunk in its bind pose and
+the line from elbow to wrist, some time apart; surfaces are computed only for these frames. The result is at or near the
+greatest depth, and never too large.
 """
 
 from __future__ import annotations
@@ -39,8 +39,11 @@ class ArmDepth(msgspec.Struct, frozen=True):
     side : str
         ``left`` or ``right``; empty if no arm is inside.
     depth_mm : float
+        The depth.
     frame : int
+        Frame at which it occurs.
     bound_mm : float
+        Greatest accepted depth.
     """
 
     side: str = ""
@@ -55,7 +58,7 @@ class ArmDepth(msgspec.Struct, frozen=True):
 
 
 def arm_depth(joints: JointPlayback) -> ArmDepth:
-    """Measure the greatest depth of the forearms in trunk and clothes in an exported file."""
+    """Return the greatest depth of a forearm or hand in trunk and clothes in an exported file."""
     playback = joints.playback
     trunk = [surface for mesh in playback.scene.meshes for surface in _surfaces(joints, mesh)]
     worst = ArmDepth()
@@ -92,8 +95,9 @@ class _TrunkSurface:
         return np.asarray(sums / np.maximum(np.linalg.norm(sums, axis=1, keepdims=True), 1e-12))
 
     def depth_m(self, points_m: FloatArray, world: FloatArray, frame: int) -> float:
-        """Return the greatest depth in metres of P points (P, 3) in the trunk at a frame, with bone transforms (1, J,
-        4, 4) of J bones."""
+        """Return the greatest depth in metres of P points (P, 3) below the trunk's surface at a frame; ``world`` (1, J,
+        4, 4) has the transforms of all bones there.
+        """
         places_m = self._surface.positions_m(world, frame, frame + 1)[0]
         low, high = places_m.min(axis=0), places_m.max(axis=0)
         points_m = points_m[((points_m > low) & (points_m < high)).all(axis=1)]
@@ -106,7 +110,9 @@ class _TrunkSurface:
 
 
 def _surfaces(joints: JointPlayback, mesh: SkinnedMesh) -> Iterator[_TrunkSurface]:
-    """Surfaces of a mesh that move with the trunk, one for each material: skin, shirt, trousers."""
+    """Yield the surfaces of a mesh that move with the trunk, one for each material, such as skin, shirt and
+    trousers.
+    """
     held = _share(joints, mesh, _TRUNK) >= _CARRIED
     materials = np.zeros(len(mesh.faces), np.int64) if mesh.face_materials is None else mesh.face_materials
     for material in np.unique(materials):
@@ -119,8 +125,9 @@ def _surfaces(joints: JointPlayback, mesh: SkinnedMesh) -> Iterator[_TrunkSurfac
 
 
 def _share(joints: JointPlayback, mesh: SkinnedMesh, names: Collection[str]) -> FloatArray:
-    """Return the share (V,) of the weight of each of V vertices that bones of the named joints hold; other bones count
-    with their parent joint."""
+    """Return for each vertex (V,) of a mesh the sum of its weights on bones of the named joints; bones that are no
+    joint count as their nearest joint above.
+    """
     parents, holds = joints.playback.parents, list[bool]()
     for bone, parent in enumerate(parents):
         own = joints.joint_names.get(bone)
@@ -130,7 +137,7 @@ def _share(joints: JointPlayback, mesh: SkinnedMesh, names: Collection[str]) -> 
 
 
 def _frames(joints: JointPlayback, side: str, trunk: list[_TrunkSurface]) -> list[int]:
-    """Frames in which a forearm is nearest to the trunk, nearest first."""
+    """Return frames in which a forearm is near to the trunk, nearest first."""
     playback = joints.playback
     chest = joints.bone("upperChest", "chest", "spine", "hips")
     bones = [chest, joints.bone(f"{side}LowerArm"), joints.bone(f"{side}Hand")]

@@ -1,4 +1,6 @@
-"""Combines instruments with their player's sockets: as one scene, or from two files as a reader would."""
+"""Combination of instruments with the sockets of their player: as one scene, or as a program shows two files
+together.
+"""
 
 from __future__ import annotations
 
@@ -18,8 +20,8 @@ from app.rig import quaternion
 
 
 def own_path(target: TargetSkeleton, motion: Motion) -> Trajectory:
-    """Return the path of the root bone in an instrument's own file: in world space, or fixed if attached to a
-    socket.
+    """Return the path of the root bone in an instrument's own file: its path in the world, or a fixed point if the
+    instrument is attached to a socket.
     """
     return (
         trajectory_at_origin(motion.frames)
@@ -39,6 +41,7 @@ def attached(character: Scene, instruments: Sequence[Scene], target: TargetSkele
         Scenes of the musician's instruments as in their own files. The root bone of each is renamed to its scene's
         name.
     target : TargetSkeleton
+        Skeleton of the character's scene.
     """
     for instrument, socket in zip(instruments, socket_names(target), strict=True):
         character = _with_instrument(character, instrument, socket)
@@ -93,7 +96,7 @@ def _joined(character: Scene, instrument: Scene, before: int) -> Clip:
 
 
 def in_world(instrument: Scene, character: Scene, socket: str) -> Scene:
-    """Convert an instrument's scene from a character's socket to world space."""
+    """Return an instrument's scene moved from a character's socket to world space."""
     clip, held = character.clip, instrument.clip
     assert clip is not None
     assert held is not None
@@ -102,7 +105,7 @@ def in_world(instrument: Scene, character: Scene, socket: str) -> Scene:
 
 
 def without_place(scene: Scene, place: NodePlace | None) -> Scene:
-    """Move a scene from a place to the origin."""
+    """Return a scene moved from its place on the stage to the origin."""
     if place is None or scene.clip is None:
         return scene
     back = quaternion.conjugate(place.rotation_xyzw)
@@ -111,7 +114,9 @@ def without_place(scene: Scene, place: NodePlace | None) -> Scene:
 
 
 def _carried(scene: Scene, path: Trajectory) -> Scene:
-    """Compose the motion of a scene's root bone with a trajectory."""
+    """Return a scene with the motion of its root bone relative to a moving object, whose trajectory is ``path``,
+    converted to the object's surroundings.
+    """
     clip = scene.clip
     assert clip is not None
     own = np.asarray(clip.translations_cm.get(0, scene.bones[0].translation_cm), np.float64)

@@ -1,6 +1,6 @@
-"""Bind pose of a skin: the modelled pose, or arms level or down; and the weights of twist bones.
+"""Bind pose of an exported skin: as modelled, or with the arms level or down; and the weights of twist bones.
 
-Only the arms are posed again; parts rigidly attached to a hand, head or foot move as before, up to rounding. Skin
+Only the arms are posed differently; parts rigidly attached to a hand, head or foot move as before, up to rounding. Skin
 shared by several arm bones changes slightly, due to linear blending.
 """
 
@@ -26,9 +26,9 @@ _DOWN_RAD: Final[Mapping[RestPose, float]] = {"t": 0.0, "a": np.pi / 4.0}
 
 
 def bind_transforms(character: Character, target: TargetSkeleton) -> AnyFloatArray:
-    """Return the transforms ``world_from_bone`` (B, 4, 4) of B bones in the modelled pose, centimetres.
+    """Return the transforms ``world_from_bone`` (B, 4, 4) of B bones in the modelled pose, in centimetres.
 
-    A bone of a joint is at that joint; other bones are relative to their parents.
+    A bone of a joint is at that joint; other bones are placed relative to their parents.
     """
     return _of_bones(character, target, _modelled(character))
 
@@ -47,8 +47,8 @@ def _modelled(character: Character) -> AnyFloatArray:
 
 
 def _posed(character: Character, down_rad: float) -> AnyFloatArray:
-    """``world_from_joint`` with both arms straight to the side, lowered by an angle; fingers keep their pose relative
-    to the hand.
+    """Return ``world_from_joint`` of all joints with both arms straight to the side, lowered by an angle; fingers keep
+    their pose relative to the hand.
     """
     skeleton, before = character.skeleton, _modelled(character)
     world = before.copy()
@@ -83,7 +83,9 @@ def _of_bones(character: Character, target: TargetSkeleton, world_from_joint: An
 
 
 def _twisted(character: Character, target: TargetSkeleton, world_from_joint: AnyFloatArray, bone: int) -> FloatArray:
-    """World rotation (3, 3) of a twist bone's base with its share of the joint's twist in this pose."""
+    """Return the world rotation (3, 3) of a twist bone in a pose: that of its base joint, with the bone's share of the
+    twist.
+    """
     twist = target.twists[bone]
     parent = character.skeleton.parents[twist.joint]
     local = world_from_joint[parent, :3, :3].T @ world_from_joint[twist.joint, :3, :3]
@@ -152,7 +154,7 @@ def _along(target: TargetSkeleton, bone: int) -> float:
 
 
 def _moved(mesh: Mesh, moved: AnyFloatArray) -> Mesh:
-    """Return a mesh deformed by the transforms (B, 4, 4) of B bones, metres, and bound there."""
+    """Return a mesh deformed by the transforms ``moved`` (B, 4, 4) of B bones, in metres, and bound in that pose."""
     blended = np.einsum("vk,vkij->vij", mesh.weights.astype(np.float64), moved[mesh.joints])
     turned = blended[:, :3, :3]
     positions_m = np.einsum("vij,vj->vi", turned, mesh.positions_m) + blended[:, :3, 3]

@@ -1,7 +1,7 @@
 """Anatomical rotation axes of the bones of a file, in each bone's space.
 
-Formats with Euler angles rotate about three axes in order. At a quarter turn about the middle one, the other two
-coincide and curves jump; so the middle axis is one with little rotation, and the first one a hinge where possible. The
+Formats with Euler angles rotate about three axes in order. If the middle rotation is a quarter turn, the other two axes
+coincide and curves jump; so the middle axis is one with little rotation, and the first one a hinge if possible. The
 skeleton's table (`metadata.skeleton_profile`) has the order for each kind of joint; the file uses the nearest axes of
 the bone. The result does not depend on a motion, so all files on one skeleton agree.
 """
@@ -25,12 +25,13 @@ OBJECT_AXES: FloatArray = np.eye(3)[[1, 2, 0]]
 
 
 def bone_axes(target: TargetSkeleton, skeleton: Skeleton) -> tuple[FloatArray | None, ...]:
-    """Rotation axes (3, 3) of each bone of a target, in the form of `app.formats.scene.Bone`; None for a bone that is
-    no joint.
+    """Return the rotation axes (3, 3) of each bone of a target, in the form of `app.formats.scene.Bone`; None for a
+    bone that is no joint.
 
     Parameters
     ----------
     target : TargetSkeleton
+        Skeleton with the bones.
     skeleton : Skeleton
         Skeleton of the character, whose joints correspond to the target's bones.
     """
@@ -50,7 +51,9 @@ def bone_axes(target: TargetSkeleton, skeleton: Skeleton) -> tuple[FloatArray | 
 
 
 def _in_bone(axes: JointAxes, turns: tuple[Turn, ...], joint_from_bone: FloatArray) -> FloatArray:
-    """Axes (N, 3) of a joint for the given turns, in that order, in the frame of its bone."""
+    """Return the axes (N, 3) of a joint named in ``turns`` (such as flexion), in that order, in the frame of
+    its bone.
+    """
     rows = np.array([getattr(axes, turn) for turn in turns], np.float64)
     turned: FloatArray = quaternion.rotate(quaternion.conjugate(joint_from_bone), rows)
     return turned

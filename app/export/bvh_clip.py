@@ -1,5 +1,5 @@
-"""Converts a character's scene to a BVH clip with joints from the hips on, in centimetres, optionally with bone names
-of other programs.
+"""Conversion of a character's scene to a BVH clip with joints from the hips on, in centimetres, optionally with bone
+names of other programs.
 """
 
 from __future__ import annotations
@@ -30,20 +30,21 @@ _SHORTEST_CM = 1.0
 def scene_bvh(
     scene: Scene, names: Mapping[int, str] = MappingProxyType({}), t_pose: AnyFloatArray | None = None
 ) -> BvhClip:
-    """Convert the skeleton from the translating bone (the hips) on; motion of the bones above is included in it.
+    """Return a scene's skeleton and motion as a BVH clip whose root is the hips; motion of the bones above is included
+    in the root.
 
-    Only the root of a BVH file translates, so translations of other bones are lost, and bones that only translate, such
-    as sockets, are left out. The rest pose of BVH has zero angles and unrotated bones, so bones get new frames: those
-    of the world in the T-pose.
+    In a BVH file only the root translates, so translations of other bones are lost, and bones that only translate, such
+    as sockets, are left out. In BVH all angles are 0 at rest and bones are not rotated, so bones get new frames, which
+    are parallel to the world in the T-pose.
 
     Parameters
     ----------
     scene : Scene
         Scene with a clip.
     names : mapping of int to str
-        Names for bones, where they differ from the scene's.
+        Names of bones that differ from the scene's.
     t_pose : ndarray, shape (B, 4), optional
-        Rotations of the bones relative to their parents in the T-pose; None: the scene's rest.
+        Rotations of the bones relative to their parents in the T-pose; by default those at rest.
     """
     clip = scene.clip
     if clip is None:
@@ -90,7 +91,9 @@ def _frames(scene: Scene, t_pose: AnyFloatArray | None) -> FloatArray:
 
 
 def _first(scene: Scene, clip: Clip) -> int:
-    """Lowest translating bone with more than half of the skeleton below it; this excludes hands and props."""
+    """Return the lowest bone that translates and has more than half of the skeleton below it, normally the hips; this
+    excludes hands and props.
+    """
     below = {bone: len(_below(scene, bone)) for bone in clip.translations_cm}
     trunk = [bone for bone, count in below.items() if 2 * count > len(scene.bones)]
     return max(trunk, default=0)
@@ -113,7 +116,7 @@ def _without_props(scene: Scene, clip: Clip, bones: list[int], first: int) -> li
 
 
 def _world(scene: Scene, clip: Clip, bone: int) -> tuple[FloatArray, FloatArray]:
-    """World position (F, 3) and rotation (F, 4) of a bone."""
+    """Return the world position (F, 3) and rotation (F, 4) of a bone in all frames."""
     place, rotation = np.zeros((clip.frames, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (clip.frames, 1))
     while bone >= 0:
         own = np.asarray(clip.rotations_xyzw[:, bone], np.float64)
@@ -147,7 +150,9 @@ def _end_sites_cm(scene: Scene, chosen: list[int]) -> dict[int, FloatArray]:
 
 
 def _own_points_cm(scene: Scene, bones: Sequence[int]) -> dict[int, list[FloatArray]]:
-    """Vertices of all meshes that each bone mainly holds, in the bone's frame, by bone."""
+    """Return for each of some bones a list, with an array (N, 3) for each mesh, of the vertices that it mainly moves,
+    in the bone's frame in centimetres.
+    """
     found: dict[int, list[FloatArray]] = {bone: [] for bone in bones}
     requested = np.zeros(len(scene.bones), bool)
     requested[list(bones)] = True
@@ -168,8 +173,9 @@ SPINE = ("spine", "chest", "upperChest")
 
 
 def joint_names(table: BoneNames) -> dict[str, str]:
-    """Return a bone name for every joint in a table of names; the first one if there are several. Of the bones between
-    hips and neck the lowest ones are matched."""
+    """Return a bone name for every joint in a table of names, the first if there are several. If the table names fewer
+    bones between hips and neck than there are joints, the lowest joints get them.
+    """
     result = {joint: names[0] for joint, names in table.middle.items()}
     result |= {joint: names[0] for joint, names in zip(SPINE, table.spine, strict=False)}
     for side, words in (("left", table.left), ("right", table.right)):
@@ -178,13 +184,15 @@ def joint_names(table: BoneNames) -> dict[str, str]:
 
 
 def profile_names(profile: str, target: TargetSkeleton, skeleton: Skeleton) -> dict[int, str]:
-    """Bone names of a profile for a target skeleton; a bone that is no joint of the profile keeps its name.
+    """Return names from a table of bone names for the bones of a target skeleton, by bone index; a bone that is no
+    joint in the table keeps its name.
 
     Parameters
     ----------
     profile : str
-        Name of a table of bone names.
+        Name of the table.
     target : TargetSkeleton
+        Skeleton whose bones are named.
     skeleton : Skeleton
         Skeleton of the character, whose joints correspond to the target's bones.
     """

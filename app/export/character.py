@@ -1,4 +1,5 @@
-"""Converts a character and its motion to the scene of a file: centimetres, one root, the player at the origin facing
+"""Conversion of a character and its motion to the scene of a file: centimetres, one root, the player at the origin
+facing
 +Z.
 """
 
@@ -43,11 +44,12 @@ def character_scene(
     *,
     face_parts: tuple[FacePart, ...] = FACE_PARTS,
 ) -> Scene:
-    """The scene of one player.
+    """Return the scene of a character with a motion.
 
     Parameters
     ----------
     character : Character
+        The character.
     motion : Motion
         Motion of this character's skeleton.
     name : str
@@ -57,16 +59,17 @@ def character_scene(
     target : TargetSkeleton, optional
         Skeleton to write on; by default the normalised skeleton.
     held : sequence of Trajectory
-        Trajectories of the musician's instruments, if the target has sockets for several; none: the motion's own.
+        Trajectories of the musician's instruments, if the target has sockets for several; empty for the motion's only
+        instrument.
     face_parts : tuple of FacePart
         Parts of the face with curves.
 
     Returns
     -------
     Scene
-        On the skeleton of the character's own file: that file's meshes and morphs. On any other skeleton one mesh of
-        all meshes with vertices in order (so landmarks stay valid) and all morph targets. The clip animates the morphs
-        that the motion uses.
+        On the skeleton of the character's own file, it has that file's meshes and morphs. On any other skeleton it has
+        one mesh, joined from all meshes with the vertices in order (so landmarks stay valid), and all morph targets.
+        The clip animates the morphs that the motion uses.
     """
     target = normalised_target(character.skeleton) if target is None else target
     eyes = eyes_of_file(character, motion, target)
@@ -101,7 +104,9 @@ _LIT: Final[IdentityCache[Mesh]] = IdentityCache(128)
 
 
 def _shaped(character: Character, eyes: str) -> Character:
-    """The character with all effects of morphs needed in a file."""
+    """Return a character whose morphs include all effects that a file needs: changes of normals, and, if shapes rotate
+    the eyes, the eyeballs.
+    """
     if eyes == "shapes":
         character = with_turned_balls(character)
     return replace(character, meshes=tuple(map(with_morph_normals, character.meshes)))
@@ -130,8 +135,10 @@ def character_clip(
     morph_weights: Mapping[str, SingleArray],
     held: Sequence[Trajectory] = (),
 ) -> Clip:
-    """Return the animation clip of an exported character: motion of the bones in the target's axes, and the weights
-    (F,) of the face's morphs by name."""
+    """Return the animation clip of an exported character.
+
+    ``morph_weights`` are the weights (F,) of the face's morphs by name; ``held`` as in `character_scene`.
+    """
     if target.normalised:  # there is nothing to work out
         bones = BoneMotion(motion.rotations, {target.hips: motion.hips_m.astype(np.float64)})
     else:
@@ -147,8 +154,9 @@ def character_clip(
 
 
 def _own_meshes(figure: Figure, target: TargetSkeleton, name: str) -> tuple[SkinnedMesh, ...]:
-    """Meshes of the user's figure for export, bound to its bones in the rest pose of the target; ``name`` prefixes
-    their names."""
+    """Return the meshes of the user's figure, bound to its bones in the rest pose of the target; ``name`` prefixes
+    their names.
+    """
     binds = matrices(*world_placements(target.parents, target.offsets_m * CENTIMETRES, target.rest))
     added = len(target.names) - len(target.added) - len(figure.bone_names)
     names = mesh_names([f"{name}_{mesh.name or 'mesh'}" for mesh in figure.meshes], target.names)
@@ -161,7 +169,9 @@ def _own_meshes(figure: Figure, target: TargetSkeleton, name: str) -> tuple[Skin
 
 
 def _joined_mesh(character: Character, target: TargetSkeleton, name: str) -> SkinnedMesh:
-    """All meshes of a character joined, on the bones of a target; a joint without a bone is merged with its parent."""
+    """Return all meshes of a character joined to one, bound to the bones of a target; a joint without a bone is merged
+    with its parent.
+    """
     binds = rest_transforms(character, target)
     meshes = [
         skinned_mesh(mesh, mesh.name, mesh.joints, mesh.weights, binds) for mesh in bound_meshes(character, target)
@@ -176,7 +186,7 @@ def skinned_mesh(
     weights: SingleArray,
     world_from_bone_bind: AnyFloatArray,
 ) -> SkinnedMesh:
-    """A mesh bound to bones. UVs are converted from v down (glTF) to v up (FBX)."""
+    """Return a mesh bound to bones; UVs are converted from v down (glTF) to v up (FBX)."""
     uvs = mesh.uvs.astype(np.float64)
     uvs[:, 1] = 1.0 - uvs[:, 1]
     return SkinnedMesh(
@@ -200,5 +210,7 @@ def skinned_mesh(
 
 
 def mesh_names(names: Iterable[str], bones: Iterable[str]) -> tuple[str, ...]:
-    """Mesh names that differ from each other and from bone names, since Unreal and Blender identify objects by name."""
+    """Return mesh names that differ from each other and from bone names, since Unreal and Blender identify objects by
+    name.
+    """
     return numbered(names, bones)

@@ -1,4 +1,4 @@
-"""Compares an export's skeleton with that of an asset, bone by bone.
+"""Comparison of an export's skeleton with that of an Unreal asset, bone by bone.
 
 Unreal matches bones by name. Another root name, parent or unit of length corrupts an animation, and animation of bones
 missing in the asset is dropped silently: these differences are severe, all others informative.
@@ -39,6 +39,7 @@ class SkeletonDifference(msgspec.Struct, frozen=True):
     Attributes
     ----------
     kind : DifferenceKind
+        Kind of difference, such as a missing bone.
     bone : str
         Name of the bone; empty if it concerns the whole skeleton.
     severe : bool
@@ -58,11 +59,12 @@ class SkeletonDifference(msgspec.Struct, frozen=True):
 
 
 def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[SkeletonDifference, ...]:
-    """Differences between the skeleton of an export and an asset's, most severe first.
+    """Return the differences between the skeleton of an export and that of an asset, most severe first.
 
     Parameters
     ----------
     target : TargetSkeleton
+        Skeleton of the export.
     asset : Figure
         The asset as in its file.
     """
@@ -104,7 +106,7 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[SkeletonDiffe
 
 
 def without_armature(asset: Figure) -> Figure:
-    """The bones that Unreal imports from a file, without Blender's armature object."""
+    """Return an asset as Unreal imports it: without Blender's armature object as root."""
     if not has_armature(asset):
         return asset
     translations, rotations = asset.translations_m[1:].copy(), asset.rotations[1:].copy()
@@ -121,8 +123,8 @@ def without_armature(asset: Figure) -> Figure:
 
 
 def reported(differences: Sequence[SkeletonDifference]) -> tuple[Message, ...]:
-    """Messages about the differences, most severe first: number of each kind with the bones' names, or the largest
-    difference.
+    """Return messages about differences, most severe first: for each kind the number and names of its bones, or the
+    largest difference.
     """
     messages = [
         _severe(difference) for difference in differences if difference.severe and difference.kind != "additional"
@@ -165,7 +167,9 @@ def _roots(target: TargetSkeleton, asset: Figure) -> list[SkeletonDifference]:
 
 
 def _unit(target: TargetSkeleton, asset: Figure) -> list[SkeletonDifference]:
-    """Difference of units, found by comparing the lengths of common bones; empty if the units agree."""
+    """Return the difference in units of length, found by comparing the lengths of common bones; empty if the units
+    agree.
+    """
     theirs = {name: bone for bone, name in enumerate(asset.bone_names)}
     both = [
         (bone, theirs[name]) for bone, name in enumerate(target.names) if name in theirs and target.parents[bone] >= 0

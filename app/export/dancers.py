@@ -1,4 +1,4 @@
-"""Writes a dancer's files and measures them after reading them back."""
+"""Export of a dancer: the files are written, read back and measured."""
 
 from __future__ import annotations
 
@@ -26,8 +26,11 @@ from app.rig.sole import SIDES, foot_tip_m
 
 
 def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, standing: BoolArray) -> DancerMeasures:
-    """Measure in an exported file that was read back how far standing feet slide, bones change their length, and feet
-    are below the floor; ``standing`` (F, 2) is the planned floor contact of left and right foot."""
+    """Measure an exported file that was read back: sliding of standing feet, changes of bone lengths, and feet below
+    the floor.
+
+    ``standing`` (F, 2) is whether left and right foot are planned to stand.
+    """
     assert scene.clip is not None
     playback = ScenePlayback(scene, scene.clip)
     joints = JointPlayback(playback, target, character)
@@ -57,7 +60,7 @@ def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, s
 
 
 def export_dancer(request: ExportRequest, cast: CastDancing, folder: Path, reported: Progress) -> DancerReport:
-    """Write and measure the files of a dancer; parameters as in `app.export.player.export_player`."""
+    """Write and measure the files of a dancer; see `app.export.player.export_player` for the parameters."""
     dancer, dancing, span = cast.dancer, cast.dancing, request.span
     files, rows = file_names(request.performance, request.formats)[dancer.id], requested(request.formats)
     reported(0.0)

@@ -1,4 +1,4 @@
-"""Remarks about earlier exports at a destination: with other bars, or of the same music under another name."""
+"""Remarks about earlier exports in a folder: with other bars, or of the same music under another name."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_PIECES: Final = 64
 
 
 class _EarlierReport(msgspec.Struct, frozen=True):
-    """Bars of an export in its ``report.json``; None: the whole piece."""
+    """The exported bars in the ``report.json`` of an earlier export; None for the whole piece."""
 
     bars: tuple[int, int] | None
 
@@ -53,7 +53,9 @@ class _EarlierPerformance(msgspec.Struct, frozen=True):
 
 
 def other_bars(folder: Path, bars: tuple[int, int] | None) -> Message | None:
-    """Return a remark if the export in a folder has other bars than these (first and last; None: the whole piece)."""
+    """Return a remark if the earlier export in a folder has other bars than ``bars`` (first and last; None for the
+    whole piece); None if there is nothing to remark.
+    """
     try:
         there = decode_json(read_file(folder / REPORT, MOST_BYTES), _EarlierReport, REPORT).bars
     except (OSError, FileError):

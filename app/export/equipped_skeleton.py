@@ -40,8 +40,9 @@ _KEPT: Final = {
 
 @dataclass
 class _Growing:
-    """A target skeleton while bones are added to it; positions and rotations in world space, at rest and in the
-    T-pose."""
+    """A target skeleton to which bones are added; positions and rotations are in world space, at rest and in the
+    T-pose.
+    """
 
     target: TargetSkeleton
     names: list[str] = field(default_factory=list)
@@ -66,8 +67,11 @@ class _Growing:
     def add(
         self, name: str, parent: int, position: FloatArray, turn: FloatArray, in_t: FloatArray, own: FloatArray
     ) -> int:
-        """Add a bone to the skeleton being built at a position (3,) and rotation (4,) in world space (``in_t``: in the
-        T-pose), and return its index."""
+        """Add a bone with a world position (3,) and rotation (4,) at rest, and rotation ``in_t`` in the T-pose; return
+        its index.
+
+        ``own`` is the bone's rotation relative to the joint that it follows.
+        """
         self.names += numbered([name], self.names)
         self.parents.append(parent)
         self.rest.append((position, turn))
@@ -98,10 +102,10 @@ class _Growing:
 
 
 def equipped(target: TargetSkeleton, character: Character, rig: Rig) -> TargetSkeleton:
-    """Add the requested bones to a target.
+    """Return a target skeleton with the requested optional bones.
 
-    The skeleton of a character's own file keeps its rest pose, its twist bones and, if that is a joint of the body, its
-    root bone; messages report this.
+    The skeleton of a character's own file keeps its rest pose, its twist bones and, if the root is a joint of the body,
+    its root bone; messages report this.
     """
     if rig.options == DEFAULT_RIG:
         return target
@@ -167,7 +171,7 @@ def _add_ik_targets(growing: _Growing, skeleton: Skeleton) -> dict[str, int]:
 
 
 def _add_sockets(growing: _Growing, skeleton: Skeleton, rig: Rig, hands: Mapping[str, int]) -> None:
-    """Add a socket for each instrument on the hand that holds it, at rest where the instrument is in the hand."""
+    """Add a socket for each instrument to the hand that holds it, at the place of the instrument in the hand."""
     for number, grip in enumerate(rig.grips):
         hand = growing.target.bone_of_joint[skeleton.index(f"{grip.side}Hand")]
         parent = hands[grip.side]
@@ -186,5 +190,7 @@ def _add_sockets(growing: _Growing, skeleton: Skeleton, rig: Rig, hands: Mapping
 
 
 def socket_names(target: TargetSkeleton) -> Sequence[str]:
-    """Names of the sockets, one for each instrument of the musician; empty if instruments are not attached."""
+    """Return the names of the sockets, one for each instrument of the musician; empty if instruments are not
+    attached.
+    """
     return [target.names[bone] for bone, _ in sorted(target.sockets.items(), key=lambda item: item[1])]

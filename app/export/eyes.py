@@ -1,7 +1,7 @@
-"""Splits the rotation of eyes between ARKit's eyeLook shapes and eye bones, so that it is applied once.
+"""Division of the rotation of eyes between ARKit's eyeLook shapes and eye bones, so that it is applied once.
 
-Programs add the effects of bones and shapes. If shapes rotate the eyeball, the bone only adds the rest, which is
-nothing for this program's shapes; in formats without shapes the bone has the whole rotation.
+Programs add the effects of bones and shapes. If shapes rotate the eyeball, the bone has only the remainder, which is
+zero for this program's shapes; in formats without shapes the bone has the whole rotation.
 """
 
 from __future__ import annotations
@@ -31,21 +31,23 @@ _AHEAD: Final = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True, eq=False)
 class EyesOfFile:
-    """Motion of a character whose eyes are turned partly by joints and partly by morph targets, as files need it.
+    """Motion of a character whose eyes are rotated partly by joints and partly by morphs, as it is written to files.
 
     Attributes
     ----------
     motion : Motion
-        Holds the weights of the morph targets; the eyes' joints turn by what those do not make.
+        Motion whose eye joints have only the rotation that the morphs do not make.
     turned : mapping of str to (F, 4) float64
-        By joint: the rotation that the morph targets make. The joint's own rotation times this one is the whole turn.
+        Rotation that the morphs make, by joint. The joint's rotation times this one is the complete rotation.
     """
 
     motion: Motion
     turned: Mapping[str, FloatArray]
 
     def whole(self, target: TargetSkeleton, character: Character, rotations: AnyFloatArray) -> dict[int, FloatArray]:
-        """Full rotations (F, 4) relative to the parent for the bones that are partly rotated by shapes."""
+        """Return the complete rotations (F, 4) relative to the parent of those bones that are partly rotated by morphs,
+        by bone; ``rotations`` are those of all bones without the morphs.
+        """
         found = {}
         for name, turn in self.turned.items():
             bone = target.bone_of_joint.get(character.skeleton.index(name), -1)
@@ -57,7 +59,7 @@ class EyesOfFile:
 
 
 def eyes_of_file(character: Character, motion: Motion, target: TargetSkeleton) -> EyesOfFile:
-    """Split the rotation of the eyes between shapes and bones."""
+    """Divide the rotation of the eyes between morphs and bones."""
     own = character.own if target.choice == "own" else None
     joints = {side: character.skeleton.index(eye_joint(side)) for side in EYE_SIDES if _has(character, side)}
     if own is None:
@@ -81,7 +83,7 @@ def eyes_of_file(character: Character, motion: Motion, target: TargetSkeleton) -
 
 
 def with_turned_balls(character: Character) -> Character:
-    """Make the eyeLook shapes of a character also rotate its eyeballs."""
+    """Return a character whose eyeLook morphs also rotate its eyeballs."""
     if not any(_has(character, side) for side in EYE_SIDES):
         return character
     return replace(character, meshes=tuple(_turned_mesh(character, mesh) for mesh in character.meshes))
@@ -108,8 +110,9 @@ def _turned_mesh(character: Character, mesh: Mesh) -> Mesh:
 
 
 def _added(morph: Morph | None, name: str, vertices: np.ndarray, moved: FloatArray, count: int) -> Morph:
-    """Return a morph of ``count`` vertices that moves ``vertices`` by ``moved`` (metres) in addition to ``morph``; None
-    begins a new one."""
+    """Return a morph of ``count`` vertices that moves ``vertices`` by ``moved`` (metres) in addition to ``morph``; for
+    None a new morph.
+    """
     if morph is None:
         return Morph(name, vertices.astype(np.int32), moved.astype(np.float32), None)
     deltas_m = np.zeros((count, 3))
@@ -128,7 +131,10 @@ def _without(morphs: Mapping[str, SingleArray], names: set[str]) -> dict[str, Si
 
 
 def _made(ways: Mapping[str, FloatArray], side: EyeSide, morphs: Mapping[str, SingleArray], frames: int) -> FloatArray:
-    """Unit direction (F, 3) of an eye that looks ahead, after shapes are applied."""
+    """Return the unit direction (F, 3) of an eye that looks ahead at rest, after its eyeLook morphs are applied.
+
+    ``ways`` has the rotation by each morph.
+    """
     place = np.tile(_AHEAD, (frames, 1))
     for way, turn in ways.items():
         weights = morphs.get(shape_name(side, way))
@@ -139,13 +145,15 @@ def _made(ways: Mapping[str, FloatArray], side: EyeSide, morphs: Mapping[str, Si
 
 
 def _between(start: FloatArray, end: FloatArray) -> FloatArray:
-    """Shortest rotations (F, 4) from unit directions to others."""
+    """Return the shortest rotations (F, 4) from unit directions ``start`` (F, 3) to ``end`` (F, 3)."""
     across, along = np.cross(start, end), 1.0 + np.sum(start * end, axis=1)
     return quaternion.normalize(np.concatenate([across, along[:, None]], axis=1))
 
 
 def _turns_of(own: OwnSkeleton, joint: int, side: EyeSide) -> dict[str, FloatArray]:
-    """Rotation (4,) of the eyeball by each of a figure's own shapes; shapes that only move lids are left out."""
+    """Return the rotation (4,) of the eyeball by each of a figure's own eyeLook morphs; morphs that only move lids are
+    left out.
+    """
     bone = own.bone_of_joint[joint]
     found: dict[str, FloatArray] = {}
     for way in SHAPES_RAD:
@@ -158,7 +166,9 @@ def _turns_of(own: OwnSkeleton, joint: int, side: EyeSide) -> dict[str, FloatArr
 
 
 def _turn_of_ball(figure: Figure, bone: int, recipe: Mapping[str, float]) -> FloatArray:
-    """Rotation about a bone that best fits the displacement of its vertices by morphs."""
+    """Return the rotation (4,) about a bone that best fits the displacement of its vertices by morphs with the weights
+    ``recipe``.
+    """
     places_m, _ = world_placements(figure.parents, figure.translations_m, figure.rotations)
     before, after = [np.zeros((0, 3))], [np.zeros((0, 3))]
     for mesh in figure.meshes:

@@ -1,4 +1,4 @@
-"""Selects and names the face curves of exported files.
+"""Selection and names of the face curves in exported files.
 
 A studio may combine parts of the face from a capture with others from this program. Other face rigs use other names for
 the same shapes:
@@ -46,11 +46,12 @@ _BEGINNINGS: Final[Mapping[str, FacePart]] = {
 
 
 class FaceOptions(msgspec.Struct, frozen=True):
-    """Requested curves of faces.
+    """Choice of face curves in exported files.
 
     Attributes
     ----------
     names : CurveNames
+        Convention by which the curves are named.
     parts : tuple of FacePart
         Parts of the face whose curves are written.
     """
@@ -63,21 +64,25 @@ DEFAULT_FACE: Final = FaceOptions()
 
 
 def part_of(shape: str) -> FacePart | None:
-    """The part of a face that a shape moves; None for shapes other than ARKit's, such as breathing of the trunk."""
+    """Return the part of a face that a shape moves; None for shapes other than ARKit's, such as breathing of
+    the trunk.
+    """
     if shape not in ARKIT_MORPHS:
         return None
     return next(part for beginning, part in _BEGINNINGS.items() if shape.startswith(beginning))
 
 
 def written_weights(weights: Mapping[str, SingleArray], parts: tuple[FacePart, ...]) -> dict[str, SingleArray]:
-    """Keep only the weights of those ARKit shapes that belong to the given parts of the face; other shapes are kept
-    too."""
+    """Return only those weights whose ARKit shapes belong to the given parts of the face; shapes other than ARKit's
+    stay.
+    """
     return {shape: values for shape, values in weights.items() if part_of(shape) in (None, *parts)}
 
 
 def curve_names(names: CurveNames) -> Mapping[str, Mapping[str, float]]:
-    """Names of animation curves for each ARKit shape, each with the share 0..1 of the shape's weight that it
-    receives."""
+    """Return for each ARKit shape the names of its animation curves, each with the share 0..1 of the shape's weight
+    that it receives.
+    """
     if names == "arkit":
         return {shape: {shape: 1.0} for shape in ARKIT_MORPHS}
     if names == "audio2face":
@@ -87,7 +92,7 @@ def curve_names(names: CurveNames) -> Mapping[str, Mapping[str, float]]:
 
 
 def with_curve_names(scene: Scene, names: CurveNames) -> Scene:
-    """Rename a scene's face curves and morph targets, so that the mesh moves as before.
+    """Return a scene with renamed face curves and morph targets, in which the mesh moves as before.
 
     A shape may drive several curves, and a curve several shapes: curve weights are summed, and the mesh's targets are
     chosen such that the curves together reproduce the shapes.

@@ -1,7 +1,8 @@
-"""Characters with few materials: small surfaces share one picture, and cards of hair, brows and lashes another.
+"""Characters with few materials: small surfaces share one texture, and cards of hair, brows and lashes another.
 
-Every material of a mesh is a call of the graphics card and a slot to be set up in other programs. What has no picture
-but a colour becomes a spot of one; what has a picture keeps it, beside the others.
+Every material of a mesh is a draw call of the graphics card, and a slot to be set up in other programs. A material with
+only a colour becomes a small square of that colour in the shared texture; a material with a texture is copied beside
+it.
 """
 
 from __future__ import annotations
@@ -32,7 +33,9 @@ Place = tuple[int, int, int, int]
 
 @dataclass(frozen=True)
 class _Sheet:
-    """A shared material, and by material it takes the place of: its place in the picture, in shares of its sides."""
+    """A shared material, and the rectangle (left, top, width, height; shares of the sides) of each replaced material in
+    its texture.
+    """
 
     material: Material
     places: Mapping[Material, tuple[float, float, float, float]]
@@ -40,7 +43,9 @@ class _Sheet:
 
 @lru_cache(maxsize=32)
 def with_few_materials(character: Character) -> Character:
-    """Return a character whose small surfaces share a material; one from a file of the user's own stays as it is."""
+    """Return a character whose small surfaces share a material; a character from the user's file is returned
+    unchanged.
+    """
     if character.own is not None:
         return character
     materials = tuple(dict.fromkeys(one for mesh in character.meshes for one in mesh.materials))
@@ -54,14 +59,14 @@ def with_few_materials(character: Character) -> Character:
 
 
 def _is_small(material: Material) -> bool:
-    """Return whether a surface has at most a picture of its colours, once over."""
+    """Return whether a material is opaque and has at most a colour texture, which does not repeat."""
     textures = material.textures
     alone = textures.normal is None and textures.metallic_roughness is None and textures.occlusion is None
     return alone and material.alpha_mode == "opaque" and _is_once(textures.color)
 
 
 def _is_card(material: Material) -> bool:
-    """Return whether a surface is cut out of its picture."""
+    """Return whether a material is a cut-out (such as a card of hair) whose texture does not repeat."""
     textures = material.textures
     plain = textures.metallic_roughness is None and textures.occlusion is None
     return plain and material.alpha_mode == "mask" and textures.color is not None and _is_once(textures.color)
@@ -73,7 +78,7 @@ def _is_once(use: TextureUse | None) -> bool:
 
 @lru_cache(maxsize=32)
 def _details(materials: tuple[Material, ...]) -> _Sheet:
-    """Return one material for all opaque surfaces, whose picture holds their colours."""
+    """Return one material for all given opaque ones, whose textures hold their colours, roughness and metallic."""
     pictures = [None if one.textures.color is None else one.textures.color.texture for one in materials]
     places, size = _packed([(SPOT_PX, SPOT_PX) if one is None else size_px(one) for one in pictures])
     colors: list[tuple[Texture | tuple[int, int, int], Place]] = []
@@ -104,7 +109,9 @@ def _details(materials: tuple[Material, ...]) -> _Sheet:
 
 @lru_cache(maxsize=32)
 def _cards(materials: tuple[Material, ...]) -> _Sheet:
-    """One material of cards; its colour is the brightest of theirs, by which the others are darker in the picture."""
+    """Return one material for all given cut-out ones. Its base colour is the brightest of theirs; darker ones are
+    darkened in the texture.
+    """
     pictures = [one.textures.color.texture for one in materials if one.textures.color is not None]
     places, size = _packed([size_px(one) for one in pictures])
     brightest = tuple(max(max(one.base_color[part] for one in materials), 1e-4) for part in range(3))
@@ -134,8 +141,9 @@ def _cards(materials: tuple[Material, ...]) -> _Sheet:
 
 
 def _packed(sizes: Sequence[tuple[int, int]]) -> tuple[list[Place], tuple[int, int]]:
-    """Return the places of pictures packed in rows, the highest first, and the size of the whole, a power of two each
-    way."""
+    """Return the rectangles of images packed in rows, the highest first, and the size of the whole, a power of two in
+    both directions.
+    """
     order = sorted(range(len(sizes)), key=lambda index: (-sizes[index][1], -sizes[index][0], index))
     best: tuple[list[Place], tuple[int, int]] | None = None
     width = _power(max(width for width, _ in sizes))
@@ -165,8 +173,9 @@ def _shares(
     places: Sequence[Place],
     size: tuple[int, int],
 ) -> dict[Material, tuple[float, float, float, float]]:
-    """Return left, top, width and height of each material's place in the shared picture, as shares 0..1; a material
-    without picture becomes a point (width and height 0)."""
+    """Return left, top, width and height of each material in the shared texture as shares 0..1; a material without a
+    texture becomes a point (width and height 0).
+    """
     found = {}
     for material, picture, (left, top, width, height) in zip(materials, pictures, places, strict=True):
         if picture is None:
@@ -176,7 +185,7 @@ def _shares(
 
 
 def _placed(mesh: Mesh, places: Mapping[Material, tuple[Material, tuple[float, float, float, float]]]) -> Mesh:
-    """A mesh with shared materials in place of its own."""
+    """Return a mesh with its materials replaced by shared ones, and its UVs moved into their textures."""
     if not any(material in places for material in mesh.materials) or _is_seamless(mesh):
         return mesh
     uvs = mesh.uvs.astype(np.float64)
@@ -192,6 +201,6 @@ def _placed(mesh: Mesh, places: Mapping[Material, tuple[Material, tuple[float, f
 
 
 def _is_seamless(mesh: Mesh) -> bool:
-    """Return whether materials of a mesh share vertices, which cannot be in two places of a picture."""
+    """Return whether materials of a mesh share vertices, whose UVs cannot be in two places of a texture."""
     used = [np.unique(mesh.triangles[mesh.triangle_materials == one]) for one in range(len(mesh.materials))]
     return sum(map(len, used)) > len(np.unique(mesh.triangles))

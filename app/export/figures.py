@@ -1,6 +1,4 @@
-"""Makes the scenes of an export's characters and instruments, on the requested skeletons and with the requested
-keys.
-"""
+"""Scenes of an export's characters and instruments, on the requested skeletons and with the requested keys."""
 
 from __future__ import annotations
 
@@ -31,7 +29,7 @@ from app.rig.supports.model import Supports
 def musician_scene(
     request: ExportRequest, musician: CastMusician, motion: Motion, kind: FileFormat | None = None
 ) -> Scene:
-    """The scene of a musician's character, with sockets for the instruments.
+    """Return the scene of a musician's character, with sockets for the instruments.
 
     Parameters
     ----------
@@ -61,14 +59,14 @@ def musician_scene(
 
 
 def held_scene(request: ExportRequest, musician: CastMusician, performer: Performer, motion: Motion) -> Scene:
-    """The scene of one of a musician's instruments, from the motion of its player."""
+    """Return the scene of one of a musician's instruments, moved by ``motion``, that of its player."""
     name, path = figure_stems(request.performance)[performer.player.id]["instrument"], own_path(musician.target, motion)
     scene = instrument_scene(performer.instrument, performer.model, motion, name, request.creator, path)
     return keyed_instrument(scene, request.keys, request.formats)
 
 
 def props_scene(request: ExportRequest, musician: CastMusician, supports: Supports, motions: Sequence[Motion]) -> Scene:
-    """The scene of a musician's straps and chair, by the motions of the player of each instrument."""
+    """Return the scene of a musician's straps and chair; ``motions`` are those of the player of each instrument."""
     name = figure_stems(request.performance)[musician.player.id]["props"]
     joints = joints_of(musician.character, motions[0])
     held = [instrument_matrices(motion) for motion in motions]
@@ -77,7 +75,7 @@ def props_scene(request: ExportRequest, musician: CastMusician, supports: Suppor
 
 
 def supports_of_musician(request: ExportRequest, musician: CastMusician) -> Supports | None:
-    """Straps and chair of a musician, where they are exported and there are any."""
+    """Return the straps and chair of a musician; None if there are none or they are not exported."""
     if not request.with_props:
         return None
     held = [HeldInstrument(one.player, one.instrument, one.grip) for one in musician.performers]

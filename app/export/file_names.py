@@ -19,7 +19,7 @@ Stems = dict[str, dict[FileContent, str]]
 
 
 def figure_stems(performance: Performance) -> Stems:
-    """Names of every character and instrument; independent of the selection of players.
+    """Return the file name, without suffix, of every character and instrument; independent of the selection of players.
 
     A doubling player only has an instrument, named after the musician.
     """
@@ -45,12 +45,12 @@ def figure_stems(performance: Performance) -> Stems:
 
 
 def file_names(performance: Performance, formats: frozenset[Format], props: bool = True) -> dict[str, dict[str, str]]:
-    """Names of the files of every player and dancer: by id, then by what they hold.
+    """Return the names of the files of every player and dancer: by id, then by their content.
 
     Parameters
     ----------
     props : bool
-        Also those of straps and chairs, of who has any.
+        Whether to include the files of straps and chairs.
     """
     project = performance.project
     without = {one.id for one in project.bodies if not (props and _has_props(performance, project.played_by(one)))}
@@ -65,7 +65,7 @@ def file_names(performance: Performance, formats: frozenset[Format], props: bool
 
 
 def _has_props(performance: Performance, played: Sequence[Player]) -> bool:
-    """Return whether a musician sits, or any of the instruments hangs on a strap."""
+    """Return whether a musician sits or wears a strap for any of the instruments."""
     maps = [performance.library.maps.get(player.instrument_id) for player in played]
     if maps[0] is None:
         return False
@@ -74,7 +74,7 @@ def _has_props(performance: Performance, played: Sequence[Player]) -> bool:
 
 
 def sound_name(source: str) -> str:
-    """Name of the sound file, after the piece's."""
+    """Return the name of the sound file, made from that of the piece."""
     (stem,) = file_stems([Path(source).stem])
     return f"{stem}.wav"
 

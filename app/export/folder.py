@@ -1,4 +1,4 @@
-"""Writes a set of files into a folder atomically."""
+"""Atomic writing of a set of files into a folder."""
 
 from __future__ import annotations
 

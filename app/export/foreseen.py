@@ -1,4 +1,4 @@
-"""Files that an export will write, replace, remove or keep, for the dialog and the command line to say beforehand."""
+"""Preview of an export for the dialog and the command line: files that it will write, replace, remove or keep."""
 
 from __future__ import annotations
 
@@ -18,19 +18,21 @@ from app.performance.ensemble import Performance
 
 @dataclass(frozen=True)
 class Foreseen:
-    """Files that an export will write, replace, remove or keep.
+    """Preview of an export: files that it will write, replace, remove or keep.
 
     Attributes
     ----------
     count : int
-        Files that will be written.
+        Number of files that will be written.
     replaced, removed : tuple of str
-        Names of files that are there.
+        Names of existing files that will be replaced or removed.
     kept : tuple of Message
+        Messages about existing files that will be kept.
     remarks : tuple of Message
-        What an earlier export has otherwise (other bars, or the same music under another name), and formats whose files
-        will have no face.
+        Remarks about an earlier export (with other bars, or of the same music under another name), and about formats
+        whose files will have no face.
     project : UnrealProject or None
+        The Unreal project; None for an export into a folder.
     """
 
     count: int
@@ -44,12 +46,12 @@ class Foreseen:
 def foresee_unreal(
     place: Path, performance: Performance, player_ids: tuple[str, ...], source: str, bars: tuple[int, int] | None
 ) -> Foreseen:
-    """Foresee an export of some bars (None: all) into an Unreal project, by its file or folder.
+    """Return a preview of an export of some bars (None for all) into an Unreal project, given by its file or folder.
 
     Raises
     ------
     FileError
-        There is no project, or files of another program are in the way.
+        There is no project, or files of another program would be replaced.
     """
     unreal = find_project(place)
     plan = plan_export(performance, player_ids, source, unreal, by_length=True, bars=bars)
@@ -76,18 +78,18 @@ def foresee_folder(
     props: bool = True,
     motion_only: bool = False,
 ) -> Foreseen:
-    """Foresee an export into a folder.
+    """Return a preview of an export into a folder.
 
     Parameters
     ----------
     source : str
         Name of the piece's file.
     sound, stage : bool
-        Whether the sound is written too, and the whole stage in one file.
+        Whether the sound is written, and whether the whole stage is written in one file.
     bars : (int, int) or None
-        First and last bar that is exported; None: the whole piece.
+        First and last bar that is exported; None for the whole piece.
     props : bool
-        Whether straps and chairs are written too.
+        Whether straps and chairs are written.
     motion_only : bool
         Whether meshes are left out.
     """
@@ -109,6 +111,8 @@ def foresee_folder(
 
 
 def _without_face(formats: frozenset[Format]) -> Message | None:
-    """Return the remark on formats whose files without meshes have no face."""
+    """Return a remark about formats whose files have no face if they are written without meshes; None if there are
+    none.
+    """
     faceless = [row.label for row in requested(formats) if row.without_meshes and not row.face_without_meshes]
     return Message("motion_only.no_face", {"formats": ", ".join(faceless)}) if faceless else None

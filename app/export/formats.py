@@ -1,4 +1,4 @@
-"""File formats for players' characters and instruments: a table row each, with its writer."""
+"""File formats for players' characters and instruments: a table with one row for each, including its writer."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class WriteOptions:
     meshes : bool
         Whether to write meshes in formats that can omit them.
     texture_px : int
-        Longest side of textures; 0: none.
+        Longest side of textures in pixels; 0 for no textures.
     levels : int
         Levels of detail of the meshes, 1 to `MOST_LEVELS`.
     t_pose : ndarray, shape (B, 4), or None
@@ -68,18 +68,19 @@ class FileFormat:
     holds : tuple of str
         Kinds of scenes that it can hold, each in a separate file.
     held_in : Format
-        Format of the instrument files, if it cannot hold instruments; empty: none are written.
+        Other format in which instruments are written, if it cannot hold them; empty if they are not written.
     humanoid : bool
         Whether characters are always written on VRM's humanoid skeleton.
     work : float
         Relative time to write a player's files.
     write : callable
-        Writes scenes with clips as they are generated: one, or several of a stage with names and places.
+        Writes scenes with clips, each as soon as it is generated: one scene, or several of a stage with names and
+        places.
     stage : bool
         Whether it can hold several scenes.
     read : callable or None
-        Reads a file with one scene back, with the vertex order of the written meshes; the first requested format with a
-        reader is measured.
+        Reads a file with one scene back, with the vertex order of the written meshes. Files in the first requested
+        format that has this function are measured.
     usual : bool
         Whether it is written by default.
     reduces_keys : bool
@@ -129,7 +130,7 @@ class FileFormat:
 
 
 def _shown(scenes: Iterable[Scene], options: WriteOptions) -> Iterator[Scene]:
-    """Yield scenes with the requested meshes and textures."""
+    """Yield scenes with the meshes, textures and levels of detail that the options request."""
     for scene in scenes:
         if options.meshes:
             yield with_levels(with_textures(scene, options.texture_px), options.levels)
@@ -263,13 +264,14 @@ USUAL_FORMATS: Final = tuple(row.id for row in FILE_FORMATS.values() if row.usua
 
 
 def files_of(formats: Collection[Format], reads: bool = False) -> tuple[tuple[FileFormat, FileContent], ...]:
-    """The files to write for each character and instrument, in order, as formats and contents.
+    """Return the files to write for each player, in order, as pairs of format and content (such as ``character``).
 
     Parameters
     ----------
     formats : collection of str
+        Ids of the requested formats.
     reads : bool
-        Only those that are read back for measuring: not the props.
+        Whether to return only the files that are read back for measuring; these do not include props.
     """
     rows = requested(formats)
     if reads:
@@ -287,12 +289,12 @@ def requested(formats: Collection[Format]) -> tuple[FileFormat, ...]:
 
 
 def refuse_attachment(formats: Collection[Format], attachment: Attachment) -> None:
-    """Raise UsageError if instruments are to be attached to bones that files of some format lack."""
+    """Raise UsageError if instruments are to be attached to bones, but files of some format cannot have these bones."""
     without = [row.label for row in requested(formats) if row.humanoid]
     if without and attachment != "free":
         raise UsageError("attachment.formats", formats=", ".join(without))
 
 
 def names_where(true: Callable[[FileFormat], bool]) -> str:
-    """Comma-separated ids of the formats for which a condition is true."""
+    """Return the ids, separated by commas, of the formats for which a condition is true."""
     return ", ".join(row.id for row in FILE_FORMATS.values() if true(row))

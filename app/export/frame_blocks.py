@@ -1,4 +1,4 @@
-"""Reads a player's and an instrument's file in blocks of frames, once for all measures."""
+"""Reading of a player's and an instrument's file in blocks of frames, once for all measurements."""
 
 from __future__ import annotations
 
@@ -29,9 +29,13 @@ class Walk:
     Parameters
     ----------
     joints : JointPlayback
+        The player's file.
     held : ScenePlayback
+        The instrument's file.
     character : Character
+        The player's character.
     instrument : InstrumentMap
+        Map of the instrument.
     """
 
     def __init__(
@@ -58,8 +62,9 @@ class Walk:
         self._torso = np.empty((2, frames))
 
     def read(self, first: int, last: int, chosen: BoolArray) -> list[SingleArray]:
-        """Read the frames ``first`` .. ``last - 1``; returns for each hand ``world_from_joint`` (n, J, 3, 4) of the J
-        joints that move it, at the n of these frames that ``chosen`` (F,) selects."""
+        """Read the frames ``first`` .. ``last - 1``; return for each hand ``world_from_joint`` (n, J, 3, 4) of the J
+        joints that move it, at the n of these frames that ``chosen`` (F,) selects.
+        """
         at = np.flatnonzero(chosen[first:last]) + first
         # In memory (N, 3, J, 4), as depths are computed.
         found = [np.empty((len(at), 3, len(rows), 4), np.float32) for rows in self._carriers]
@@ -79,11 +84,13 @@ class Walk:
         return [joints.swapaxes(1, 2) for joints in found]
 
     def morphs(self, frames: AnyIntArray) -> dict[str, AnyFloatArray]:
-        """Weights (N,) of morphs at some frames."""
+        """Return the weights (N,) of each morph at N frames."""
         return {name: np.asarray(weights)[frames] for name, weights in self._player.clip.morph_weights.items()}
 
     def nodes(self, frames: AnyIntArray) -> dict[str, FloatArray]:
-        """``world_from_node`` (N, 4, 4) of the instrument's nodes at some of the frames that were read."""
+        """Return ``world_from_node`` (N, 4, 4) of each of the instrument's nodes at N frames of the block that was read
+        last.
+        """
         result = np.zeros((len(self._nodes), len(frames), 4, 4))
         result[:, :, :3] = self._placed[..., frames].transpose(0, 3, 1, 2)
         result[:, :, 3, 3] = 1.0
@@ -91,12 +98,12 @@ class Walk:
 
     @property
     def torso_rad(self) -> FloatArray:
-        """Angles of the torso (F, 2) in radians, sideways and forward."""
+        """Return the angles of the torso (F, 2) in radians: sideways and forward."""
         return self._torso.T
 
     @property
     def traces(self) -> Traces:
-        """Positions of the tracked points in all frames read."""
+        """Return the positions of all tracked points in all frames that were read."""
         marks_m = {name: self._marks_m[row].T for row, name in enumerate(self._middles.names)}
         nodes = {name: self._placed[row].transpose(2, 0, 1) for row, name in enumerate(self._nodes)}
         return Traces(marks_m, nodes)
@@ -118,7 +125,9 @@ def _skins(joints: JointPlayback, character: Character, names: Set[str]) -> dict
 
 
 def bone_deviation_m(joints: JointPlayback) -> FloatArray:
-    """Return the largest change of any bone's length relative to rest (F,); only animated bones can change."""
+    """Return for each frame (F,) the largest deviation of any bone's length from its rest length, in metres; only bones
+    that translate can deviate.
+    """
     player = joints.playback
     result = np.zeros(player.clip.frames)
     for bone in player.clip.translations_cm:

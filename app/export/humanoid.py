@@ -40,15 +40,17 @@ _VRM = "vrm"
 
 
 def humanoid_target(character: Character, place: NodePlace | None = None) -> TargetSkeleton:
-    """Bones of a character's VRM animation, and last the gaze bone in the middle between the eyes.
+    """Return the target skeleton of a character's VRM animation; its last bone is the gaze, in the middle between the
+    eyes.
 
     A joint missing in the character's own file has no bone; its rotation is passed to the bones below.
 
     Parameters
     ----------
     character : Character
+        The character.
     place : NodePlace or None
-        Stage transform of the hips' path; None: at the origin.
+        Transform on the stage of the hips' path; None for the origin.
     """
     skeleton, own = character.skeleton, character.own
     known = {joint.name for joint in load_skeleton("vrm1").joints} - {"root", *EYES}
@@ -101,8 +103,9 @@ def humanoid_target(character: Character, place: NodePlace | None = None) -> Tar
 
 
 def _point_at_ends(skeleton: Skeleton, positions_m: FloatArray, turns: FloatArray, limbs: Sequence[int]) -> None:
-    """Turn limbs (``turns``, in place) to where the joint below them is in the rest pose: bones between the two, which
-    a viewer leaves as they rest, may be bent there.
+    """Rotate limbs (in ``turns``, in place) so that each points to its next joint as in the rest pose.
+
+    Bones between the two, which a viewer does not move, may be bent there.
     """
     for joint in limbs:
         end = skeleton.index(_ENDS[skeleton.names[joint]])
@@ -115,7 +118,7 @@ def _point_at_ends(skeleton: Skeleton, positions_m: FloatArray, turns: FloatArra
 
 
 def humanoid_scene(character: Character, motion: Motion, name: str, creator: str, target: TargetSkeleton) -> Scene:
-    """The scene of a VRM animation on a `humanoid_target`, with a mesh that shows how a viewer displays it."""
+    """Return the scene of a VRM animation on a `humanoid_target`, with a mesh that shows how a viewer displays it."""
     scene = character_scene(character, motion, name, creator, target)
     clip = scene.clip
     assert clip is not None
@@ -129,8 +132,8 @@ def humanoid_scene(character: Character, motion: Motion, name: str, creator: str
 
 
 def gaze(character: Character, motion: Motion) -> FloatArray:
-    """Rotations (F, 4) relative to the head that turn +Z to the direction of both eyes: about the vertical axis, then
-    up or down.
+    """Return the rotations (F, 4) relative to the head that turn +Z to the mean direction of both eyes: about the
+    vertical axis, then up or down.
     """
     skeleton = character.skeleton
     ways = sum(quaternion.rotate(quaternion.normalize(motion.rotations[:, skeleton.index(eye)]), AHEAD) for eye in EYES)
@@ -142,13 +145,10 @@ def gaze(character: Character, motion: Motion) -> FloatArray:
 
 
 def vrm_expressions(character: Character) -> Mapping[str, Mapping[str, float]]:
-    """Expressions of VRM's presets as weights of ARKit shapes, by preset.
+    """Return the expressions of VRM's presets as weights of ARKit shapes, by preset.
 
-    A shape for which the character's VRM file has an expression of ARKit's name, in any spelling, is used only for that
-    one, so that nothing moves the face twice.
-
-    VRM's presets; but a shape for which the character's VRM file has an expression of ARKit's name, in any spelling, is
-    used only for that one, so that nothing moves the face twice.
+    If the character's VRM file has an expression named like an ARKit shape, in any spelling, the shape is used only for
+    that expression, so that nothing moves the face twice.
     """
     own, shapes = character.own, {name.casefold(): name for name in ARKIT_MORPHS}
     spelled = {

@@ -1,4 +1,4 @@
-"""Reduces skin weights to four influences per vertex, as game engines read, where the difference is invisible.
+"""Reduction of skin weights to four influences per vertex, which game engines require, if the difference is invisible.
 
 A vertex with more influences gets new weights on four bones, fitted by least squares to its positions in poses of the
 clip. It keeps all influences if it would ever deviate by more than `FEW_MM`.
@@ -26,7 +26,7 @@ _RIDGE = 1e-9
 
 
 def with_few_influences(scene: Scene) -> Scene:
-    """Reduce the influences of a scene's meshes; the scene must have a clip."""
+    """Return a scene whose meshes have fewer influences; the scene must have a clip."""
     counts = [np.count_nonzero(mesh.weights, axis=1).max(initial=0) for mesh in scene.meshes]
     if scene.clip is None or max(counts, default=0) <= MOST_INFLUENCES:
         return scene
@@ -66,7 +66,7 @@ def _shaped_mm(mesh: SkinnedMesh, playback: ScenePlayback) -> FloatArray:
 
 
 class _Skinned:
-    """The V vertices held by more than four bones (K bones at most), strongest first, and the search for fewer."""
+    """The vertices of a mesh that more than four bones hold, and the search for weights on at most four."""
 
     def __init__(
         self, mesh: SkinnedMesh, vertices: IntArray, joints: AnyIntArray, weights: FloatArray, playback: ScenePlayback
@@ -108,8 +108,9 @@ class _Skinned:
         return best, worst + self._off_shaped_mm(best) <= FEW_MM
 
     def _fitted(self, carried: FloatArray, chosen: tuple[int, ...]) -> FloatArray:
-        """Return the weights (V, K) of the bones ``chosen`` that move each of V vertices most nearly as before (least
-        squares)."""
+        """Return weights (V, K) of only the bones ``chosen`` that move each vertex as nearly as possible as before
+        (least squares). ``carried`` has each vertex as moved by each bone alone.
+        """
         first, *others = chosen
         # The weights' sum is 1: those of the others say that of the first.
         ways = carried[:, :, others] - carried[:, :, [first]]
@@ -128,8 +129,9 @@ class _Skinned:
         return result
 
     def _off_mm(self, world: FloatArray, weights: FloatArray) -> AnyFloatArray:
-        """Return the largest deviation (V,) of V vertices in millimetres with other weights, over the frames of
-        ``world``."""
+        """Return the largest deviation (V,) in millimetres of the vertices with other ``weights`` (V, K), over the
+        frames of ``world``.
+        """
         points = np.zeros((len(weights), len(world), 4))
         changed = (weights - self._weights)[..., None] * self._own_cm
         np.add.at(points, (np.arange(len(weights))[:, None], self._carriers), changed)
@@ -137,7 +139,8 @@ class _Skinned:
         return np.asarray(10.0 * np.sqrt(np.einsum("vaf,vaf->vf", off_cm, off_cm).max(axis=-1)))
 
     def _off_shaped_mm(self, weights: FloatArray) -> FloatArray:
-        """Return the additional deviation (V,) of V vertices in millimetres that is possible because bones also rotate
-        the displacements by morphs."""
+        """Return the additional deviation (V,) in millimetres that is possible with other weights, because bones also
+        rotate the displacements by morphs.
+        """
         off: FloatArray = np.abs(weights - self._weights).sum(axis=1) * self._shaped_mm
         return off

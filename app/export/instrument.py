@@ -1,7 +1,7 @@
-"""Converts an instrument with its moving parts to the scene of a file, in the space of its player.
+"""Conversion of an instrument with its moving parts to the scene of a file, in the space of its player.
 
 The root bone is the instrument's place in the world; every moving part is a bone below it, named after its control, or
-after its node if it only moves along.
+after its node if no control moves it by itself.
 """
 
 from __future__ import annotations
@@ -29,11 +29,12 @@ def instrument_scene(
     creator: str,
     path: Trajectory | None = None,
 ) -> Scene:
-    """The scene of a player's instrument.
+    """Return the scene of a player's instrument.
 
     Parameters
     ----------
     instrument : InstrumentMap
+        Map of the instrument.
     model : InstrumentModel
         The model named in the map.
     motion : Motion
@@ -78,8 +79,9 @@ def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple
 def instrument_clip(
     instrument: InstrumentMap, model: InstrumentModel, motion: Motion, name: str, path: Trajectory | None = None
 ) -> Clip:
-    """Return the clip of an instrument's moving parts, and of its own place, from ``motion`` unless ``path`` is
-    given."""
+    """Return the clip of an instrument's moving parts and of its root bone, whose path is ``path`` or else that of the
+    instrument in ``motion``.
+    """
     rotations = np.zeros((motion.frames, len(model.node_names), 4))
     rotations[..., 3] = 1.0
     path = instrument_path(motion) if path is None else path

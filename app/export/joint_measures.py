@@ -1,4 +1,4 @@
-"""Measures joint angles and angular accelerations in a file against human limits."""
+"""Measurement of joint angles and angular accelerations in a file against human limits."""
 
 from __future__ import annotations
 
@@ -20,8 +20,9 @@ _AXES = ("flexion", "sideways", "twist")
 
 
 class JointMeasure(msgspec.Struct, frozen=True):
-    """The joint closest to its limit of motion, or furthest beyond it: value and bound, and the number of frames
-    beyond."""
+    """The joint closest to its limit, or furthest beyond it: its value and bound, and in ``beyond`` the number of
+    frames in which any joint is beyond.
+    """
 
     joint: str
     value: float
@@ -33,8 +34,8 @@ class JointMeasure(msgspec.Struct, frozen=True):
 def measure_joints(
     joints: JointPlayback, body: Body, profile: SkeletonProfile, fps: float
 ) -> tuple[JointMeasure, JointMeasure]:
-    """Return the joint angle furthest beyond its range in degrees (negative: all angles are inside, by at least that
-    much), and the angular acceleration closest to its limit.
+    """Return two measures: the joint angle furthest beyond its range in degrees (negative if all angles are inside, by
+    at least that much), and the angular acceleration closest to its limit.
     """
     frames, limits = joints.playback.clip.frames, _limits(joints, body, profile)
     bounds = np.array([limit.acceleration_rad_s2 for limit in limits.values()])[:, None]

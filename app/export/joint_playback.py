@@ -1,4 +1,4 @@
-"""Motion of the normalised skeleton's joints in a file with any skeleton."""
+"""Motion of the normalised skeleton's joints, computed from a file with any skeleton."""
 
 from __future__ import annotations
 
@@ -32,6 +32,7 @@ class JointPlayback:
     target : TargetSkeleton
         Correspondence of bones and joints.
     character : Character
+        Character whose joints are computed.
     """
 
     def __init__(self, playback: ScenePlayback, target: TargetSkeleton, character: Character) -> None:
@@ -53,11 +54,11 @@ class JointPlayback:
 
     @cached_property
     def joint_names(self) -> Mapping[int, str]:
-        """Names of the joints represented by the file's bones, by bone."""
+        """Names of the joints that the file's bones represent, by bone index."""
         return {bone: self.names[joint] for joint, bone in self._bones.items()}
 
     def bone(self, *joints: str) -> int:
-        """Bone of the first of these joints that has one; KeyError if none has."""
+        """Return the index of the bone of the first of some joints that has one; KeyError if none has."""
         for name in joints:
             if name in self.names and self.names.index(name) in self._bones:
                 return self._bones[self.names.index(name)]
@@ -65,8 +66,9 @@ class JointPlayback:
 
     @cached_property
     def rigid(self) -> BoolArray:
-        """Mask (B,) of those of B bones whose length must be constant: all except roots, the hips and bones with
-        constraints."""
+        """Mask (B,) of the bones whose length must be constant: all except roots, the hips and bones with
+        constraints.
+        """
         parents = self.playback.parents
         return np.array([parent >= 0 and bone not in self._moved for bone, parent in enumerate(parents)])
 
@@ -78,7 +80,7 @@ class JointPlayback:
         return self._joint_rotations(slice(first, last))
 
     def curve(self, morph: str) -> FloatArray:
-        """Weight (F,) of a morph by its ARKit name; zeros if the file does not have it."""
+        """Return the weight (F,) of a morph by its ARKit name; zeros if the file lacks it."""
         curves = self.playback.clip.morph_weights
         frames = self.playback.clip.frames
         parts: Mapping[str, float] = {morph: 1.0}
@@ -122,7 +124,7 @@ class JointPlayback:
         return result
 
     def _together(self, joint: int) -> list[int]:
-        """A joint with all trunk joints above it that share its bone in the file."""
+        """Return a joint and all trunk joints above it that the file merges into the same bone."""
         found = [joint]
         if self.names[joint] in _TRUNK:
             above = self._character.skeleton.parents[joint]
@@ -133,8 +135,10 @@ class JointPlayback:
 
 
 def _elsewhere(target: TargetSkeleton, skeleton: Skeleton) -> set[int]:
-    """Bones of joints that hang from no bone of the nearest joint above that has one, as a thumb at the forearm does
-    where each finger has its own bone from the wrist on."""
+    """Return the bones of joints whose nearest mapped ancestor joint is not above them in the file's hierarchy.
+
+    An example is a thumb attached to the forearm in a rig where each finger has its own bone from the wrist on.
+    """
     there, found = set(target.joint_of_bone), set[int]()
     for bone, joint in enumerate(target.joint_of_bone):
         top = skeleton.parents[joint] if joint >= 0 else -1

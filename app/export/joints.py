@@ -1,4 +1,4 @@
-"""Computes world transforms, joint angles and angular accelerations of exported skeletons."""
+"""World transforms, joint angles and angular accelerations of exported skeletons."""
 
 from __future__ import annotations
 
@@ -29,6 +29,7 @@ def world_transforms(parents: Sequence[int], translations: FloatArray, rotations
     Returns
     -------
     (F, J, 4, 4) float64
+        ``world_from_joint``.
     """
     frames, joints, _ = translations.shape
     local = np.zeros((joints, frames, 4, 4))
@@ -47,7 +48,7 @@ def world_rows(parents: Sequence[int], local: Sequence[FloatArray], world: Float
     Parameters
     ----------
     parents : sequence of int
-        As in `world_transforms`.
+        See `world_transforms`.
     local : sequence of (3, 4, F) or (3, 4, 1) float64
         ``parent_from_joint`` of each joint without the last row; a single frame for constant ones.
     world : (J, 3, 4, F) float64
@@ -82,19 +83,19 @@ def matrix_rows(turns: FloatArray, rows: FloatArray) -> None:
 
 
 def anatomical_angles(turns: FloatArray, axes: FloatArray) -> FloatArray:
-    """Flexion, sideways and twist angles of local joint rotations, ``rotation = swing * twist``.
+    """Return the flexion, sideways and twist angles of local joint rotations, ``rotation = swing * twist``.
 
     Parameters
     ----------
     turns : (4, J, F) float64
         Unit quaternions xyzw.
     axes : (J, 3, 3) float64
-        Orthogonal unit axes of each joint in that order (`metadata.model.JointAxes`).
+        Orthogonal unit axes of each joint for flexion, sideways bend and twist (`metadata.model.JointAxes`).
 
     Returns
     -------
     (3, J, F) float64
-        Angles in radians, in that order.
+        Angles in radians: flexion, sideways, twist.
     """
     across, twist = axes[:, :2], axes[:, 2:]
     sums = np.concatenate([across, np.cross(twist, across), twist], axis=1) @ turns[:3].transpose(1, 0, 2)
@@ -116,13 +117,14 @@ def anatomical_angles(turns: FloatArray, axes: FloatArray) -> FloatArray:
 
 
 def angular_accelerations(turns: FloatArray, fps: float) -> FloatArray:
-    """Magnitude of the angular acceleration of local rotations, by second difference.
+    """Return the magnitude of the angular acceleration of local rotations, by second difference.
 
     Parameters
     ----------
     turns : (4, J, F) float64
         Unit quaternions xyzw.
     fps : float
+        Frames per second.
 
     Returns
     -------

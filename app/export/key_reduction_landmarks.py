@@ -1,4 +1,6 @@
-"""Points of a scene whose positions must be preserved by key reduction: landmarks, joints, corners of parts."""
+"""Points of a scene whose positions key reduction must preserve: landmarks, joints, and corners of boxes
+around parts.
+"""
 
 from __future__ import annotations
 
@@ -20,16 +22,19 @@ _NO_SHAPES: AnyFloatArray = np.zeros((0, 0, 3))
 
 @dataclass(frozen=True, eq=False)
 class BoneMarks:
-    """Contribution of a bone to points: ``rotation @ (points + weights @ shapes) + shares * place``.
+    """Contribution of one bone to the positions of points on a skin.
+
+    It is ``rotation @ (points + weights @ shapes) + shares * place``, with the bone's rotation and place and the
+    weights of the morphs; a point is the sum over its bones.
 
     Attributes
     ----------
     marks : (K,) int
         Indices of the points.
     points_m : (K, 3)
-        Points in the bone's frame, times the bone's shares.
+        Points in the bone's frame, multiplied by the bone's shares.
     shares : (K,)
-        Share of the point that the bone holds.
+        Share of each point that the bone holds.
     shapes_m : (M, K, 3)
         Displacement of the points by each morph of `SkinnedMarks.morphs`.
     """
@@ -47,6 +52,7 @@ class SkinnedMarks:
     Attributes
     ----------
     count : int
+        Number of points, including the joints.
     carried : mapping of int to BoneMarks
         Contributions by bone, for the points after the joints.
     morphs : tuple of str
@@ -72,7 +78,7 @@ class SkinnedMarks:
 
 @dataclass
 class _Gathered:
-    """Points being collected: index, position and share by bone, and displacement by morph."""
+    """Points while they are collected: index, position and share by bone, and displacement by morph."""
 
     count: int
     rows: dict[int, list[tuple[int, AnyFloatArray, float, dict[str, AnyFloatArray]]]] = field(default_factory=dict)
@@ -81,7 +87,7 @@ class _Gathered:
         self.rows.setdefault(bone, []).append((self.count, point_m, share, shapes_m))
 
     def add_box(self, bone: int, points_m: AnyFloatArray) -> None:
-        """Add the corners of the bounding box of some points in a bone's frame."""
+        """Add the corners of the bounding box of some points, which are in a bone's frame."""
         low, high = points_m.min(axis=0), points_m.max(axis=0)
         for corner in np.ndindex(2, 2, 2):
             self.add(bone, np.where(corner, high, low))
@@ -105,12 +111,15 @@ class _Gathered:
 def character_marks(
     joints: JointPlayback, character: Character, hanging: Mapping[int, Sequence[Mesh]] | None = None
 ) -> SkinnedMarks:
-    """Points of a character in a file: landmarks, all joints, and corners of the bounding boxes of attached objects.
+    """Return the points of a character in a file: landmarks, all joints, and corners of the bounding boxes of attached
+    objects.
 
     Parameters
     ----------
     joints : JointPlayback
+        The file.
     character : Character
+        The character.
     hanging : mapping of int to sequence of Mesh, optional
         Meshes of attached instruments at rest, by bone, in its frame.
     """
@@ -130,7 +139,8 @@ def character_marks(
 
 
 def part_marks(playback: ScenePlayback) -> SkinnedMarks:
-    """Corners of the bounding box of everything each bone holds, and all joints.
+    """Return the points of an instrument in a file: corners of the bounding box of everything each bone holds, and all
+    joints.
 
     A rigid body deviates most at a corner, so these represent the whole surface of an instrument.
     """
@@ -147,8 +157,7 @@ def part_marks(playback: ScenePlayback) -> SkinnedMarks:
 
 
 def _add_mean(gathered: _Gathered, skin: Skin) -> None:
-    """Add to ``gathered`` the mean of a landmark's vertices, as points carried by each joint and shifts by each
-    morph."""
+    """Add the mean of a landmark's vertices as one point, with the contributions of its joints and morphs."""
     share_of_vertex = skin.weights / len(skin.positions_m)
     placed = np.c_[skin.positions_m, np.ones(len(skin.positions_m))]
     points = np.einsum("vj,jik,vk->ji", share_of_vertex, skin.joint_from_mesh, placed, optimize=True)
@@ -169,7 +178,7 @@ class BoneLink:
     Attributes
     ----------
     above : int
-        Row of the ancestor; -1: none.
+        Index of the ancestor among the moving bones; -1 for none.
     turn : (3, 3) float32 or None
         Rotation of the bone's parent relative to the ancestor; None if the parent is the ancestor.
     offset_m : (3,) float32
@@ -187,13 +196,15 @@ class BoneLink:
 def rigid_links(
     marks: SkinnedMarks, parents: Sequence[int], moving: AnyIntArray, turns: AnyFloatArray, places_m: AnyFloatArray
 ) -> tuple[list[BoneLink], dict[int, BoneMarks]]:
-    """Return the links of N moving bones, and by bone the points on the skin they hold; points of bones that do not
-    move relative to their parents count with these.
+    """Return the links of N moving bones, and the contributions of bones to points on the skin; a bone that does not
+    move relative to its parent is merged with it.
 
     Parameters
     ----------
     marks : SkinnedMarks
+        Points on the skin.
     parents : sequence of int
+        Parent of each bone.
     moving : (N,) int
         Indices of the moving bones.
     turns, places_m : (B, 3, 3) and (B, 3) float64
@@ -203,8 +214,8 @@ def rigid_links(
     -------
     list of BoneLink
         Links of the moving bones in single precision, accurate to some thousandths of a millimetre.
-    dict of int to Carried
-        Contributions by row of the moving bone; -1: static points.
+    dict of int to BoneMarks
+        Contributions by index among the moving bones; -1 for points that do not move.
     """
     row_of = {bone: row for row, bone in enumerate(moving.tolist())}
     at: list[tuple[int, AnyFloatArray, AnyFloatArray]] = []
@@ -228,7 +239,7 @@ def rigid_links(
 
 
 def _joined(parts: Sequence[BoneMarks], morphs: int, count: int) -> BoneMarks:
-    """Sum of the contributions of several bones that move together."""
+    """Return the sum of the contributions of several bones that move together."""
     points_m, shares, shapes_m = np.zeros((count, 3)), np.zeros(count), np.zeros((morphs, count, 3))
     for part in parts:
         points_m[part.marks] += part.points_m

@@ -34,8 +34,9 @@ class KeyedMotion:
     Attributes
     ----------
     moving : (N,) int
-        Bones that move; rows of the other arrays correspond to these.
+        Indices of the bones that move; rows of the other arrays are these bones.
     rotations : (N, F, 4) float32
+        Rotations relative to the parent.
     angles : (N, F, 3) float32
         Euler angles in degrees, as in FBX.
     places_m : mapping of int to (F, 3) float64
@@ -79,7 +80,7 @@ class KeyedMotion:
     # How much each bone may be off
 
     def _reach_m(self) -> AnyFloatArray:
-        """Return the distance of the farthest point moved by each moving bone (N,)."""
+        """Return for each moving bone (N,) the distance in metres of the farthest point that it moves."""
         frames = np.unique(np.linspace(0, self.frames - 1, _SAMPLES).astype(int))
         marks_m = self.places_of_marks(*self.meant(frames))
         result = np.zeros(len(self.moving))
@@ -89,8 +90,10 @@ class KeyedMotion:
         return result
 
     def scaled(self) -> list[tuple[AnyIntArray, SingleArray]]:
-        """Return groups of the moving bones: their rows, and their values (n, F, D) divided by the tolerances, so that
-        1 is the permitted error; bones that translate form groups of their own."""
+        """Return groups of moving bones: their rows, and their values (n, F, D) divided by the tolerances.
+
+        A deviation of 1 is then the permitted error. Bones that translate form groups of their own.
+        """
         turns = np.concatenate([2.0 * self.rotations, np.radians(self.angles)], axis=2)
         over, within = (_CURVED_CHAIN, _CURVED_BOX) if self.curved else (_CHAIN, _BOX)
         changes = _changes(turns) / _BOX
@@ -122,7 +125,7 @@ class KeyedMotion:
     def places_of_marks(
         self, turned: AnyFloatArray, places_m: Mapping[int, AnyFloatArray], weights: AnyFloatArray
     ) -> AnyFloatArray:
-        """Positions of the points (K, f, 3) in metres at some frames.
+        """Return the positions (K, f, 3) of the K points in metres at f frames.
 
         Parameters
         ----------
@@ -161,21 +164,25 @@ class KeyedMotion:
         return result
 
     def meant(self, frames: AnyIntArray) -> KeyedPoses:
-        """Return the exact rotations, places and morph weights at the given frames (K,), to which reduced keys are
-        compared."""
+        """Return the exact rotations, positions and morph weights at the frames ``frames``, with which reduced keys are
+        compared.
+        """
         places_m = {row: values[frames] for row, values in self.places_m.items()}
         return KeyedPoses(self.rotations[:, frames].astype(np.float64), places_m, self.weights[:, frames])
 
     def shown(self, frames: AnyIntArray, spans: KeySpans, by_angles: bool) -> KeyedPoses:
-        """Motion at some frames as a program shows it that interpolates angles or quaternions between keys."""
+        """Return the motion at some frames as shown by a program that interpolates between keys: Euler angles
+        (``by_angles``) or quaternions.
+        """
         angles = spans.straight(self.angles) if by_angles else None
         turned = spans.turned(self.rotations) if angles is None else curve_rotations(self._turning, angles)
         places_m = {row: spans.row(row).straight(values[None])[0] for row, values in self.places_m.items()}
         return KeyedPoses(turned, places_m, self._face_weights[:, frames])
 
     def draw(self, kept: BoolArray, rows: AnyIntArray) -> None:
-        """Fit cubic curves through the keys ``kept`` (N, F) of the bones ``rows`` among N; does nothing for linear
-        keys."""
+        """Fit the cubic curves through the keys ``kept`` (N, F) of those moving bones with the indices ``rows``; do
+        nothing if keys are linear.
+        """
         if not self.curved:
             return
         if not self._drawn:
@@ -187,7 +194,7 @@ class KeyedMotion:
                 self._drawn_m[row] = curved_values(self.places_m[row][None], kept[row, None])[0]
 
     def drawn(self, frames: AnyIntArray, by_angles: bool) -> KeyedPoses:
-        """Motion at some frames from the fitted cubics; parameters as in `shown`."""
+        """Return the motion at some frames from the fitted cubics; parameters as in `shown`."""
         turned = self._drawn[by_angles][:, frames]
         if by_angles:
             turned = curve_rotations(self._turning, turned)
@@ -198,8 +205,9 @@ class KeyedMotion:
 
 
 class KeyedPoses(NamedTuple):
-    """Poses of N moving bones in f frames: rotations (N, f, 4), positions (f, 3) by row of those bones that move, and
-    weights (M, f) of M morphs."""
+    """Poses of N moving bones in f frames: rotations (N, f, 4), positions (f, 3) of the translating ones by row, and
+    weights (M, f) of M morphs.
+    """
 
     turned: AnyFloatArray
     places_m: Mapping[int, AnyFloatArray]
@@ -207,7 +215,7 @@ class KeyedPoses(NamedTuple):
 
 
 def together(shown: Sequence[KeyedPoses]) -> KeyedPoses:
-    """Concatenate poses of the same bones and morphs along their frames."""
+    """Return poses of the same bones and morphs concatenated along their frames."""
     return KeyedPoses(
         np.concatenate([one.turned for one in shown], axis=1),
         {row: np.concatenate([one.places_m[row] for one in shown]) for row in shown[0].places_m},
@@ -216,15 +224,16 @@ def together(shown: Sequence[KeyedPoses]) -> KeyedPoses:
 
 
 def _applied(turns: AnyFloatArray, vectors: AnyFloatArray) -> AnyFloatArray:
-    """Rotate vectors (..., f, 3), or (3,)."""
+    """Return vectors (..., f, 3), or one (3,), rotated by ``turns`` (..., f, 4)."""
     if vectors.ndim == 1 and turns.ndim == 3:
         return np.asarray((turns.reshape(-1, 3) @ vectors).reshape(-1, 3))
     return np.asarray(np.einsum("...ij,...j->...i", turns, vectors))
 
 
 def _changes(values: AnyFloatArray) -> AnyFloatArray:
-    """Return a relative estimate (N,) of the number of keys that N curves (N, F, D) of D components need: the mean
-    square root of their second differences."""
+    """Return for N curves (N, F, D) an estimate (N,) that is proportional to the number of keys they need: the mean
+    square root of their second differences.
+    """
     if values.shape[1] < 3:
         return np.zeros(len(values))
     seconds = np.diff(values, 2, axis=1)

@@ -1,8 +1,8 @@
 """Target skeleton with the core bones of Unreal Engine 5's mannequin, in the proportions of a character.
 
-Bone axes are those of an asset's file if one is given, so that its animations are interchangeable. Without a file the
-conventional axes of the mannequin (its table in `metadata`) are used, which are close but not equal; Unreal's IK
-retargeter then transfers to the asset.
+Bone axes are those of an Unreal asset's file if one is given, so that animations are interchangeable with it. Without a
+file the conventional axes of the mannequin (its table in `metadata`) are used, which are close but not equal; Unreal's
+IK retargeter then transfers animations to the asset.
 
 The mannequin has no eyes and no jaw: ``eye_l`` and ``eye_r`` are added to the head if the character has eyes; parts on
 the jaw move with the head.
@@ -34,8 +34,9 @@ TABLE: Final = ROOT / "mannequin.toml"
 
 
 class _Bone(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A bone of Unreal's mannequin as in our table: at a joint, at a position ``along`` the way between two joints, or
-    attached to another bone."""
+    """A bone of Unreal's mannequin in the program's table: at a joint, at a share ``along`` of the way between two
+    joints, or coinciding with another bone.
+    """
 
     name: str
     parent: str = ""
@@ -53,8 +54,9 @@ class _Bone(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Contents of our table of the mannequin: bones before, of, and after the two sides, added bones, and named axes X
-    and Z."""
+    """Contents of the program's table of the mannequin: bones before those of the sides, bones of each side, bones
+    after them, added bones, and the named X and Z axes.
+    """
 
     trunk: tuple[_Bone, ...]
     sides: tuple[_Bone, ...]
@@ -93,7 +95,7 @@ class MannequinAxes:
 
 
 def mannequin_axes(asset: Figure) -> MannequinAxes:
-    """Rotations of the mannequin's bones in a figure; empty if it lacks even the bones of a body."""
+    """Return the rotations of the mannequin's bones in a figure; empty if it lacks even the bones of a body."""
     names = {name: bone for bone, name in enumerate(asset.bone_names) if name in MANNEQUIN}
     bones = {bone.joint: names[bone.name] for bone in _BONES if bone.joint and bone.name in names}
     if any(joint not in bones for joint in REQUIRED_JOINTS):
@@ -114,13 +116,14 @@ def mannequin_axes(asset: Figure) -> MannequinAxes:
 
 
 def mannequin_target(skeleton: Skeleton, asset: MannequinAxes | None = None) -> TargetSkeleton:
-    """The mannequin's bones with the proportions of a character's skeleton.
+    """Return a target skeleton with the mannequin's bones in the proportions of a character.
 
     Parameters
     ----------
     skeleton : Skeleton
+        Skeleton of the character.
     asset : MannequinAxes, optional
-        Axes of the mannequin for which it is made; bones missing there use the conventional axes.
+        Axes of the asset for which it is made; bones missing there use the conventional axes.
     """
     names = tuple(MANNEQUIN)
     parents = tuple(names.index(bone.parent) if bone.parent else -1 for bone in _BONES)
@@ -160,7 +163,7 @@ def mannequin_target(skeleton: Skeleton, asset: MannequinAxes | None = None) -> 
 def _with_added(
     target: TargetSkeleton, skeleton: Skeleton, places: FloatArray, turned: FloatArray, asset: MannequinAxes
 ) -> TargetSkeleton:
-    """Add bones for those joints of the character that the mannequin lacks."""
+    """Return the target with bones for those joints of the character that the mannequin lacks."""
     added = [bone for bone in _ADDED if bone.joint in skeleton.names]
     if not added:
         return target
@@ -186,7 +189,9 @@ def _with_added(
 
 
 def _places(skeleton: Skeleton, joint_of_bone: tuple[int, ...], tied: Mapping[int, int]) -> FloatArray:
-    """World positions (B, 3) in metres of the mannequin's B bones in the T-pose of our skeleton."""
+    """Return the world positions (B, 3) in metres of the mannequin's B bones, for a character's skeleton in
+    the T-pose.
+    """
     joints = rest_positions(skeleton)
     places = np.zeros((len(_BONES), 3))
     for index, bone in enumerate(_BONES):
@@ -204,7 +209,7 @@ def _places(skeleton: Skeleton, joint_of_bone: tuple[int, ...], tied: Mapping[in
 
 
 def _axes_of(bone: _Bone) -> tuple[FloatArray, FloatArray]:
-    """Return the conventional X and Z axis (3,) of a bone of Unreal's mannequin in our world axes."""
+    """Return the conventional X and Z axis (3,) of a bone of Unreal's mannequin in this program's world axes."""
     x, z = np.array(_TABLE.axes[bone.axes])[:, [0, 2, 1]]  # Unreal's Y is our Z.
     return x, z
 
@@ -232,8 +237,10 @@ def _conventional(places: FloatArray, tied: Mapping[int, int]) -> FloatArray:
 
 
 def _way(bone: _Bone, places: FloatArray, names: tuple[str, ...]) -> FloatArray | None:
-    """Return the direction (3,) in which a bone of the mannequin points, world axes at rest: towards the next bone of
-    its chain, or, for the last one, as the bone before. None for pelvis and head."""
+    """Return the world direction (3,) in which a bone of the mannequin points at rest; None for pelvis and head.
+
+    That is towards the next bone of its chain; the last bone points like the one before.
+    """
     index = names.index(bone.name)
     chain = [
         child

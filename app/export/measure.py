@@ -1,7 +1,6 @@
-"""Measures exported files after reading them back: contacts, controls, joints, feet and breaths.
+"""Measurement of exported files after reading them back: contacts, controls, joints, feet and breaths.
 
-The generated motion is not used; besides the files only the plan (intended events) and the instrument map (positions)
-are known.
+The generated motion is not used, only the files, the plan (intended events) and the instrument map (positions).
 """
 
 from __future__ import annotations
@@ -61,8 +60,9 @@ _CHUNK = 4096
 
 
 class BreathMeasure(msgspec.Struct, frozen=True):
-    """Numbers of planned breaths, and of those visible in an exported file: by the open jaw, by the trunk, or by
-    either."""
+    """Numbers of planned breaths, and of those visible in an exported file: by the jaw that opens, by the trunk that
+    leans back, and by both as required.
+    """
 
     planned: int
     jaw_open: int
@@ -71,10 +71,11 @@ class BreathMeasure(msgspec.Struct, frozen=True):
 
 
 class PlayerMeasures(msgspec.Struct, frozen=True):
-    """Measurements of one player's exported files, by section.
+    """Measures of one player's exported files, by subject.
 
-    ``hovering``: distance of unused fingers from their nearest keys and holes. ``guides``: distance of rigid parts from
-    their intended contact; reported without a bound. ``arms``: depth of a forearm in trunk and clothes.
+    ``hovering`` is the distance of unused fingers from their nearest keys and holes. ``guides`` is the distance of
+    stiff fingers from their intended contact, reported without a bound. ``arms`` is the depth of a forearm in trunk and
+    clothes.
     """
 
     sounding_frames: int
@@ -95,7 +96,7 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True, eq=False)
 class PlayerMeasurement:
-    """Measurements of one player, with the torso's angles (F, 2) in radians (sideways, forward) for comparing
+    """Measures of one player, with the torso's angles (F, 2) in radians (sideways, forward) for comparison with other
     players.
     """
 
@@ -105,22 +106,22 @@ class PlayerMeasurement:
 
 @dataclass(frozen=True, eq=False)
 class PlayerJudge:
-    """References for measuring a player's files.
+    """Measurement of a player's files against the plan and human limits.
 
     Attributes
     ----------
     performer : Performer
-        Performer with the character whose landmarks refer to vertices of the file's meshes.
+        Player with instrument and character; the character's landmarks refer to vertices of the file's meshes.
     plan : PlayerPlan
         Plan of the whole piece; events outside the file's frames are ignored.
     target : TargetSkeleton or None
         Skeleton of the player's file; by default the normalised one.
     changing : sequence of (float, float)
-        Spans of instrument changes, in which breaths may be taken without an instrument at the lips.
+        Spans in seconds of instrument changes, in which breaths may be taken without an instrument at the lips.
     out_of_reach : set of str
         Ids of the notes that cannot be reached (`app.contacts.reach`).
     danced : DancedFeet
-        Foot movements of a player who dances.
+        Foot movements of a dance while playing.
     """
 
     performer: Performer
@@ -137,7 +138,7 @@ class PlayerJudge:
         first_frame_s: float,
         progress: Progress = lambda share: None,
     ) -> PlayerMeasurement:
-        """Measure a player's two files after reading them.
+        """Measure a player's two files, given as the scenes that were read back.
 
         Parameters
         ----------
@@ -190,7 +191,9 @@ class PlayerJudge:
         )
 
     def _lips(self, traces: Traces, notes: NoteFrames) -> dict[str, Any]:
-        """Distances of the lips from the mouthpiece during notes, and of the upper lip during breaths."""
+        """Measure the distances of the lips from the mouthpiece during notes, and of the upper lip during breaths;
+        return fields of `PlayerMeasures` by name.
+        """
         instrument, breaths = self.performer.instrument, self.plan.breaths
         # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
         blowing = notes.sounding & ~notes.within((event.start_s, event.end_s) for event in breaths)
@@ -203,8 +206,9 @@ class PlayerJudge:
         }
 
     def _touches(self, traces: Traces, notes: NoteFrames, held: ScenePlayback) -> dict[str, Any]:
-        """Measure for one player the distances of fingers on keys, of fingers that hover, and the errors of keys and
-        slides; returns fields of `PlayerMeasures` by name."""
+        """Measure the distances of fingers from their keys, also of fingers that hover, and the errors of keys and
+        slides; return fields of `PlayerMeasures` by name.
+        """
         instrument = self.performer.instrument
         values = _control_values(instrument, held) | hole_values(instrument, traces)
         closing = notes.within(map(tuple, bell_closing(self.plan.mutes, instrument.stopped).spans_s.tolist()))
@@ -226,7 +230,9 @@ class PlayerJudge:
 
 
 def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:
-    """Largest correlation of each player's curve (F,) with that of another player; 0 for a player without motion."""
+    """Return the largest correlation of each player's curve (F,) with that of another player; 0 for a player without
+    motion.
+    """
     greatest = dict.fromkeys(players, -1.0)
     for (name, curve), (other, others) in itertools.combinations(players.items(), 2):
         moves = np.ptp(curve) > 0.0 and np.ptp(others) > 0.0
@@ -237,8 +243,10 @@ def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]
 
 
 def _depths_m(walk: Walk, sounding: BoolArray, beside: Callable[[], None], progress: Progress) -> FloatArray:
-    """Depth (K,) in metres of the skin in the instrument in the frames in which notes sound, computed in chunks; lower
-    bounds except for the deepest frames. ``beside`` is called meanwhile."""
+    """Return the depth (K,) in metres of the skin in the instrument, for the K frames in which notes sound.
+
+    Except for the deepest frames, values are lower bounds. ``beside`` is called after each chunk of frames.
+    """
     frames = len(sounding)
     played = np.flatnonzero(sounding)
     depth_m = np.zeros(len(played))
@@ -269,8 +277,9 @@ def _depths_m(walk: Walk, sounding: BoolArray, beside: Callable[[], None], progr
 def slid_m(
     sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body, danced: DancedFeet = NOT_DANCED
 ) -> FloatArray:
-    """Return the distance in metres (K,) of a sole from where it was last put down, in the K frames in which it
-    stands."""
+    """Return the distance in metres (K,) of a sole from the place where it was last put down, for the K frames in which
+    it stands.
+    """
     foot: Foot = "left" if name.startswith("left") else "right"
     steps = [event for event in plan.gestures if event.kind == "step" and foot_of(event) == foot]
     put = np.zeros(len(times_s), np.int64)
@@ -286,7 +295,7 @@ def slid_m(
 
 
 def _control_values(instrument: InstrumentMap, held: ScenePlayback) -> dict[str, FloatArray]:
-    """Value (F,) of every moving control, from the position of its bone in the file."""
+    """Return the value (F,) of every moving control, from the position of its bone in the file."""
     result = {}
     for control in instrument.controls:
         if control.motion is None:
@@ -305,8 +314,8 @@ def _control_values(instrument: InstrumentMap, held: ScenePlayback) -> dict[str,
 def _breaths(
     events: Sequence[BreathEvent], times_s: FloatArray, jaw: FloatArray, torso_rad: FloatArray, mouth: bool
 ) -> BreathMeasure:
-    """Count the planned breaths during which the jaw opens and the torso leans back compared with just before; without
-    a ``mouth`` that opens, the torso suffices.
+    """Count the planned breaths during which the jaw opens and the torso leans back compared with just before; for a
+    character without a ``mouth`` that opens, the torso alone counts.
     """
     planned = opened = back = shown = 0
     for event in events:

@@ -1,4 +1,4 @@
-"""Computes the normal changes of morph targets whose files lack them.
+"""Changes of normals by morph targets, computed for files that lack them.
 
 Compares triangle normals before and after, weighted by corner angles (Thürmer and Wüthrich, 1998). Vertices with equal
 position and normal belong to one smooth surface; others at the position are separated by a hard edge and treated
@@ -23,7 +23,7 @@ _LEAST: Final = 1e-3
 
 
 def with_morph_normals(mesh: Mesh) -> Mesh:
-    """Complete the normal changes of all morphs of a mesh."""
+    """Return a mesh whose morphs all have changes of normals; missing ones are computed."""
     if all(morph.normal_deltas is not None for morph in mesh.morphs):
         return mesh
     surface = _Surface(mesh)
@@ -34,7 +34,9 @@ def with_morph_normals(mesh: Mesh) -> Mesh:
 
 
 class _Surface:
-    """Triangles of a mesh, connected at corners of smooth surfaces."""
+    """Triangles of a mesh, grouped at corners: vertices of equal position and normal are one corner of a smooth
+    surface.
+    """
 
     def __init__(self, mesh: Mesh) -> None:
         self._places_m = mesh.positions_m.astype(np.float64)
@@ -66,7 +68,9 @@ class _Surface:
         return _with(morph, vertices[deltas.any(axis=1)], deltas[deltas.any(axis=1)])
 
     def _sums(self, triangles: IntArray, places_m: FloatArray) -> FloatArray:
-        """Return the unit normals (C, 3) of C corners from the surrounding triangles; zeros elsewhere."""
+        """Return the unit normals (C, 3) of C corners, from given triangles around them with vertices at ``places_m``;
+        zeros at other corners.
+        """
         at = places_m[triangles]
         face = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])
         face /= np.maximum(np.linalg.norm(face, axis=1, keepdims=True), 1e-20)
@@ -83,7 +87,7 @@ class _Surface:
 
 
 def _with(morph: Morph, vertices: IntArray, normals: FloatArray) -> Morph:
-    """Return a morph that also changes the normals (K, 3) of the given vertices."""
+    """Return a morph that also changes the normals (K, 3) of K vertices."""
     every = np.union1d(morph.vertices, vertices).astype(np.int32)
     deltas_m, normal_deltas = np.zeros((len(every), 3), np.float32), np.zeros((len(every), 3), np.float32)
     deltas_m[np.searchsorted(every, morph.vertices)] = morph.deltas_m

@@ -36,7 +36,7 @@ _TWISTS_AT_ITS_END: Final = ("LowerArm", "LowerLeg")
 
 
 def own_target(character: Character) -> TargetSkeleton:
-    """The skeleton of a character's own file; the character must have one.
+    """Return the skeleton of a character's own file as a target; the character must have one.
 
     Unreal requires a single root: if the file has several, a bone ``root`` at the origin is added. Blender's armature
     object is left out, as in Unreal's importer. Messages report both.
@@ -86,7 +86,7 @@ def has_armature(figure: Figure) -> bool:
 
 
 def own_weights(morphs: Mapping[str, SingleArray], own: OwnSkeleton) -> dict[str, SingleArray]:
-    """Weights of a figure's own morphs, 0 to 1, as sums of ARKit weights."""
+    """Return the weights, 0..1, of a figure's own morphs for weights of ARKit shapes."""
     sums: dict[str, SingleArray] = {}
     there = set(own.figure.morph_names)
     for name, curve in morphs.items():
@@ -97,8 +97,9 @@ def own_weights(morphs: Mapping[str, SingleArray], own: OwnSkeleton) -> dict[str
 
 
 def _twists(own: OwnSkeleton, skeleton: Skeleton, joint_of_bone: list[int]) -> dict[int, Twist]:
-    """Return the twist bones of the figure's limbs by bone index; the position along the limb is the share of the
-    twist."""
+    """Return the twist bones of the figure's limbs by bone index; each takes the share of the twist that corresponds to
+    its position along the limb.
+    """
     figure = own.figure
     positions, _ = world_placements(figure.parents, figure.translations_m, own.t_pose)
     found = {}
@@ -125,7 +126,7 @@ def _twists(own: OwnSkeleton, skeleton: Skeleton, joint_of_bone: list[int]) -> d
 
 
 def limb_twist(skeleton: Skeleton, base: int, end: int, axis: FloatArray, along: float) -> Twist:
-    """Twist of a bone at the position ``along`` (0..1) of a limb from ``base`` to ``end``."""
+    """Return the twist of a bone at the position ``along`` (0..1) of a limb from joint ``base`` to joint ``end``."""
     if skeleton.names[base].endswith(_TWISTS_AT_ITS_END):
         return Twist(base, end, axis, along)
     return Twist(base, base, axis, along - 1.0)

@@ -1,4 +1,4 @@
-"""Writes pictures as PNG files: separately, or together on a contact sheet."""
+"""Writing of pictures as PNG files: separately, or together on a contact sheet."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class FrameWriter:
 
 
 class SheetWriter:
-    """Puts pictures side by side; see `sheet_into`."""
+    """Places pictures side by side on one sheet; see `sheet_into`."""
 
     def __init__(self, sheet: Picture, columns: int, captions: Sequence[Picture]) -> None:
         self._sheet, self._columns, self._captions = sheet, columns, captions
@@ -71,7 +71,7 @@ class SheetWriter:
 
 
 def frame_name(number: int) -> str:
-    """File name of a frame, numbered from the start of the whole performance."""
+    """Return the file name of a frame, numbered from the start of the whole performance."""
     return f"frame_{number:05d}.png"
 
 
@@ -82,7 +82,7 @@ def frames_into(folder: Path, first: int, count: int) -> Iterator[FrameWriter]:
     Parameters
     ----------
     folder : path
-        Created if it does not exist. Frames with the same numbers are replaced, other files are kept.
+        Folder, created if it does not exist. Frames with the same numbers are replaced, other files are kept.
     first, count : int
         Number of the first frame, and number of frames.
 
@@ -117,12 +117,13 @@ def sheet_into(path: Path, size: tuple[int, int], columns: int, captions: Sequen
     Parameters
     ----------
     path : path
-        An existing file is replaced.
+        File to write; an existing one is replaced.
     size : (int, int)
-        Width and height of each picture.
+        Width and height of each picture in pixels.
     columns : int
+        Number of pictures in a row.
     captions : sequence of Picture
-        Captions below the pictures: as wide as a picture, all of equal height.
+        Captions below the pictures, as images as wide as a picture and of equal height.
 
     Raises
     ------
@@ -145,7 +146,9 @@ def sheet_size(size: tuple[int, int], caption_px: int, columns: int, count: int)
 
 
 def usual_columns(count: int, every_s: Fraction) -> int:
-    """Number of columns: a row for each second if that is 4 to 12 pictures, else about as many columns as rows."""
+    """Return a suitable number of columns: a row for each second if that is 4 to 12 pictures, else about as many
+    columns as rows.
+    """
     in_a_second = 1 / every_s
     if in_a_second.denominator == 1 and 4 <= in_a_second <= 12:
         return min(int(in_a_second), count)

@@ -1,4 +1,4 @@
-"""Plays back a file's scene: positions of bones and deformed surfaces, in metres."""
+"""Evaluation of a file's scene: positions of bones and deformed surfaces, in metres."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ METRES = 0.01
 
 @dataclass(frozen=True, eq=False)
 class ScenePlayback:
-    """A scene with a clip, evaluated as any reader of the file would."""
+    """A scene with a clip, evaluated like in any program that reads the file."""
 
     scene: Scene
     clip: Clip
@@ -53,18 +53,18 @@ class ScenePlayback:
         return result
 
     def bone_rotations(self, bone: int) -> FloatArray:
-        """Local rotations (F, 4) of a bone."""
+        """Return the rotations (F, 4) of a bone relative to its parent."""
         return quaternion.normalize(self.clip.rotations_xyzw[:, bone])
 
     def bone_translations_m(self, bone: int) -> FloatArray:
-        """Local translations (F, 3) of a bone."""
+        """Return the translations (F, 3) of a bone relative to its parent, in metres."""
         if bone not in self.clip.translations_cm:
             return np.tile(self.rest_m[bone], (self.clip.frames, 1))
         return self.clip.translations_cm[bone].astype(np.float64) * METRES
 
     @cached_property
     def still(self) -> BoolArray:
-        """Mask (J,) of those of J bones that never move relative to their parents."""
+        """Mask (J,) of the bones that never move relative to their parents."""
         rotations = self.clip.rotations_xyzw
         still: BoolArray = (rotations == rotations[:1]).all(axis=(0, 2))
         still[[*self.clip.translations_cm]] = False
@@ -78,7 +78,7 @@ class ScenePlayback:
         return result
 
     def morphs(self, first: int, last: int) -> dict[str, AnyFloatArray]:
-        """Weights (n,) of morphs at frames ``first`` .. ``last - 1``."""
+        """Return the weights (n,) of each morph at the n frames ``first`` .. ``last - 1``."""
         return {name: np.asarray(weights)[first:last] for name, weights in self.clip.morph_weights.items()}
 
 
@@ -88,9 +88,11 @@ class Surface:
     Parameters
     ----------
     playback : ScenePlayback
+        The scene.
     mesh : SkinnedMesh
         A mesh of the scene.
     vertices : (V,) integer array
+        Indices of the vertices.
 
     Attributes
     ----------
@@ -129,7 +131,9 @@ class PlaybackBones:
     Parameters
     ----------
     playback : ScenePlayback
+        The scene.
     bones : iterable of int
+        Indices of the chosen bones.
 
     Attributes
     ----------
@@ -152,21 +156,23 @@ class PlaybackBones:
         self._place(self._still, 0, 1, self._still_rows)
 
     def rows(self, bones: Iterable[int]) -> list[int]:
-        """Return the rows of the given bones in `world`."""
+        """Return the rows of some bones in the result of `world`."""
         return [self.row_of[bone] for bone in bones]
 
     def room(self, frames: int) -> tuple[FloatArray, FloatArray]:
-        """Return buffers that `world` fills for a number of frames; reused, since allocating them takes longer than
-        filling them."""
+        """Return buffers that `world` fills for a number of frames; they are reused, since allocating them takes longer
+        than filling them.
+        """
         return np.empty((len(self.row_of), 3, 4, frames)), np.empty((len(self._moving), 3, 4, frames))
 
     def world(self, first: int, last: int, room: tuple[FloatArray, FloatArray] | None = None) -> FloatArray:
-        """World transforms (R, 3, 4, n) without their last row, for frames ``first`` .. ``last - 1``.
+        """Return the world transforms (R, 3, 4, n), without their last row, of R bones for the n frames ``first`` ..
+        ``last - 1``.
 
         Parameters
         ----------
         room : pair of arrays, optional
-            Buffers from `room` for at least as many frames; overwritten, and part of them is returned.
+            Buffers from `room` for at least as many frames; they are overwritten, and a part of them is returned.
         """
         result, moving = (rows[..., : last - first] for rows in room or self.room(last - first))
         self._place(self._moving, first, last, moving)
@@ -188,8 +194,10 @@ class PlaybackBones:
 
 
 class Middles:
-    """Mean positions of surfaces. The mean of linearly blended vertices is linear in the bones' transforms, so one
-    weighted point per bone, plus its change by each morph, is stored.
+    """Mean positions of the vertices of surfaces, such as landmarks.
+
+    The mean of linearly blended vertices is linear in the bones' transforms, so one weighted point per bone, and its
+    change by each morph, is stored.
 
     Parameters
     ----------
@@ -217,8 +225,9 @@ class Middles:
                 self._shapes += [(index, row, shapes) for row, shapes in zip(rows, added, strict=True)]
 
     def places_m(self, world: FloatArray, morphs: Mapping[str, AnyFloatArray]) -> FloatArray:
-        """Return positions (K, 3, n) of K landmarks in n frames, metres; ``world`` is `PlaybackBones.world` of the
-        frames, ``morphs`` the weights (n,) there."""
+        """Return the mean positions (K, 3, n) in metres of K surfaces in n frames; ``world`` is `PlaybackBones.world`
+        of these frames, ``morphs`` the weights (n,) there.
+        """
         result = np.zeros((len(self.names), 3, world.shape[-1]))
         for index, row, point_m in self._points:
             result[index] += point_m @ world[row]

@@ -1,4 +1,4 @@
-"""Writes a musician's files (character and instruments), then measures them after reading them back."""
+"""Export of a musician: the files of character and instruments are written, read back and measured."""
 
 from __future__ import annotations
 
@@ -65,12 +65,15 @@ def export_player(
     Parameters
     ----------
     request : ExportRequest
+        The export.
     musician : CastMusician
+        Musician to export.
     folder : path
+        Folder to write into.
     reported : callable
         Called with the share done, 0..1; its exceptions stop the work.
     cores : int
-        As in `player_motion`.
+        Number of processor cores to use, see `player_motion`.
     """
     reports: list[DoubleReport] = []
     problems: dict[str, tuple[Problem, ...]] = {}
@@ -106,8 +109,9 @@ def export_player(
 
 @dataclass(frozen=True)
 class _Written:
-    """Result of writing one instrument of a musician: keys, problems, meshes of the character, and the files read back
-    for measuring."""
+    """Result of writing one instrument of a musician: number of keys, the character's scene if it was written,
+    problems, and the files read back for measuring.
+    """
 
     keys: KeyCount
     figure: Scene | None
@@ -124,8 +128,10 @@ def _write(
     cores: int,
     figure: Scene | None,
 ) -> _Written:
-    """Write the files of one instrument of a musician, and the character's with the first one; ``meshes`` are those of
-    an already written character."""
+    """Write the files of one instrument of a musician, with the first instrument also those of the character.
+
+    ``figure`` is the scene of an already written character.
+    """
     performance, first = request.performance, performer is musician.performers[0]
     rows, reads = files_of(request.formats), files_of(request.formats, reads=True)
     files = file_names(performance, request.formats)
@@ -180,8 +186,10 @@ def _write(
 
 
 def read_again(row: FileFormat, path: Path, written: Scene, in_file: bool) -> Scene:
-    """Read a written file for measuring, with its meshes, which need not be ``in_file``; of a file that has no face
-    without them, with the written weights of the face too.
+    """Read a written file back for measuring.
+
+    Meshes are taken from ``written`` unless they are ``in_file``; so are the weights of the face if the format has none
+    without meshes.
     """
     assert row.read is not None
     if in_file or not row.without_meshes:
@@ -196,7 +204,7 @@ def read_again(row: FileFormat, path: Path, written: Scene, in_file: bool) -> Sc
 
 
 def _counted(scenes: Mapping[tuple[FileContent, bool], Scene]) -> Iterable[Scene]:
-    """The scenes whose keys are counted: only the first of those of a character."""
+    """Return the scenes whose keys are counted: of a character only the first scene."""
     return {held: scene for (held, _), scene in reversed([*scenes.items()])}.values()
 
 
@@ -249,7 +257,7 @@ def _reported(
     keys: KeyCount,
     measured: PlayerMeasurement | None,
 ) -> DoubleReport:
-    """Return the export report about one of the instruments that a musician plays: its files, keys and measures."""
+    """Return the report about one instrument that a musician plays: its files, keys and measures."""
     player, span, performance = performer.player, request.span, request.performance
     plan = performance.plan(player)
     files = file_names(performance, request.formats, request.with_props)[player.id]

@@ -1,7 +1,7 @@
-"""Distributes the musicians of an export over processes.
+"""Distribution of the musicians of an export over processes.
 
-The current process works too, and repeats the work of a process that failed, so that errors are reported as without
-other processes.
+The current process works too, and repeats the work of a process that failed, so that errors are reported as if there
+were no other processes.
 """
 
 from __future__ import annotations
@@ -51,7 +51,9 @@ def export_players(
     Parameters
     ----------
     request : ExportRequest
+        The export.
     cast : ExportCast
+        Musicians to export.
     folder : path
         Folder to write into; incomplete if an exception is raised.
     processes : int
@@ -122,6 +124,7 @@ class Waiting:
     Parameters
     ----------
     musicians : sequence of CastMusician
+        All musicians to export.
     """
 
     def __init__(self, musicians: Sequence[CastMusician]) -> None:

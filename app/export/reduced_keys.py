@@ -1,8 +1,10 @@
-"""Reduces keys: chooses the frames of a clip to be written such that the interpolated motion stays within bounds.
+"""Keyframe reduction: choice of those frames of a clip that are written as keys, such that the interpolated motion
+stays within bounds.
 
-Bounds that hold at every frame, whether a program interpolates Euler angles (FBX) or quaternions (glTF, USD, Blender):
+The following errors are bounded at every frame, whether a program interpolates Euler angles (FBX) or quaternions (glTF,
+USD, Blender):
 
-- each bone's rotation by `ROTATION_DEG` and place by `PLACE_MM`, each morph's weight by `WEIGHT`;
+- each bone's rotation by `ROTATION_DEG` and position by `PLACE_MM`, each morph's weight by `WEIGHT`;
 - after the hierarchy, every landmark of a character and every joint, or the whole surface of an instrument, by
   `PLACE_MM`.
 
@@ -38,7 +40,7 @@ _CHUNK, _ROUNDS = 512, 8
 
 
 def reduced(scene: Scene, marks: SkinnedMarks, most_mm: float, pose: bool = False, curved: bool = True) -> Scene:
-    """Reduce the keys of a scene's clip.
+    """Return a scene whose clip has fewer keys.
 
     Parameters
     ----------
@@ -49,7 +51,7 @@ def reduced(scene: Scene, marks: SkinnedMarks, most_mm: float, pose: bool = Fals
     most_mm : float
         Tolerance in millimetres for the points, and for bones relative to their parents.
     pose : bool
-        Whether to compute keys shared by all bones too; these are linear.
+        Whether to compute also keys that are shared by all bones; these are linear.
     curved : bool
         Whether the keys of bones are joined by cubics, which needs fewer keys than straight lines.
     """
@@ -79,7 +81,7 @@ def reduced(scene: Scene, marks: SkinnedMarks, most_mm: float, pose: bool = Fals
 
 
 def _with_end(keys: Keys, frames: int) -> Keys:
-    """Add a key on the last frame where it is missing, since programs take the last key as the animation's length."""
+    """Return keys with one on the last frame, since programs take the last key as the animation's length."""
     end = np.array([0, frames - 1]) if frames > 1 else np.zeros(1, np.intp)
     if not any(one[-1] == frames - 1 for one in (*keys.bones, *keys.morphs.values())):
         keys = replace(keys, bones=(end, *keys.bones[1:]))
@@ -113,6 +115,7 @@ def _settle(motion: KeyedMotion, kept: BoolArray, shared: bool) -> None:
     Parameters
     ----------
     motion : KeyedMotion
+        The exact motion.
     kept : (N, F) bool
         Keys of the moving bones; changed in place.
     shared : bool
@@ -154,7 +157,8 @@ def _add_keys(
     shared: bool,
     all_frames: bool,
 ) -> BoolArray:
-    """Add keys where a bound is violated at some frames: at the worst of each run of frames, or at all.
+    """Determine the keys to add because a bound is violated: at the worst frame of each run of violations, or at all
+    frames.
 
     Returns
     -------
@@ -191,7 +195,7 @@ def _add_keys(
 
 
 def _worst(excess: AnyFloatArray, all_frames: bool) -> list[int]:
-    """Return the frames of violations: the worst of each run, or all."""
+    """Return the frames at which ``excess`` is above 1: the worst of each run, or all."""
     beyond = excess > 1.0
     if all_frames:
         return np.flatnonzero(beyond).tolist()
@@ -204,6 +208,6 @@ def _lengths(vectors: AnyFloatArray) -> AnyFloatArray:
 
 
 def _angles(shown: AnyFloatArray, meant: AnyFloatArray) -> AnyFloatArray:
-    """Angles between unit quaternions (..., 4), in radians."""
+    """Return the angles (...) between unit quaternions (..., 4), in radians."""
     chord = np.minimum(_lengths(shown - meant), _lengths(shown + meant))
     return np.asarray(4.0 * np.arcsin(np.minimum(0.5 * chord, 1.0)))

@@ -36,6 +36,7 @@ class DancerMeasures(msgspec.Struct, frozen=True):
     slide_mm_s : float
         Mean speed of the toe tips of standing feet.
     slide_most_mm_s : float
+        Greatest speed.
     bones_mm : float
         Largest deviation of a bone's length from its rest length.
     below_mm : float
@@ -55,8 +56,9 @@ class DancerMeasures(msgspec.Struct, frozen=True):
 
 
 class PlaceReport(msgspec.Struct, frozen=True):
-    """Place of a performer on the stage; the performer's own files are at the origin, facing +Z. Metres, Y up, audience
-    towards +Z; a positive turn is from +Z towards +X.
+    """Place of a performer on the stage; the performer's own files are at the origin, facing +Z.
+
+    Positions are in metres with Y up and the audience towards +Z; a positive turn is from +Z towards +X.
     """
 
     x_m: float
@@ -65,14 +67,14 @@ class PlaceReport(msgspec.Struct, frozen=True):
 
 
 def stage_place(place: StagePosition) -> PlaceReport:
-    """Convert a project's place, rounded to visible precision."""
+    """Convert a place on the stage to its form in the report, with rounded numbers."""
     return PlaceReport(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3))
 
 
 class SkeletonReport(msgspec.Struct, frozen=True):
     """Skeleton of a player's character, with its differences from the asset it was compared with.
 
-    For this program's characters, whose own skeleton is the normalised one, the choice is ``suisou``.
+    For this program's characters, which have only the normalised skeleton, the choice is ``suisou``.
     """
 
     choice: SkeletonChoice
@@ -93,8 +95,9 @@ class MutedSpan(msgspec.Struct, frozen=True):
 
 
 class DoubleReport(msgspec.Struct, frozen=True):
-    """Report on a further instrument of a musician, which is measured with the musician's character; while unused it
-    lies beside the player."""
+    """Report on a further instrument of a musician, which is measured with the musician's character. While it is not
+    played it lies beside the player.
+    """
 
     name: str
     part: str
@@ -163,8 +166,10 @@ class DancerReport(msgspec.Struct, frozen=True):
 
 
 class StageFigure(msgspec.Struct, frozen=True):
-    """A character or instrument in the stage file: name of its node, its performer, and the node's place. An instrument
-    on a socket has no node of its own: ``node`` is its root bone, ``socket`` the character's bone that holds it.
+    """A character or instrument in the stage file: name of its node, its performer, and the node's place on the stage.
+
+    An instrument on a socket has no node of its own: ``node`` is its root bone, ``socket`` the character's bone that
+    holds it.
     """
 
     node: str
@@ -240,7 +245,7 @@ class Report(msgspec.Struct, frozen=True):
 
 
 def encode_report(report: Report) -> bytes:
-    """The report as indented JSON, UTF-8. Raises an error for numbers that are not finite."""
+    """Return the report as indented JSON in UTF-8. Raises an error for numbers that are not finite."""
     builtins = msgspec.to_builtins(report)
     _check_finite(builtins)
     return msgspec.json.format(msgspec.json.encode(builtins), indent=2) + b"\n"

@@ -1,4 +1,4 @@
-"""Request of an export, and its cast: players that cannot be exported are excluded with the reason."""
+"""Request of an export, and its cast: the players that can be exported; others are excluded with a reason."""
 
 from __future__ import annotations
 
@@ -38,13 +38,16 @@ class ExportRequest:
     Attributes
     ----------
     performance : Performance
+        The performance to export.
     players : tuple of Player
         Players to export, each with everything the musician plays; file names are derived from all players, so that
         they do not depend on the selection.
     folder : path
+        Folder to write into.
     formats : frozenset of str
         Ids of `FILE_FORMATS`.
     span : FrameSpan
+        Frames to export.
     bars : (int, int) or None
         First and last requested bar, for the report.
     source, creator : str
@@ -56,13 +59,13 @@ class ExportRequest:
     sound : bool
         Whether to write the sound as a WAV file, from the first frame to the last.
     bvh_names : str
-        Table of bone names for BVH files; empty: the skeleton's own.
+        Table of bone names for BVH files; empty for the skeleton's own names.
     dancers : tuple of Dancer
         Dancers to export.
     stage : bool
-        Whether to write the whole stage too, as one file in each format that supports it.
+        Whether to write also the whole stage, as one file in each format that supports it.
     processes : int or None
-        Largest number of processes; None: one per core where worthwhile.
+        Largest number of processes; None for one per core if worthwhile.
     asset : path or None
         File of the asset that the animation is for: every player's skeleton is compared with it.
     keys : KeyChoice
@@ -72,15 +75,15 @@ class ExportRequest:
     motion_only : bool
         Whether to omit meshes in formats that allow this.
     texture_px : int
-        Longest side of textures; 0: no textures, surfaces have mean colours.
+        Longest side of textures; 0 for no textures; surfaces then have mean colours.
     levels : int
         Number of levels of detail of meshes, 1 to `MOST_LEVELS`.
     props : bool
-        Whether to export straps and chairs too.
+        Whether to export straps and chairs.
     with_ignored : bool
         Whether problems ignored by the project are listed as warnings.
     few_materials : bool or None
-        Whether small surfaces of characters share materials; None: where files have textures.
+        Whether small surfaces of characters share materials; None if files have textures.
     """
 
     performance: Performance
@@ -115,7 +118,7 @@ class ExportRequest:
 
     @property
     def with_props(self) -> bool:
-        """True if straps and chairs are exported: without meshes there is nothing of them."""
+        """True if straps and chairs are exported; they are left out if meshes are."""
         return self.props and not self.motion_only
 
 
@@ -154,7 +157,7 @@ class CastMusician:
         return self.checked.target
 
     def target_in(self, kind: FileFormat) -> TargetSkeleton:
-        """Skeleton of the character's files in a format."""
+        """Return the skeleton of the character's files in a format."""
         return humanoid_target(self.character, self.target.place) if kind.humanoid else self.target
 
     @property
@@ -184,7 +187,7 @@ class CastDancing:
         return self.checked.target
 
     def target_in(self, kind: FileFormat) -> TargetSkeleton:
-        """Skeleton of the character's files in a format."""
+        """Return the skeleton of the character's files in a format."""
         return humanoid_target(self.character, self.target.place) if kind.humanoid else self.target
 
 
@@ -212,7 +215,7 @@ def cast_of(
     FileError
         There is no player, the span is too long, all players are excluded, or the asset cannot be read.
     UsageError
-        The library for USD is missing, or no format supports the attachment.
+        The library for USD is missing, or a format cannot attach instruments as requested.
     Cancelled
         ``stop_requested`` returned true.
     """

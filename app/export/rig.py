@@ -1,4 +1,4 @@
-"""Optional bones and attachment of one performer's skeleton."""
+"""Optional bones of one performer's skeleton, and attachment of the instruments."""
 
 from __future__ import annotations
 
@@ -41,15 +41,16 @@ class Grip:
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """Optional bones and attachment of a performer's skeleton.
+    """Optional bones of a performer's skeleton, and attachment of the instruments.
 
     Attributes
     ----------
     options : RigOptions
+        Requested options.
     grips : tuple of Grip
         Grips of the musician's instruments, in order; empty for a dancer.
     place : NodePlace or None
-        Stage transform of the root bone, if it is placed on the stage.
+        Transform of the root bone on the stage; None for the origin.
     """
 
     options: RigOptions = DEFAULT_RIG
@@ -58,13 +59,13 @@ class Rig:
 
 
 def rig_of(options: RigOptions, stage: StagePosition, performers: Iterable[Performer] = ()) -> Rig:
-    """The rig of a dancer or of a musician with all instruments."""
+    """Return the rig of a dancer, or of a musician with all instruments (``performers``)."""
     grips = tuple(map(_grip, performers)) if options.instrument != "free" else ()
     return Rig(options, grips, floor_place(stage) if options.root_bone == "place" else None)
 
 
 def floor_place(stage: StagePosition) -> NodePlace:
-    """Transform on the floor, turned from +Z towards +X."""
+    """Return the transform of a place on the stage's floor, with its rotation from +Z towards +X."""
     half = stage.turn_rad / 2.0
     return NodePlace(
         100.0 * np.array([stage.x_m, 0.0, stage.z_m]), np.array([0.0, math.sin(half), 0.0, math.cos(half)])

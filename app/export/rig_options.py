@@ -27,11 +27,15 @@ class RigOptions(msgspec.Struct, frozen=True):
     Attributes
     ----------
     instrument : Attachment
+        Attachment of instruments.
     root_bone : RootBone
+        Behaviour of the root bone.
     rest_pose : RestPose
+        Rest pose of the file.
     twist_bones : bool
         Whether twist bones of the arms are added and hold skin.
     eyes : EyeTurn
+        Whether shapes or bones rotate the eyes.
     """
 
     instrument: Attachment = "free"

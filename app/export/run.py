@@ -62,16 +62,19 @@ def export(
     Parameters
     ----------
     request : ExportRequest
+        The export.
     wording : callable
-        Words a message for the report file.
+        Returns a message as text for the report file.
     stop_requested, progress : callable
+        Stop the work once the first returns True; the second is called with the share done and a text.
     shown_in : callable, optional
-        Words a message for the returned report and for errors, if the user's language differs from the file's.
+        Returns a message as text for the returned report and for errors, if the user's language differs from the
+        file's.
 
     Raises
     ------
     FileError
-        As `cast_of`, or a file cannot be written.
+        See `cast_of`; or a file cannot be written.
     UsageError
         usd-core is not installed.
     Cancelled
@@ -89,8 +92,9 @@ def write_cast(
     progress: Progress = lambda share, label: None,
     shown_in: Callable[[Message], str] | None = None,
 ) -> WordedReports:
-    """Write the files of everyone in a cast, of the stage and the sound, and return the reports in words; ``wording``
-    renders messages in the language of the reports."""
+    """Write the files of all performers in a cast, of the stage and of the sound, and return the reports; parameters as
+    in `export`.
+    """
     dancers: list[DancerReport] = []
     everyone = len(cast.ids)
     stage_files = stage_names(request.performance, request.formats, request.source) if request.stage else {}
@@ -144,7 +148,7 @@ def write_cast(
 
 
 def _compared(players: Mapping[str, ExportedPlayer]) -> tuple[PlayerReport, ...]:
-    """Return the players' reports with the correlations between the motions of their trunks added."""
+    """Return the players' reports, with the correlations of the motion of their trunks with other players' added."""
     torsos = {id: np.array(one.torso_rad) for id, one in players.items() if one.torso_rad is not None}
     reports = {id: one.report for id, one in players.items()}
     if len(torsos) >= 2:

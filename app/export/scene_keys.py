@@ -1,4 +1,4 @@
-"""Applies the requested choice of keys to the scenes of an export, and counts them."""
+"""Keyframe reduction of the scenes of an export as requested, and counting of keys."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ from app.rig.model import Character, InstrumentModel
 
 
 class KeyCount(msgspec.Struct, frozen=True):
-    """Number of keys in a performer's files (one bone's rotation or translation, or one morph's weight, at one frame),
-    and the number with keys on every frame.
+    """Number of keys in a performer's files, and the number that a key on every frame would give.
+
+    A key is one bone's rotation or translation, or one morph's weight, at one frame.
     """
 
     written: int
@@ -34,20 +35,22 @@ def keyed_character(
     target: TargetSkeleton,
     models: Sequence[InstrumentModel] = (),
 ) -> Scene:
-    """Reduce the keys of a character's scene as requested.
+    """Return a character's scene with its keys reduced as requested.
 
     Parameters
     ----------
     scene : Scene
         Scene from `app.export.character.character_scene`.
     keys : KeyChoice
+        Requested choice of keys.
     formats : frozenset of str
-        Formats that it is written to.
+        Formats in which it is written.
     character : Character
+        The character.
     target : TargetSkeleton
         Skeleton of the scene.
     models : sequence of InstrumentModel
-        Models of the musician's instruments: the position of attached ones is bounded too.
+        Models of the musician's instruments: the deviation of attached ones is bounded too.
     """
     if keys == "every" or scene.clip is None:
         return scene
@@ -59,7 +62,7 @@ def keyed_character(
 
 
 def keyed_instrument(scene: Scene, keys: KeyChoice, formats: frozenset[Format]) -> Scene:
-    """Reduce the keys of an instrument's scene as requested."""
+    """Return an instrument's scene with its keys reduced as requested."""
     if keys == "every" or scene.clip is None:
         return scene
     marks = part_marks(ScenePlayback(scene, scene.clip))
@@ -71,7 +74,7 @@ def _by_pose(formats: frozenset[Format]) -> bool:
 
 
 def key_count(*scenes: Scene) -> KeyCount:
-    """Count the keys of some scenes together."""
+    """Return the number of keys of some scenes together."""
     written = every = 0
     for scene in scenes:
         clip = scene.clip

@@ -1,4 +1,4 @@
-"""Writes the sound of an export as a WAV file, from the first frame to the last, as heard in the editor."""
+"""Writing of the sound of an export as a WAV file, from the first frame to the last, as heard in the editor."""
 
 from __future__ import annotations
 

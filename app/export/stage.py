@@ -1,4 +1,4 @@
-"""Writes the whole stage as one file: all characters and instruments at their places."""
+"""Writing of the whole stage as one file: all characters and instruments at their places."""
 
 from __future__ import annotations
 
@@ -39,8 +39,11 @@ def write_stage(
     Parameters
     ----------
     request : ExportRequest
+        The export.
     cast : ExportCast
+        Performers on the stage.
     folder : path
+        Folder to write into.
     reported : callable
         Called with the share done, 0..1; may raise Cancelled.
     """
@@ -65,7 +68,8 @@ def write_stage(
 
 
 def with_own_names(scene: Scene, known: dict[str, Material]) -> Scene:
-    """Rename materials that differ from a previous figure's material of the same name: ``skin``, ``skin_2`` ...
+    """Return a scene in which materials that differ from a previous figure's material of the same name are renamed,
+    such as ``skin`` to ``skin_2``.
 
     Programs that find materials by name would otherwise show wrong colours, and others would rename them differently.
 
@@ -86,8 +90,9 @@ def with_own_names(scene: Scene, known: dict[str, Material]) -> Scene:
 def _figures(
     request: ExportRequest, cast: ExportCast, reported: Progress
 ) -> Iterator[tuple[tuple[StageFigure, ...], Scene]]:
-    """Yield for each file of the stage all characters and instruments with their places, and the scene; merged into one
-    skeleton where instruments are attached."""
+    """Yield for each node of the stage file its characters and instruments, and its scene; a scene holds several if
+    instruments are attached to the character.
+    """
     performance, span = request.performance, request.span
     take, everyone = file_stem(Path(request.source).stem), len(cast.ids)
 

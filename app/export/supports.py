@@ -1,6 +1,6 @@
 """Straps and chair of a musician as the scene of a file: a skeleton of their own, in the same space as their player.
 
-Bones that follow a joint bear its name; those of a strap are named after its kind.
+Bones that follow a joint have its name; those of a strap are named after its kind.
 """
 
 from __future__ import annotations
@@ -40,10 +40,11 @@ def supports_scene(
     instruments : sequence of (F, 3, 4) float64
         ``world_from_instrument`` of the musician's instruments.
     fps : Fraction
+        Frames per second.
     name, creator : str
-        Of the armature and the animation, with which the meshes' names begin; program and version.
+        Name of armature and animation, and prefix of the meshes' names; program and version.
     place : NodePlace, optional
-        Where the root bone stands; absent: at the origin.
+        Transform of the root bone on the stage; by default the origin.
     """
     moved = support_matrices(supports, joints, instruments)
     frames, count = moved.shape[:2]

@@ -1,8 +1,8 @@
-"""Target skeleton of a file: its bones, and how each follows the joints of the normalised character.
+"""Target skeleton of a file: its bones, and the relation of each to the joints of the normalised character.
 
 For every skeleton and pose, ``world_from_bone = world_from_joint * joint_from_bone`` holds for a bone that represents a
 joint, at the joint's position. Other bones follow: a twist bone has a share of a limb's twist, a tied bone coincides
-with another, and the rest are fixed to their parents.
+with another, and all others are fixed to their parents.
 """
 
 from __future__ import annotations
@@ -63,7 +63,9 @@ class TargetSkeleton:
     Attributes
     ----------
     choice : SkeletonChoice
+        The user's choice that it is made for.
     names : tuple of str
+        Names of the B bones.
     parents : tuple of int
         Index of the parent, which comes first; -1 for the only root, the first bone.
     offsets_m : (B, 3) float64
@@ -74,9 +76,9 @@ class TargetSkeleton:
     t_pose : (B, 4) float64
         ``parent_from_bone`` in the T-pose; kept by bones that nothing moves.
     joint_of_bone : tuple of int
-        Joint index; -1: no joint.
+        Joint of each bone; -1 for none.
     joint_from_bone : (B, 4) float64
-        For bones of joints; for a twist bone: relative to its base.
+        Rotation from each bone to its joint; for a twist bone, to its base joint.
     twists : mapping of int to Twist
         Twist bones by index.
     tied : mapping of int to int
@@ -88,12 +90,13 @@ class TargetSkeleton:
     sockets : mapping of int to int
         Bones at an instrument, with the instrument's index among the musician's.
     added : frozenset of int
-        Requested extra bones that an asset made from the skeleton lacks.
+        Bones that were added on request, which an asset made from the skeleton lacks.
     root_bone : RootBone
         Behaviour of the root; a moving root is no joint.
     place : NodePlace or None
-        Stage place of the root, if it is placed there.
+        Transform of the root on the stage; None for the origin.
     rest_pose : RestPose
+        Rest pose of the file.
     twisted_skin : bool
         Whether twist bones hold skin.
     eyes : EyeTurn
@@ -150,7 +153,7 @@ class TargetSkeleton:
 
     @cached_property
     def _apart(self) -> frozenset[int]:
-        """Bones of joints below the root with no other joint's bone above them."""
+        """Bones of joints, other than the root, with no other joint's bone above them."""
         below: list[bool] = []
         for parent in self.parents:
             below.append(parent >= 0 and (below[parent] or self.joint_of_bone[parent] >= 0))
@@ -169,24 +172,24 @@ def matrices(positions: FloatArray, turned: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """Path of an object in the player's space: positions (F, 3) in metres, and rotations (F, 4)."""
+    """Path of an object in the player's space: positions (F, 3) in metres, and rotations (F, 4), in each frame."""
 
     positions_m: AnyFloatArray
     rotations: AnyFloatArray
 
 
 def instrument_path(motion: Motion) -> Trajectory:
-    """Return the path of a motion's instrument."""
+    """Return the path of the instrument that a motion carries."""
     return Trajectory(motion.instrument_position_m, motion.instrument_rotation)
 
 
 def trajectory_at_origin(frames: int) -> Trajectory:
-    """Trajectory of an object that stays at the origin."""
+    """Return the trajectory of an object that stays at the origin."""
     return Trajectory(np.zeros((frames, 3)), np.tile(quaternion.IDENTITY, (frames, 1)))
 
 
 def placed_trajectory(path: Trajectory, place: NodePlace | None) -> Trajectory:
-    """Return a trajectory moved and turned into a place of the stage; unchanged if that is None."""
+    """Return a trajectory moved and rotated to a place on the stage; unchanged if the place is None."""
     if place is None:
         return path
     positions_m = quaternion.rotate(place.rotation_xyzw, path.positions_m) + METRES * place.translation_cm
@@ -212,15 +215,18 @@ class BoneMotion:
 def bone_motion(
     target: TargetSkeleton, skeleton: Skeleton, motion: Motion, held: Sequence[Trajectory] = ()
 ) -> BoneMotion:
-    """Motion of a target's bones from the motion of a skeleton's joints.
+    """Return the motion of a target's bones, from the motion of a skeleton's joints.
 
     Parameters
     ----------
     target : TargetSkeleton
+        The bones.
     skeleton : Skeleton
+        Skeleton of the character.
     motion : Motion
+        Motion of its joints.
     held : sequence of Trajectory
-        Trajectories of the musician's instruments, one for each socket; none: the motion's own.
+        Trajectories of the musician's instruments, one for each socket; empty for the motion's only instrument.
     """
     held = held or (instrument_path(motion),)
     frames, bones = motion.frames, len(target.names)
@@ -291,14 +297,16 @@ def _bones(
 
 
 def _over_floor(rest: _Placed, hips: _Placed) -> _Placed:
-    """Placement of a root below the hips, turned with them about the vertical axis."""
+    """Return the transform of a root bone that moves along below the hips on the floor, rotated with them about the
+    vertical axis.
+    """
     _, heading = quaternion.swing_twist(hips[1], np.array([0.0, 1.0, 0.0]))
     below = hips[0] * np.array([1.0, 0.0, 1.0])
     return below + quaternion.rotate(heading, rest[0]), quaternion.multiply(heading, rest[1])
 
 
 def normalised_target(skeleton: Skeleton) -> TargetSkeleton:
-    """The normalised skeleton as a target: every bone is a joint."""
+    """Return the normalised skeleton as a target: every bone is a joint."""
     count = len(skeleton.names)
     unturned = np.tile(quaternion.IDENTITY, (count, 1))
     return TargetSkeleton(

@@ -1,4 +1,4 @@
-"""Chooses the skeleton for a player's files, and compares it with an asset's."""
+"""Choice of the skeleton for a player's files, and its comparison with that of an Unreal asset."""
 
 from __future__ import annotations
 
@@ -30,25 +30,26 @@ MOST_LISTED = 5
 
 @dataclass(frozen=True)
 class CheckedTarget:
-    """A player's skeleton, with its differences from an asset's if there is one."""
+    """The skeleton of a player's files, with its differences from an asset's if one was given."""
 
     target: TargetSkeleton
     differences: tuple[SkeletonDifference, ...] = ()
 
     @property
     def messages(self) -> tuple[Message, ...]:
-        """Messages about differences from the requested skeleton, most severe first."""
+        """Return messages about differences from the requested skeleton and from the asset, most severe first."""
         return (*reported(self.differences), *self.target.messages)
 
 
 def target_skeleton(character: Character, choice: SkeletonChoice, asset: Figure | None = None) -> TargetSkeleton:
-    """The skeleton for a character's files.
+    """Return the skeleton for a character's files.
 
     Parameters
     ----------
     character : Character
         The character; one of this program's only has the normalised skeleton.
     choice : SkeletonChoice
+        The user's choice.
     asset : Figure, optional
         The asset of an export on the mannequin, which provides the rest rotations.
     """
@@ -60,7 +61,9 @@ def target_skeleton(character: Character, choice: SkeletonChoice, asset: Figure 
 
 
 def written_meshes(character: Character, target: TargetSkeleton) -> tuple[Mesh, ...]:
-    """Meshes in a file on a target: those of the character's own file, or the character's."""
+    """Return the meshes that a file on a target has: those of the user's file on its own skeleton, else the
+    character's.
+    """
     own = character.own if target.choice == "own" else None
     return bound_meshes(character, target) if own is None else own.figure.meshes
 
@@ -76,10 +79,11 @@ def checked_targets(
     Parameters
     ----------
     characters : mapping of str to Character
-        By player id.
+        Characters by player id.
     choice : SkeletonChoice
+        The user's choice.
     asset : Figure, optional
-        Without one there are no differences.
+        The asset to compare with; without it there are no differences.
     rigs : mapping of str to Rig
         Requested additions (sockets, twist bones), by player id.
     """
@@ -94,9 +98,9 @@ def checked_targets(
 
 
 def _as_bound(character: Character, target: TargetSkeleton) -> TargetSkeleton:
-    """A target with its bind pose as rest pose, as Unreal and this program's reader interpret it.
+    """Return a target with its bind pose as rest pose, as Unreal interprets a file.
 
-    The normalised skeleton has a T-pose in its nodes and is bound in an A-pose; others are compared unchanged.
+    Only the normalised skeleton changes, whose nodes are in T-pose while the skin is bound in an A-pose.
     """
     if target.choice != "suisou":
         return target
@@ -112,7 +116,7 @@ def spoilt(
     asset: Figure,
     wording: Callable[[Message], str],
 ) -> tuple[LeftOut, ...]:
-    """The players whose files would lose motion or be corrupted on an asset's skeleton, with the reason."""
+    """Return the players whose files would lose motion or be corrupted on an asset's skeleton, with the reason."""
     found = []
     for player in players:
         severe = reported([difference for difference in checked[player.id].differences if difference.severe])

@@ -1,4 +1,4 @@
-"""Runs tasks of an export on threads; numpy and zlib release the interpreter's lock."""
+"""Running of tasks of an export on threads; numpy and zlib release the interpreter's lock."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _MOST: Final = 4
 
 
 def in_threads(tasks: Sequence[Callable[[], None]], finished: Callable[[int], None]) -> None:
-    """Run all tasks.
+    """Run all tasks, and return when they are finished.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Changes a tree of files atomically.
+"""Atomic changes of a tree of files.
 
 New files are written next to their place, on the same disk, and renamed at the end; replaced files are kept until
 everything is renamed. On an error everything is restored. A killed process leaves its folder, from which the next
@@ -44,7 +44,7 @@ class TreeChange:
     removed : list of path
         Files to delete, relative to the tree.
     last : list of path
-        New files to be renamed last, relative to the tree, such as manifests that vouch for the others.
+        New files to be renamed last, relative to the tree, such as manifests that list the others.
     """
 
     new: Path
@@ -66,6 +66,7 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
     Yields
     ------
     TreeChange
+        The pending changes, to be filled in the block.
 
     Raises
     ------
@@ -149,7 +150,7 @@ def refuse_links_out(root: Path, paths: Iterable[Path | PurePath]) -> None:
 
 
 def files_below(folder: Path) -> list[Path]:
-    """Sorted relative paths of all files below a folder."""
+    """Return the sorted relative paths of all files below a folder."""
     return sorted(path.relative_to(folder) for path in folder.rglob("*") if os.path.isfile(path))
 
 
@@ -191,7 +192,9 @@ def _commit(root: Path, partial: Path, change: TreeChange) -> None:
 
 
 def _write_list(partial: Path, coming: list[Path]) -> None:
-    """Record the files about to be renamed; while this record exists, the tree may be partly old and partly new."""
+    """Record the files about to be renamed; while this record exists, some files of the tree may be old and
+    some new.
+    """
     draft = partial / f"{_LIST}.draft"
     draft.write_text("\n".join(path.as_posix() for path in coming), encoding="utf-8")
     draft.replace(partial / _LIST)
@@ -233,7 +236,7 @@ def _second_name(file: Path, name: Path) -> None:
 
 
 def _prune(folder: Path, root: Path) -> None:
-    """Delete the folder and those above it, up to ``root``, if they have become empty."""
+    """Delete a folder and those above it, below ``root``, if they have become empty."""
     while folder != root:
         try:
             folder.rmdir()

@@ -1,4 +1,4 @@
-"""Encodes pictures and sound as an MP4 file (H.264 and AAC) with the ffmpeg bundled with imageio-ffmpeg."""
+"""Encoding of pictures and sound as an MP4 file (H.264 and AAC) with the ffmpeg bundled with imageio-ffmpeg."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class VideoWriter:
         Parameters
         ----------
         picture : (H, W, 3) or (H, W, 4) uint8
-            Top row first; alpha is dropped.
+            The picture, top row first; alpha is dropped.
 
         Raises
         ------
@@ -69,10 +69,11 @@ def video_into(
     Parameters
     ----------
     path : path
-        An existing file is replaced.
+        File to write; an existing one is replaced.
     size : (int, int)
         Width and height in pixels; even, as required by H.264 with 4:2:0 colours.
     fps : Fraction
+        Frames per second.
     sound : (N, 2) float32, optional
         Samples -1..1 that start with the first picture.
     sound_rate : int
@@ -101,7 +102,8 @@ def video_into(
 def _encoder(
     path: Path, command: Callable[[Path | None], list[str]], sound: SingleArray | None, sound_rate: int
 ) -> Iterator[IO[bytes]]:
-    """Open an encoder for pictures; at the end of the block it has finished successfully.
+    """Start an encoder, and yield the stream that takes pictures; when the block ends, the encoder has finished
+    successfully.
 
     Parameters
     ----------

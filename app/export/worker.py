@@ -1,8 +1,9 @@
 """Child process that exports musicians of a piece, to use several cores.
 
 The child is a forked copy of the exporting process (`serve`), or this module run as a program, which first reads an
-`ExportJob`. It reads ids of musicians; for each it writes the files, reporting `Share` and finally `Exported`. It ends
-with its input or at a failure, in which case the parent process repeats the work and reports the error.
+`ExportJob`. It receives ids of musicians; for each it writes the files, and sends `Share` repeatedly and finally
+`Exported`. It ends with its input or at a failure, in which case the parent process repeats the work and reports the
+error.
 """
 
 from __future__ import annotations
@@ -77,7 +78,7 @@ Answer = Share | Exported
 
 
 def job_of(request: ExportRequest, folder: Path) -> ExportJob:
-    """The job that makes a process write the request into a folder."""
+    """Return the job that makes a process write the request into a folder."""
     span = request.span
     return ExportJob(
         project=encode(request.performance.project, folder / "project"),
@@ -138,7 +139,9 @@ def serve(
     Parameters
     ----------
     request : ExportRequest
+        The export.
     musicians : sequence of CastMusician
+        Musicians that may be requested.
     folder : path
         Folder to write into.
     channel : MessageChannel
@@ -157,7 +160,7 @@ def _export(request: ExportRequest, musician: CastMusician, folder: Path, channe
 
 
 def main() -> None:
-    """Export the musicians whose ids are sent."""
+    """Read an export job, then export the musicians whose ids the parent process sends."""
     channel: MessageChannel[Any] = channel_to_parent(ExportJob | str, "export")
     try:
         request = _request(channel.receive())

@@ -1,4 +1,4 @@
-"""Checks written files before they replace files in a project."""
+"""Checks of written files before they replace files in a project."""
 
 from __future__ import annotations
 
@@ -38,12 +38,15 @@ class Expected:
     Attributes
     ----------
     fps : Fraction
+        Frames per second.
     frames : int
+        Number of frames.
     bones : sequence of str
         Bone names, the root first.
     low_cm, high_cm : ndarray, shape (3,)
         Bounding box of the mesh, which reveals wrong scale or axes.
     morphs : frozenset of str
+        Names of the morphs.
     """
 
     fps: Fraction

@@ -1,4 +1,4 @@
-"""Content of ``performance.json``: everything a script needs to build a scene from an export.
+"""Content of ``performance.json``: everything that a script needs in Unreal to build a scene from an export.
 
 Times are seconds of the animation, which begins at 0, or frames. A performer's ``stage`` is in metres as in
 ``report.json``, ``place`` in Unreal's centimetres and degrees.
@@ -44,8 +44,8 @@ class Rate(msgspec.Struct, frozen=True):
 
 
 class UnrealPlace(msgspec.Struct, frozen=True):
-    """Place of an actor in Unreal (left-handed, Z up): (x, y, z) in metres becomes (100 x, 100 z, 100 y), so that a
-    turn from +Z towards +X is a negative yaw.
+    """Place of an actor in Unreal (left-handed, Z up): (x, y, z) in metres becomes (100 x, 100 z, 100 y) in
+    centimetres, so that a rotation from +Z towards +X is a negative yaw.
     """
 
     x_cm: float
@@ -55,9 +55,10 @@ class UnrealPlace(msgspec.Struct, frozen=True):
 
 
 class UnrealFigure(msgspec.Struct, frozen=True):
-    """A skeletal mesh in Unreal with its animation: relative path of its file, and its assets. ``bones``: all bones,
-    root first; ``socket``: bone of the player's character that holds an instrument, or empty; ``materials``: textured
-    ones, by slot name.
+    """A skeletal mesh in Unreal with its animation: relative path of its file, and its assets.
+
+    ``bones`` are all bones, the root first; ``socket`` is the bone of the player's character that holds the instrument,
+    or empty; ``materials`` are the textured ones by slot name.
     """
 
     file: str
@@ -70,7 +71,9 @@ class UnrealFigure(msgspec.Struct, frozen=True):
 
 
 class Double(msgspec.Struct, frozen=True):
-    """A further instrument of a musician in the description for Unreal; while unused it lies beside the player."""
+    """A further instrument of a musician in the description for Unreal; while it is not played it lies beside the
+    player.
+    """
 
     name: str
     part: str
@@ -154,7 +157,7 @@ class UnrealMarker(msgspec.Struct, frozen=True):
 
 
 class Cue(msgspec.Struct, frozen=True):
-    """A cue given by a player: the nod begins at ``start_s``, all enter at ``entry_s``."""
+    """A cue given by a player: the preparatory nod begins at ``start_s``, the cued players enter at ``entry_s``."""
 
     player: str
     start_s: float
@@ -215,21 +218,24 @@ def describe(
     files: Mapping[str, OwnFile],
     surfaces: Surfaces,
 ) -> Description:
-    """Describe an export.
+    """Return the description of an export for Unreal.
 
     Parameters
     ----------
     request, cast : ExportRequest and ExportCast
+        The export and its performers.
     layout : Layout
+        Paths of the piece.
     wording : callable
-        Words the reasons for exclusions.
+        Returns a reason for an exclusion as text.
     sound : UnrealSound
+        The exported sound.
     contents : mapping of str to FileContents
-        Contents by file.
+        Bones and materials by path of the file.
     files : mapping of str to OwnFile
-        As in `Description`.
+        Sources of the assets, by relative path.
     surfaces : Surfaces
-        Surfaces of all files.
+        Textured materials of all files.
     """
     project, span, bars = request.performance.project, request.span, request.bars
     score, rate = project.score, span.fps
@@ -318,8 +324,9 @@ def _figure(place: FigurePlace, contents: Mapping[str, FileContents], socket: st
 
 
 def _actor_place(one: Player | Dancer, target: TargetSkeleton) -> UnrealPlace:
-    """Return the place of a performer's actor in Unreal: the origin if the animation's root bone is placed on the stage
-    instead."""
+    """Return the place of a performer's actor in Unreal; the origin if the place is part of the root bone's
+    animation.
+    """
     return place_of(one.stage) if target.place is None else UnrealPlace(0.0, 0.0, 0.0, 0.0)
 
 
@@ -329,13 +336,13 @@ def _assets(places: Iterable[FigurePlace]) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class _Time:
-    """Converts performance times to times and frames of the animation."""
+    """Conversion of performance times to times and frames of the animation."""
 
     clock: TempoMap
     span: FrameSpan
 
     def after_s(self, tick: float) -> float:
-        """Return the animation time of a tick."""
+        """Return the animation time in seconds of a tick."""
         return self.since_s(self.clock.seconds(float(tick)))
 
     def since_s(self, s: float) -> float:
@@ -347,7 +354,7 @@ class _Time:
         return math.floor(s * self.span.fps.numerator / self.span.fps.denominator + 0.5)
 
     def shows(self, frame: int) -> bool:
-        """Return whether a frame exists in the animation."""
+        """Return whether the animation has a frame with this number."""
         return 0 <= frame < self.span.count
 
 

@@ -1,4 +1,6 @@
-"""Paths of a piece in an Unreal project: sources next to the content, assets under ``/Game/Suisou``."""
+"""Paths of a piece in an Unreal project: source files in a folder next to the content, assets under
+``/Game/Suisou``.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,7 @@ class FigurePlace:
     Attributes
     ----------
     file : path
-        Relative to the piece's sources.
+        File, relative to the folder of the piece's sources.
     mesh, skeleton, animation : str
         Asset paths without extension; for a character's mesh and skeleton, shared by all with the same body, see
         `Layout.body`.
@@ -52,13 +54,13 @@ class Layout:
     piece : str
         Name of its folders.
     characters : mapping of str to FigurePlace
-        By player or dancer id; for all of them, so that names do not depend on the selection.
+        Paths by player or dancer id; for all of them, so that names do not depend on the selection.
     instruments : mapping of str to FigurePlace
-        By player id.
+        Paths by player id.
     sound_file : path
-        Relative to the piece's sources.
+        Sound file, relative to the folder of the piece's sources.
     sound, sequence : str
-        Paths of the assets.
+        Asset paths of the sound and of the level sequence.
     doubles : mapping of str to tuple of str
         Ids of a musician's other players, by the musician's id.
     bodies : mapping of str to str
@@ -75,7 +77,7 @@ class Layout:
     bodies: dict[str, str]
 
     def body(self, one: Player | Dancer, added: Sequence[str]) -> tuple[str, str]:
-        """Asset paths of mesh and skeleton for a body with some added bones."""
+        """Return the asset paths of mesh and skeleton for a performer's body with some added bones."""
         worn = dressed_as(one.character_id, one.outfit)
         name = "_".join((self.bodies[worn], *(asset_name(bone, "Bone") for bone in added)))
         return f"{self.content}/Bodies/{name}/SK_{name}", f"{self.content}/Bodies/{name}/SKEL_{name}"
@@ -106,7 +108,7 @@ class Layout:
 
 
 def piece_name(source: str, folder: Path) -> str:
-    """Name of a piece's folders.
+    """Return the name of a piece's folders.
 
     Parameters
     ----------

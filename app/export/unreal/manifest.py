@@ -23,14 +23,16 @@ _TEXTS: Final = frozenset((".json", ".py", ".uplugin"))
 
 
 class OwnFile(msgspec.Struct, frozen=True):
-    """Hash of an exported file. Line ends of texts are normalised to ``\n``, since version control may change them."""
+    """Size and hash of an exported file. Line ends of texts are normalised to ``\\n`` first, since version control may
+    change them.
+    """
 
     bytes: int
     sha256: str
 
 
 class Manifest(msgspec.Struct, frozen=True):
-    """List of the files that this program wrote into a folder, by relative path, the manifest included."""
+    """List of the files that this program wrote into a folder, with their hashes by relative path."""
 
     schema: int
     made_by: str
@@ -39,12 +41,12 @@ class Manifest(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Changes:
-    """Effects of writing into a folder on its existing files.
+    """Effects on the existing files of a folder of writing into it.
 
     Attributes
     ----------
     replaced, removed : tuple of path
-        Paths within the folder.
+        Paths within the folder of files that will be replaced and removed.
     kept : tuple of Message
         Messages about obsolete files that were changed by hand, which are kept.
     staying : dict of path to OwnFile
@@ -58,13 +60,13 @@ class Changes:
 
 
 def own_text(data: bytes) -> OwnFile:
-    """Return the manifest's size and SHA-256 of a text, with line ends made uniform."""
+    """Return size and SHA-256 of a text for the manifest, with line ends made uniform."""
     text = data.replace(b"\r\n", b"\n")
     return OwnFile(len(text), hashlib.sha256(text).hexdigest())
 
 
 def own_file(path: Path) -> OwnFile:
-    """Return the manifest's size and SHA-256 of a file; line ends of text files are made uniform first."""
+    """Return size and SHA-256 of a file for the manifest; line ends of text files are made uniform first."""
     if path.suffix.lower() in _TEXTS:
         return own_text(read_file(path, MOST_BYTES))
     with open_file(path) as stream:
@@ -89,10 +91,11 @@ def changes(
     Parameters
     ----------
     folder : path
+        The folder.
     coming : collection of path
-        Paths within the folder.
+        Paths within the folder of the files to write.
     by_length : bool
-        As in `is_as_left`.
+        See `is_as_left`.
     stays : collection of path
         Paths within the folder that are kept although not written.
 
@@ -128,7 +131,7 @@ def changes(
 
 
 def read_manifest(folder: Path) -> dict[PurePosixPath, OwnFile]:
-    """Files written into a folder by earlier exports; empty without a manifest."""
+    """Return the files that earlier exports wrote into a folder; empty without a manifest."""
     path = folder / MANIFEST
     if not os.path.exists(path):
         return {}
@@ -144,6 +147,6 @@ def read_manifest(folder: Path) -> dict[PurePosixPath, OwnFile]:
 
 
 def encode_manifest(files: Mapping[str, OwnFile], creator: str) -> bytes:
-    """Return the manifest of the plug-in's own files as indented JSON: size and checksum by path."""
+    """Return a manifest of files as indented JSON: size and checksum by path, and the program that wrote them."""
     manifest = Manifest(SCHEMA, creator, dict(sorted(files.items())))
     return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"

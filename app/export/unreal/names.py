@@ -1,9 +1,9 @@
-"""Makes names of Unreal assets from arbitrary names.
+"""Names of Unreal assets, made from arbitrary names.
 
 They consist of ASCII letters, digits and ``_``, since command lines, version control, packaging and scripts do not
-support everything that Unreal allows. The sequence shows the original name. Kana are transliterated (Nihon-shiki, as in
-Unicode names); a name with other characters (kanji, emoji) gets eight digits hashed from it, so that different names
-stay different and equal names stay equal.
+support everything that Unreal allows. The level sequence shows the original name. Kana are transliterated (Nihon-shiki,
+as in Unicode names); a name with other characters (kanji, emoji) gets eight digits hashed from it, so that different
+names stay different and equal names stay equal.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _NO_SPELLING: Final = re.compile(r"[LNSC]")
 
 
 def asset_name(text: str, otherwise: str) -> str:
-    """Name of an asset or folder, without prefix.
+    """Return the name of an asset or folder, without prefix.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def asset_name(text: str, otherwise: str) -> str:
 
 
 def _spelt(text: str) -> tuple[str, bool]:
-    """Return a name spelt in ASCII, and whether nothing was lost."""
+    """Return a name spelt in ASCII, and whether all its characters could be spelt."""
     spelt: list[str] = []
     whole, double = True, False
     for character in unicodedata.normalize("NFKC", text):

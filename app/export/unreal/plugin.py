@@ -1,4 +1,4 @@
-"""Installs the importing plug-in in a project that has none or an older version.
+"""Installation of the importing plug-in in an Unreal project that has none or an older version.
 
 The project's own file is not changed: a plug-in in its folder is enabled automatically, and enables those it needs.
 """
@@ -21,12 +21,12 @@ CREATED_BY: Final = "Suisou"
 
 
 def plugin_files() -> dict[PurePosixPath, bytes]:
-    """Files of the plug-in, by path in its folder."""
+    """Return the content of the plug-in's files, by path in its folder."""
     return dict(sorted(_below(Path(str(files("resources"))) / "unreal" / "Suisou", PurePosixPath())))
 
 
 def requested_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
-    """Files of the plug-in to write into a project's folder: all, or none if it is up to date.
+    """Return the plug-in's files to write into a project's folder: all, or none if it is up to date.
 
     Raises
     ------
@@ -48,7 +48,7 @@ def requested_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
 
 
 def _version(descriptor: bytes) -> int | None:
-    """Version of this program's plug-in in a descriptor; None for other plug-ins."""
+    """Return the version of this program's plug-in from its descriptor; None for other plug-ins."""
     try:
         content = json.loads(descriptor.decode("utf-8-sig"))
     except (ValueError, RecursionError):

@@ -1,4 +1,4 @@
-"""Finds an Unreal project and checks that it can be written."""
+"""Lookup of an Unreal project, and check that it can be written."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def _project_file(path: Path) -> Path:
 
 
 def _content(file: Path) -> dict[str, object]:
-    """Parse a project's file. Unreal writes UTF-8, or UTF-16 for non-ASCII content."""
+    """Return the JSON content of a project's file. Unreal writes UTF-8, or UTF-16 for non-ASCII content."""
     data = read_file(file, _MOST_BYTES)
     try:
         wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))

@@ -1,4 +1,4 @@
-"""Exports a performance into an Unreal project's folder, atomically.
+"""Atomic export of a performance into an Unreal project's folder.
 
 Sources of the piece (FBX, sound, description, report, manifest) are written to ``SuisouSource/<Piece>``, the importing
 plug-in to ``Plugins/Suisou``. A repeated export updates files in place and deletes obsolete ones; files made or changed
@@ -67,6 +67,7 @@ class Plan:
     Attributes
     ----------
     layout : Layout
+        Paths of the piece.
     written : tuple of path
         All files of the piece and plug-in to be written, relative to the project's folder, in order.
     replaced, removed : tuple of path
@@ -93,7 +94,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class UnrealExport:
-    """Result of an export into an Unreal project: its plan, and the report."""
+    """Result of an export into an Unreal project: the planned changes, and the report."""
 
     plan: Plan
     report: Report
@@ -122,10 +123,10 @@ def plan_export(
     left_out : tuple of str
         Ids of excluded performers, whose files from earlier exports stay.
     bars : (int, int) or None
-        First and last exported bar; None: the whole piece.
+        First and last exported bar; None for the whole piece.
     textures : tuple of path or None
-        Texture files relative to the piece's sources; None: unknown before characters are read, so that the plan has
-        none and existing ones stay.
+        Texture files relative to the piece's sources; None if still unknown, so that the plan has none and existing
+        ones stay.
 
     Raises
     ------
@@ -184,13 +185,15 @@ def export_into(
     Parameters
     ----------
     request : ExportRequest
-        Its folder, formats, sound and stage settings are ignored.
+        The export; its folder, formats, sound and stage settings are ignored.
     project : UnrealProject
+        The project.
     wording : callable
-        Words a message for the report.
+        Returns a message as text for the report.
     stop_requested, progress : callable
+        See `app.export.run.export`.
     shown_in : callable, optional
-        As in `app.export.run.export`.
+        See `app.export.run.export`.
 
     Raises
     ------
@@ -256,8 +259,9 @@ def _vouch(
     content: dict[PurePosixPath, bytes],
     staying: dict[PurePosixPath, OwnFile],
 ) -> None:
-    """Write the remaining files of a folder of the Unreal project and its manifest, which also lists the files that
-    stay."""
+    """Write ``content`` and the manifest into a folder of the Unreal project; the manifest lists all new files and
+    those that stay.
+    """
     place = change.new / folder
     for path, data in content.items():
         (place / path).parent.mkdir(parents=True, exist_ok=True)
@@ -277,7 +281,7 @@ def _figures(
     stop_requested: StopRequested,
     progress: Progress,
 ) -> WordedReports:
-    """Write the FBX files under their names in the project, which the report uses."""
+    """Write the FBX files of all figures under their names in the project, which the report uses."""
     draft = sources / "draft"
     wording, shown_in = wordings
     reports = write_cast(
@@ -351,8 +355,9 @@ def _checked(
     stop_requested: StopRequested,
     progress: Progress,
 ) -> dict[str, tuple[str, ...]]:
-    """Read every written file, compare it with its expected contents, and return the bone names of each by file path.
-    Raises FileError where they differ."""
+    """Read every written file and compare it with its expected contents; return the bone names of each by file path.
+    Raises FileError if a file differs.
+    """
     check_wave(sources / sound.file, RATE_HZ, sound.channels, round(sound.duration_s * RATE_HZ))
     bones: dict[str, tuple[str, ...]] = {}
     figures = tuple(_figures_written(cast, layout))
@@ -369,7 +374,7 @@ def _checked(
 def _figures_written(
     cast: ExportCast, layout: Layout
 ) -> Iterator[tuple[str, FigurePlace, tuple[str, ...], tuple[Mesh, ...]]]:
-    """Yield every character and instrument: the performer's name, the paths, the bones and the meshes in the file."""
+    """Yield every character and instrument: the performer's name, the paths, the names of the bones, and the meshes."""
     for musician in cast.musicians:
         player, target = musician.player, musician.target
         meshes = written_meshes(musician.character, target)

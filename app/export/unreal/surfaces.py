@@ -23,8 +23,10 @@ _SUFFIX: dict[TextureKind, str] = {"color": "D", "normal": "N", "masks": "ORM"}
 
 
 class UnrealTexture(msgspec.Struct, frozen=True):
-    """A texture: its file relative to the description, and its asset. The kind determines compression and colour space;
-    a file used as two kinds gives two assets. Green of normals points up, as in glTF.
+    """A texture: its file relative to the description, and its asset.
+
+    The kind determines compression and colour space; a file used as two kinds gives two assets. Green of normals points
+    up, as in glTF.
     """
 
     file: str
@@ -42,9 +44,10 @@ class UnrealMap(msgspec.Struct, frozen=True):
 
 
 class UnrealMaterial(msgspec.Struct, frozen=True):
-    """A material with textures, each multiplied with the corresponding value; colours are linear. ``surface`` has
-    roughness in green and metallic in blue, ``occlusion`` is in red; ``cutoff`` is the smallest visible alpha of a
-    mask.
+    """A material with textures, each multiplied with the corresponding value; colours are linear.
+
+    ``surface`` has roughness in green and metallic in blue, ``occlusion`` is in red; ``cutoff`` is the smallest visible
+    alpha if alpha cuts out.
     """
 
     asset: str
@@ -64,7 +67,9 @@ class UnrealMaterial(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class FileContents:
-    """Contents of a figure's file: bones, root first, and textured materials by name."""
+    """Contents of the file of a character or instrument: bones, the root first, and asset of each textured material by
+    name.
+    """
 
     bones: tuple[str, ...]
     materials: dict[str, str]
@@ -72,14 +77,14 @@ class FileContents:
 
 @dataclass
 class Surfaces:
-    """Collects textured materials of meshes.
+    """Collector of the textured materials of meshes.
 
     Attributes
     ----------
     content : str
-        Folder of the piece's assets.
+        Asset folder of the piece.
     texture_px : int
-        Longest side of textures; 0: none.
+        Longest side of textures in pixels; 0 for no textures.
     """
 
     content: str
@@ -90,21 +95,21 @@ class Surfaces:
 
     @property
     def textures(self) -> tuple[UnrealTexture, ...]:
-        """All textures of the export, sorted by asset path."""
+        """Return all textures of the export, sorted by asset path."""
         return tuple(self._textures[asset] for asset in sorted(self._textures))
 
     @property
     def materials(self) -> tuple[UnrealMaterial, ...]:
-        """All materials of the export, sorted by asset path."""
+        """Return all materials of the export, sorted by asset path."""
         return tuple(sorted(self._materials.values(), key=lambda one: one.asset))
 
     @property
     def files(self) -> tuple[PurePosixPath, ...]:
-        """Paths of the texture files, relative to the piece's sources."""
+        """Return the paths of the texture files, relative to the piece's sources."""
         return tuple(map(PurePosixPath, sorted(self._images)))
 
     def slots(self, meshes: Iterable[Mesh]) -> dict[str, str]:
-        """Asset of each textured material of some meshes, by material name."""
+        """Add the textured materials of some meshes, and return the asset of each by material name."""
         if not self.texture_px:
             return {}
         textured = (one for mesh in meshes for one in mesh.materials if one.textures != NO_TEXTURES)
