@@ -100,7 +100,7 @@ def written_choice(text: str, choices: Sequence[Fingering], controls: Iterable[C
 
 
 def _only(places: Iterable[int]) -> int | None:
-    """Return the only one of the indices; None if there are several or none."""
+    """Return the single index if there is exactly one, else None."""
     found = list(places)
     return found[0] if len(found) == 1 else None
 

@@ -34,7 +34,7 @@ _ROW_KEYS = ("written_pitch", "rank", "label", "controls", "cents", "correction"
 
 
 def read_label(instrument: InstrumentMap, text: str) -> tuple[str, dict[str, float]]:
-    """Return the label and the values of a typed fingering.
+    """Parse a fingering that the user typed: its label, and the values of its controls by name.
 
     Signs may be in any order and case if that is unambiguous; a slide's position is that of other fingerings with the
     label.
@@ -77,8 +77,9 @@ def read_label(instrument: InstrumentMap, text: str) -> tuple[str, dict[str, flo
 
 
 def with_label(instrument: InstrumentMap, table: Table, written: int, rank: int, text: str) -> Table:
-    """Return the fingering table with another label for the fingering of a written pitch and rank, whose control values
-    follow from it. Raises as `read_label`, and UsageError if the pitch has the label already."""
+    """Return the table with a new label for the fingering with this written pitch and rank; its control values follow
+    from the label. Raises as `read_label`, and UsageError if the note has this label already.
+    """
     label, controls = read_label(instrument, text)
     if any(one.label == label and one.rank != rank for one in of_pitch(table, written)):
         raise UsageError("fingering.twice", text=label)
@@ -150,7 +151,7 @@ def moved(table: Table, written: int, rank: int, by: int) -> Table:
 
 
 def added(instrument: InstrumentMap, table: Table, written: int, text: str) -> Table:
-    """Return the table with one more alternate of a note as the last one. Raises as `with_label`."""
+    """Return the table with one more alternate fingering of a note, in last place. Raises as `with_label`."""
     label, controls = read_label(instrument, text)
     own = of_pitch(table, written)
     if any(one.label == label for one in own):
@@ -320,7 +321,7 @@ _TABLE = re.compile(r"^\s*\[", re.MULTILINE)
 
 
 def _without_block(text: str) -> str:
-    """Return the text without its list of fingerings."""
+    """Remove the list of fingerings from the text of a map file."""
     found = _KEY.search(text)
     if found is None:
         return text
@@ -329,8 +330,8 @@ def _without_block(text: str) -> str:
 
 
 def _with_block(text: str, block: str) -> str:
-    """Return the text with a list of fingerings before its first table, since lines after a table's header belong to
-    it.
+    """Insert a list of fingerings into the text of a map file, before the first table, since lines after a table's
+    header would belong to that table.
     """
     first = _TABLE.search(text)
     at = len(text) if first is None else first.start()

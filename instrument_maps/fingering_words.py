@@ -19,7 +19,7 @@ _SAME: Final = "·"
 
 
 def key_name(instrument: InstrumentMap, control: str, language: str) -> str:
-    """Return the name of a control; by default its sign or its own name in words."""
+    """Return the name of a control for players; without one in the map, its sign or its internal name in words."""
     for key in instrument.chart:
         if key.name == control:
             return key.ja if language == "ja" else key.en

@@ -127,8 +127,8 @@ class Vocabulary(InstrumentRelations):
         return None if found is None else self._strokes.get(found.id)
 
     def within(self, text: str, member: Instrument) -> Instrument | None:
-        """Return the instrument of the same family that a text identifies only by a size or key, as "Alto" and "Bari 1"
-        among saxophones; None for other texts. A single letter is used only after "in".
+        """Find an instrument by a text that names only its size or key, given any member of its family: "Alto" and
+        "Bari 1" among saxophones; None for other texts. A single letter counts only after "in".
 
         Parameters
         ----------
@@ -297,8 +297,9 @@ class Vocabulary(InstrumentRelations):
         return found, reported_by
 
     def _marks_beside(self, tokens: tuple[str, ...], singular: tuple[str, ...], begin: int, end: int) -> dict[str, int]:
-        """Return sizes, clefs and the nearest key (such as "B flat") among the words beside an instrument's name, each
-        with its number of words."""
+        """Find the sizes, clefs and the nearest key (such as "B flat") among the words next to an instrument's name,
+        each with the number of words it takes.
+        """
         found: dict[str, int] = {}
         nearest: tuple[int, str] | None = None
         place = 0
@@ -329,7 +330,7 @@ class Vocabulary(InstrumentRelations):
 
 
 class _Kept(msgspec.Struct, frozen=True):
-    """The table, and the comparison words of everything named in it."""
+    """The vocabulary's table together with the normalised words of every name in it, as stored in a cache."""
 
     table: VocabularyTable
     words: dict[str, tuple[str, ...]]

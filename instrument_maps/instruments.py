@@ -241,7 +241,7 @@ class InstrumentRelations:
         return _nearest(self._strokes, sound)
 
     def is_sort(self, id: str, general: str) -> bool:
-        """Return whether an instrument is a sort of another one, over any number of steps."""
+        """Return whether ``general`` is a more general instrument for ``id``, directly or over several steps."""
         known = self.instruments.get(id)
         return (
             known is not None
@@ -250,7 +250,7 @@ class InstrumentRelations:
         )
 
     def is_kind(self, named: Instrument, general: Instrument) -> bool:
-        """Return whether an instrument is a form or a sort of another one."""
+        """Return whether ``named`` is a form or a variety of ``general``."""
         return general.id in named.form_of or self.is_sort(named.id, general.id)
 
     def relatives(self, instrument: Instrument) -> list[tuple[Instrument, ...]]:
@@ -272,7 +272,7 @@ class InstrumentRelations:
         ]
 
     def family(self, ids: tuple[str, ...]) -> str:
-        """Return the section of the first of instruments that has one; empty if none has."""
+        """Return the family of the first of the instruments that has one; empty if none has."""
         families = (self.instruments[id].family for id in ids if id in self.instruments)
         return next((family for family in families if family), "")
 

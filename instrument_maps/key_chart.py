@@ -61,7 +61,9 @@ class ChartedKey:
 
     @property
     def is_always_shown(self) -> bool:
-        """True if it is drawn even when open, in contrast to other keys: the column and the hole of a thumb."""
+        """True if the key is drawn even when it is not pressed: the holes of the column and the thumb hole are, other
+        keys are not.
+        """
         return self.in_column or (self.is_round and self.control.finger.endswith(".thumb"))
 
 
@@ -106,7 +108,7 @@ class KeyChart:
 
 
 def is_half(control: Control, value: float) -> bool:
-    """Return whether a hole is half closed at a value of its control."""
+    """Return whether a value means that a control's hole is half closed."""
     return control.half_value is not None and 0.0 < value < 1.0
 
 
@@ -156,8 +158,9 @@ def _homes(instrument: InstrumentMap) -> frozenset[str]:
 
 
 def _usual_place(control: Control, home: bool) -> tuple[float, float]:
-    """Return the default x and y of a key in the chart: in the column if it is at home, else beside it, thumbs at the
-    left."""
+    """Default position x, y of a key in the chart: in the column if the finger has its home there, else beside it; keys
+    of thumbs are at the left.
+    """
     hand, _, finger = control.finger.partition(".")
     side = 0.0 if home else -_BESIDE if finger == "thumb" else _BESIDE
     return side, _TOPS.get(hand, 0.0) + _DOWN.get(finger, 0.0)

@@ -274,7 +274,9 @@ class Fingering(MapTable, frozen=True):
 
     @property
     def is_obsolete(self) -> bool:
-        """True if it exists only for corrections in old projects; never for a first choice."""
+        """True if the fingering exists only because corrections in old projects refer to it; never true for a first
+        choice.
+        """
         return self.rank > 1 and "obsolete" in self.tags
 
 
@@ -379,7 +381,7 @@ class InstrumentMap(MapTable, frozen=True):
         return self.range.low <= concert_pitch <= self.range.high
 
     def nearest_playable(self, concert_pitch: int) -> int:
-        """Return the concert pitch itself, or the nearest end of the range."""
+        """Return the concert pitch if it is in the range, else the nearest end of the range."""
         return min(max(concert_pitch, self.range.low), self.range.high)
 
     def fingerings_for(self, concert_pitch: int) -> tuple[Fingering, ...]:

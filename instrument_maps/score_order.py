@@ -9,8 +9,8 @@ from instrument_maps.model import InstrumentMap
 
 
 def in_score_order(maps: Iterable[InstrumentMap]) -> list[InstrumentMap]:
-    """Return instruments by family as in a score (``score_order`` of the vocabulary), unknown families last; within a
-    family the higher one first, by its lowest and then its highest usual pitch; then by id.
+    """Sort instruments as in a score: by family (``score_order`` of the vocabulary), unknown families last; within a
+    family by pitch, the higher first; then by id.
 
     Instruments of the same name in several keys stay together, at the place of the highest.
     """

@@ -23,7 +23,7 @@ LIPS_MEET = frozenset({"cup", "air_jet"})
 
 
 def problems(instrument: InstrumentMap) -> Iterator[Problem]:
-    """Yield every problem of a map with correct types, in the order of its tables."""
+    """Yield the problems of a map whose values have correct types, in the order of its tables."""
     yield from _head(instrument)
     yield from _mouthpiece(instrument)
     yield from _controls(instrument)

@@ -81,12 +81,12 @@ def read_habit(path: Path) -> Habit:
 
 
 def names_in(text: str) -> tuple[str, ...]:
-    """Return the names in a text, such as habits, each once and sorted."""
+    """Split a comma-separated text into names, such as those of habits, each once and sorted."""
     return tuple(sorted({name for part in text.split(SEPARATOR) if (name := part.strip())}))
 
 
 def as_text(names: tuple[str, ...]) -> str:
-    """Return names joined to one text, each once and sorted."""
+    """Join names to one comma-separated text, each once and sorted."""
     return SEPARATOR.join(sorted(set(names)))
 
 

@@ -156,7 +156,7 @@ class Gesture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def needs_lowered(self) -> bool:
-        """True if it requires a completely lowered instrument."""
+        """True if the gesture can be made only while the instrument is completely lowered."""
         return self.hand is not None or bool(self.raised)
 
 

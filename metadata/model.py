@@ -192,7 +192,9 @@ class Footwork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class WeightShift(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Shift of weight from one foot to the other: sideways and forward motion of the hips, and bending of the knees."""
+    """Sizes of a shift of weight from one foot to the other: sideways and forward motion of the hips, and bend of the
+    knees.
+    """
 
     side_m: AmplitudeScale
     roll_deg: AmplitudeScale
@@ -202,7 +204,7 @@ class WeightShift(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class BellMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Motion of the bell as it rises and falls with the melody's contour."""
+    """Sizes of the bell's motion as it rises and falls with the melody."""
 
     up_deg: AmplitudeScale
     down_deg: AmplitudeScale
@@ -341,7 +343,7 @@ class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         )
 
     def _shared(self, angle_deg: float, joints: tuple[str, ...], field: str) -> dict[str, float]:
-        """Return an angle distributed among joints in proportion to their ranges in that direction; empty without
+        """Distribute an angle over joints in proportion to their ranges in that direction, by joint; empty without
         joints.
         """
         if angle_deg == 0.0:

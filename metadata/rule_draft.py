@@ -75,8 +75,8 @@ def duplicated(draft: Draft, index: int) -> Draft:
 
 
 def removed(draft: Draft, index: int) -> Draft:
-    """Return the draft without a rule of the user's; the bundled rule that it replaced returns. A bundled rule is
-    disabled instead.
+    """Remove a rule: a user's rule is deleted, and the bundled rule that it replaced takes effect again; a bundled rule
+    is disabled instead.
     """
     one = draft[index]
     if one.file == "":
@@ -136,7 +136,7 @@ _USUAL: Final[Mapping[type[msgspec.Struct], msgspec.Struct]] = {When: When(), Do
 
 
 def _said(value: msgspec.Struct) -> dict[str, Any]:
-    """Return those fields of a rule that differ from their defaults, by name, as they are written to a file."""
+    """Return the fields of a rule that differ from their defaults, by name, for writing them to a file."""
     usual = _USUAL.get(type(value), Rule("", When(), Do()))
     found: dict[str, Any] = {}
     for name in value.__struct_fields__:

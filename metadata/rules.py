@@ -121,7 +121,7 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def growth(self) -> tuple[Growth, ...]:
-        """All quantities of the music with which the strength grows; empty if it is constant."""
+        """All quantities of the music with which the strength grows; empty if the strength is constant."""
         if self.grows_with is None:
             return ()
         return (self.grows_with,) if isinstance(self.grows_with, str) else self.grows_with
@@ -153,7 +153,7 @@ class Rule(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def prefix(self) -> str:
-        """Return the second part of the ids of its events, after their kind."""
+        """Second part of the ids of the rule's events, after the kind of event."""
         return self.events or f"rule:{self.name}"
 
 

@@ -24,8 +24,8 @@ USUAL_TURNS: Final[tuple[Turn, Turn, Turn]] = ("flexion", "sideways", "twist")
 
 
 class JointAxes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Anatomical axes of a joint in the T-pose. Positive flexion closes the joint or bends it forward; positive
-    sideways and twist are explained in the profile's comments.
+    """Anatomical axes of a joint in the T-pose, about which flexion, sideways bend and twist are measured. Positive
+    flexion closes the joint or bends it forward; the other directions are explained in the profile's comments.
     """
 
     flexion: Axis
@@ -75,15 +75,15 @@ class SkeletonProfile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     turns: dict[str, tuple[Turn, Turn, Turn]] = {}
 
     def joint(self, name: str) -> ProfileJoint:
-        """Return the joint of a name; KeyError if there is none."""
+        """Return the joint with a name. Raises KeyError if there is none."""
         for joint in self.joints:
             if joint.name == name:
                 return joint
         raise KeyError(name)
 
     def joint_axes(self, name: str) -> JointAxes:
-        """Return the anatomical axes of a joint; a right joint's are the left one's mirrored in the plane X = 0, so
-        that signs have the same meaning on both sides (axes are pseudovectors: y and z change sign).
+        """Return the anatomical axes of a joint. Those of a right joint are the left one's mirrored in the plane X = 0,
+        so that signs have the same meaning on both sides (axes are pseudovectors: y and z change sign).
         """
         axes = self.axes[self.joint(name).kind]
         if not name.startswith("right"):

@@ -136,7 +136,7 @@ def dynamics(
 
 
 def _weighting(rate_hz: int) -> FloatArray:
-    """Return the second-order sections of K-weighting (the filters of BT.1770) at any rate, by the bilinear
+    """Return the K-weighting filter of BT.1770 as second-order sections for a sampling rate, designed by the bilinear
     transform.
     """
     k = np.tan(np.pi * 1681.974450955533 / rate_hz)
@@ -152,7 +152,7 @@ def _weighting(rate_hz: int) -> FloatArray:
 
 @dataclass(frozen=True)
 class _Sounding:
-    """Grid of seconds of the score, and a mask of the times on it at which a part sounds."""
+    """Time grid of a score in seconds, with a mask of the times at which a part sounds."""
 
     at_s: FloatArray
     sounds: BoolArray
@@ -203,8 +203,8 @@ def _count(start_s: FloatArray, end_s: FloatArray, at_s: FloatArray) -> IntArray
 
 
 def _of_pitches(pitch: IntArray, levels: FloatArray, audible: BoolArray) -> FloatArray:
-    """Return each pitch's deviation in loudness caused by instrument and room: the mean over the piece, shrunk to 0 for
-    rare pitches.
+    """Return the loudness deviation in decibels caused by each note's pitch (instrument and room): the mean for that
+    pitch over the piece, shrunk towards 0 for rare pitches.
     """
     about = levels - np.median(levels[audible])
     count = np.bincount(pitch[audible], minlength=128) * STEP_S

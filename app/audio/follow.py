@@ -153,8 +153,9 @@ class _Prepared:
 
 
 def _found(prepared: _Prepared, reached: Callable[[float], None]) -> tuple[Following | None, RunnerUp | None]:
-    """Return the likeliest alignment regardless of its confidence, and the second likeliest for comparison; None where
-    there is none."""
+    """Find the likeliest alignment, whatever its confidence, and the second likeliest place for comparison; each is
+    None if there is none.
+    """
     shapes, recorded = prepared.shapes, prepared.recorded
     result = _followed(prepared, slice(0, shapes.shape[1]))
     reached(0.4)
@@ -255,7 +256,9 @@ def _parts(played: Sequence[Passage], frames: int, pins: Pins) -> tuple[slice, t
 
 
 def _followed(prepared: _Prepared, part: slice, jumps: Sequence[Jump] = ()) -> Following | None:
-    """Follow a recording of a range of the score with jumps; None if nothing is similar."""
+    """Align a recording that contains only a ``part`` of the score (range of frames), with jumps; None if nothing is
+    similar.
+    """
     recorded = prepared.recorded
     start_s, end_s = part.start * CHROMA_S, part.stop * CHROMA_S
     pins = prepared.pins.within(start_s, end_s)
@@ -294,8 +297,9 @@ def _refined(prepared: _Prepared, rough: Warped, pins: Pins) -> Following:
 def _present(
     times: FloatArray, found: FloatArray, rough: Warped, recorded: RecordedSound
 ) -> tuple[FloatArray, FloatArray]:
-    """Return score time and recorded time (N,) of the onsets found in the recording; ``found`` is recorded seconds for
-    each score time in ``times``."""
+    """Select the onsets that the recording really contains: their times (N,) in score and recording, from the
+    candidates ``times`` and ``found``.
+    """
     there = (found >= 0.0) & (found < recorded.length_s)
     for span in rough.missing:
         there &= (times < span.start) | (times >= span.end)
@@ -303,15 +307,15 @@ def _present(
 
 
 def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:
-    """Return pinned beats in the units of the analysis."""
+    """Convert the user's pins from ticks of the score to seconds of score and recording."""
     return Pins(
         score.tempo_map.seconds(np.array([*pinned], np.float64)), np.array([*pinned.values()], np.float64) - EARLY_S
     )
 
 
 def _beats(beat_s: FloatArray, times: FloatArray, found: FloatArray, warped: Warped, pins: Pins) -> FloatArray:
-    """Return the times of the beats, at least `LEAST_GAP_S` apart: pinned times, else by the onsets around each beat,
-    else by the warping.
+    """Compute the times of the beats in the recording, at least `LEAST_GAP_S` apart: those pinned by the user, else
+    from the onsets around each beat, else from the warping.
     """
     result = warped.at(beat_s)
     # What the onsets say beside the warping, so that between them its tempo goes on.
@@ -384,9 +388,7 @@ def _lengths(beat_s: FloatArray, recording_s: FloatArray) -> FloatArray:
 
 
 def _squeezed(beat_s: FloatArray, lengths: FloatArray) -> tuple[UnmatchedSpan, ...]:
-    """Return the spans of the score in seconds that have hardly any time in the recording and are therefore considered
-    missing.
-    """
+    """Find spans of the score, in seconds, that take hardly any time in the recording and so count as missing in it."""
     places = np.flatnonzero(lengths < _SQUEEZED)
     if not len(places):
         return ()

@@ -34,7 +34,7 @@ _SIDE: Final = 0.6
 
 
 def project_to_hear(score: Score) -> Project:
-    """Return a project that plays every part of a score, for listening only: its players lack instruments and
+    """Create a project for listening only, in which every part of a score sounds; its players have no instruments and
     characters.
     """
     place = StagePosition(0.0, 0.0, 0.0)
@@ -68,8 +68,9 @@ def player_tracks(project: Project, pieces: Mapping[str, Iterable[AudioSegment]]
 
 
 def player_gains(project: Project) -> dict[str, tuple[float, float]]:
-    """Return left and right gain, factors by player id, of the players to be heard: soloed ones if there are any, else
-    `PERCUSSION` and all that are not muted. Positions on stage give the balance."""
+    """Return the left and the right gain of each audible player, by id: of soloed players if there are any, else of
+    `PERCUSSION` and all that are not muted. Positions on stage determine the balance.
+    """
     players = project.players
     soloed = any(player.soloed for player in players)
     width_m = max((abs(player.stage.x_m) for player in players), default=0.0)

@@ -80,7 +80,7 @@ def note_onsets(
 
 
 def _own_partials(pitch: float, others: FloatArray) -> FloatArray:
-    """Return the frequencies (K,) of those partials of a note that no other sounding note shares."""
+    """Frequencies (K,) in Hz of the partials of a note that none of the other sounding notes shares."""
     numbers = np.arange(1, _PARTIALS + 1)
     own = pitch + 12.0 * np.log2(numbers)
     theirs = others[:, None] + 12.0 * np.log2(np.arange(1, 2 * _PARTIALS + 1))

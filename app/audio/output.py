@@ -78,7 +78,7 @@ class OutputSink:
         return max(round((BUFFER_S - self._queue.waiting_s()) * RATE_HZ), 0)
 
     def write(self, block: Block) -> None:
-        """Add samples behind those already written, resampled to the device's rate."""
+        """Append samples to those already written; they are resampled to the device's rate."""
         if self._resampler is not None:
             block = self._resampler.resample_chunk(np.ascontiguousarray(block))
         self._queue.put(block)
@@ -163,7 +163,9 @@ class Queue:
         return out * np.float32(self.gain)
 
     def frames(self) -> Generator[SingleArray | bytes, int, None]:
-        """Return a started generator that yields sound when it is sent a number of frames, as miniaudio expects."""
+        """Return a started generator in the form that miniaudio expects: it yields the next sound when a number of
+        samples is sent to it.
+        """
         generator = self._frames()
         next(generator)
         return generator
@@ -239,8 +241,8 @@ _say_nothing = _AlsaHandler(lambda file, line, function, error, text: None)
 
 @contextlib.contextmanager
 def _quiet_alsa() -> Iterator[None]:
-    """Suppress ALSA's forty lines of output on systems without a sound card, since the program reports a missing output
-    itself.
+    """Context manager that suppresses the messages that ALSA prints on systems without a sound card; the program
+    reports a missing output itself.
     """
     try:
         set_handler = ctypes.CDLL("libasound.so.2").snd_lib_error_set_handler if sys.platform == "linux" else None

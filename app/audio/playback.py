@@ -129,7 +129,7 @@ class Playback(QObject):
         return self._silent
 
     def play(self, from_s: float | None = None) -> None:
-        """Start playing at a moment, else at the current position, or at the beginning if that is the end."""
+        """Start playing at ``from_s``, by default at the current position, or at the beginning if that is the end."""
         start_s = self.position_s() if from_s is None else from_s
         if self._loop_s is not None and start_s >= self._loop_s[1] - _LEAST_S:
             start_s = self._loop_s[0]
@@ -153,7 +153,7 @@ class Playback(QObject):
         self.playing_changed.emit(False)
 
     def seek(self, position_s: float) -> None:
-        """Move to a moment; playback continues if it is running."""
+        """Move to another position; if the performance is playing, it continues from there."""
         if self._sink is None:
             self._position_s = position_s
             return

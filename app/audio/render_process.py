@@ -33,7 +33,7 @@ class RenderProcess:
         self._has_child = True
 
     def __call__(self, midi: bytes) -> Samples:
-        """Return a MIDI file as sound: int16, mono. Phrases are rendered one at a time; any thread may call."""
+        """Render a MIDI file to sound: int16, mono. Phrases are rendered one at a time; any thread may call this."""
         with self._lock:
             if self._has_child:
                 try:

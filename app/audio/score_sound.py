@@ -69,7 +69,7 @@ def expected_sound(score: Score) -> ExpectedSound:
 def sounds_to_compare(
     score: Score, samples: Samples, rate_hz: int, progress: Progress
 ) -> tuple[ExpectedSound, RecordedSound]:
-    """Return the expected sound of a score and the features of a recording of it.
+    """Prepare a score and a recording for comparison: the score's expected sound, and the recording's features.
 
     Raises
     ------
@@ -137,7 +137,7 @@ def shape(chroma: FloatArray) -> FloatArray:
 
 
 def levelled_onsets(onsets: FloatArray) -> FloatArray:
-    """Return onset strength (F,) above the mean of its surroundings, in standard deviations, limited to -1..4."""
+    """Normalise onset strength (F,): its excess over the local mean in standard deviations, limited to -1..4."""
     width = round(1.5 / ONSET_S)
     around = np.convolve(onsets, np.ones(width) / width, "same")
     spread = np.sqrt(np.convolve((onsets - around) ** 2, np.ones(width) / width, "same"))

@@ -22,7 +22,7 @@ space.
 
 @dataclass(eq=False)
 class _File:
-    """A memory-mapped unnamed file that exists as long as any of its sound is used."""
+    """A memory-mapped temporary file without a name, which exists as long as any sound in it is used."""
 
     file: IO[bytes]
     memory: mmap.mmap

@@ -65,7 +65,9 @@ def steady_line(times: FloatArray, found: FloatArray, onsets: FloatArray) -> tup
 
 
 def _fitted(times: FloatArray, found: FloatArray) -> tuple[float, float]:
-    """Return both ends of a straight line through the found onsets, robust against errors."""
+    """Fit a straight line through the found onsets, robust against errors; returns the recorded seconds at its two
+    ends.
+    """
     weights = np.ones(len(times))
     line = np.zeros(2)
     for _ in range(_FITS):

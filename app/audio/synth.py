@@ -230,8 +230,8 @@ def _phrase(
     opening: bytes,
     channel: int = 0,
 ) -> RenderedPhrase:
-    """Return a phrase of notes from ``onsets`` to ``ends`` (samples), as a MIDI file that begins with ``opening`` at
-    the first onset.
+    """Create a phrase of notes that sound from ``onsets`` to ``ends`` (in samples), as a MIDI file that begins with the
+    messages ``opening`` at the first onset.
     """
     start = int(onsets.min()) // _BLOCK * _BLOCK
     last = int(ends.max())
@@ -254,8 +254,8 @@ def _in_order(event: tuple[int, int, bytes]) -> tuple[int, int]:
 
 
 def _midi_file(events: Iterable[tuple[int, int, bytes]], tail: int) -> bytes:
-    """Return a MIDI file of one track whose ticks are samples. A library would take ten times as long, and a large
-    score has hundreds of thousands of messages.
+    """Format events as a MIDI file of one track whose ticks are samples. Own code, since a library takes ten times as
+    long and large scores have hundreds of thousands of messages.
     """
     track = bytearray()
     before = 0

@@ -47,7 +47,7 @@ _NEAR: Final = 80
 
 @dataclass(frozen=True)
 class Pins:
-    """Corresponding seconds of score and recording set by the user; both strictly ascend."""
+    """Corresponding times in score and recording, in seconds, that the user set; both strictly ascend."""
 
     score_s: FloatArray
     recording_s: FloatArray
@@ -225,8 +225,9 @@ def _alone(frames: FloatArray, matched: IntArray) -> BoolArray:
 
 
 def _runs(there: BoolArray, frame_s: float) -> tuple[UnmatchedSpan, ...]:
-    """Return the spans of at least `MISSING_S` seconds in which ``there`` is true, ignoring short breaks; a frame lasts
-    ``frame_s``."""
+    """Convert a mask of frames to spans of at least `MISSING_S` seconds, ignoring short interruptions; a frame lasts
+    ``frame_s``.
+    """
     places = np.flatnonzero(there)
     if not len(places):
         return ()

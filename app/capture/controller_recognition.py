@@ -91,7 +91,7 @@ def _range(events: Iterable[tuple[int, bytes]], source: BiteSource, channel: int
 
 
 def breath_value(message: bytes, source: BreathSource) -> int | None:
-    """Return the breath value in a message, 0..127; None for other messages."""
+    """Return the breath value 0..127 if a MIDI message carries breath by the controller ``source``; else None."""
     return message[-1] if _source(message) == source else None
 
 

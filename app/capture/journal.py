@@ -145,7 +145,7 @@ class JournalWriter:
         self._is_synced = False
 
     def _cut(self) -> int:
-        """Remove an interrupted line and the end mark, and return the length of the rest."""
+        """Remove an interrupted last line and the end mark from the file, and return the remaining length in bytes."""
         data = self._file.read()
         lines = data[: data.rfind(b"\n") + 1].splitlines(keepends=True)
         if lines and lines[-1].startswith(b"end "):
@@ -188,7 +188,7 @@ class JournalWriter:
             del self._pending[: self._file.write(self._pending)]
 
     def to_disk(self) -> bool:
-        """Flush everything to the disk, and return whether there was anything new. Raises OSError."""
+        """Write everything to the disk itself, and return whether there was anything new. Raises OSError."""
         if self._is_synced:
             return False
         self.write()

@@ -170,8 +170,8 @@ class RecorderLink:
         self._ending.start()
 
     def _report(self, command: Command) -> bool:
-        """Send a command, and return whether it was sent; unsent commands that matter are sent to the next recorder.
-        The lock must be held.
+        """Send a command to the recorder, and return whether that succeeded; unsent commands that matter are sent to
+        the next recorder. The lock must be held.
         """
         if self._child is None or self._is_leaving:
             return False
@@ -241,7 +241,9 @@ class RecorderLink:
         self._put(RequestRefused(self._failure))
 
     def _refuse(self, port: str) -> None:
-        """Report once that opening the port ended a recorder; the next recorder does not open it for a while."""
+        """Report once that opening a port made the recorder's process end; the next recorder does not open this port
+        for a while.
+        """
         with self._lock:
             if port != self.port or self._open is None:
                 return

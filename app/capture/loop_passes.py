@@ -75,7 +75,9 @@ def _ended(journal: Journal) -> tuple[Sequence[int], Sequence[bytes]]:
 
 
 def _performance_us(times_ns: Iterable[int], latency_ns: int, points: Sequence[SyncPoint]) -> Iterator[int]:
-    """Yield the ascending moments as microseconds of the performance, by the positions played in one pass."""
+    """Convert ascending clock times in nanoseconds to microseconds of the performance, by the known positions
+    ``points`` of one pass.
+    """
     index = 0
     for time_ns in times_ns:
         played_ns = time_ns - latency_ns

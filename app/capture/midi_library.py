@@ -91,7 +91,7 @@ def load_library() -> MidiLibrary:
 
 
 class PythonRtmidi:
-    """MIDI input and output by the package python-rtmidi, one of the two supported."""
+    """MIDI input and output by the package python-rtmidi."""
 
     def __init__(self) -> None:
         import rtmidi
@@ -148,7 +148,7 @@ class _PythonRtmidiInput:
 
 
 class Rtmidi2:
-    """MIDI input and output by the package rtmidi2, one of the two supported."""
+    """MIDI input and output by the package rtmidi2."""
 
     def __init__(self) -> None:
         # The copy of JACK's library in its wheel speaks an older protocol than the servers of today.

@@ -85,7 +85,8 @@ def named(found: Sequence[str], system: str, known: Mapping[str, str] | None = N
 
 
 def matching(requested: str, names: Sequence[str], *, partly: bool = False) -> tuple[str, ...]:
-    """Return the names of the ports that match a text: equal names, else names of the same device on any system.
+    """Select the port names that a text means: equal names or, if there are none, names of the same device on any
+    system.
 
     Parameters
     ----------

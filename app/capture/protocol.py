@@ -17,8 +17,9 @@ class _Report(msgspec.Struct, frozen=True, tag=True, array_like=True, gc=False):
 
 
 class Open(_Report, frozen=True):
-    """Command to listen to a port, now and whenever it reconnects; sent once to a recorder (see
-    `app.capture.recorder`). ``is_lost``: it was open and was disconnected. ``after_s``: seconds to wait first.
+    """Command to listen to a port, now and whenever it reconnects; a recorder gets it once (see
+    `app.capture.recorder`). ``is_lost``: whether the port was open before and was disconnected. ``after_s``: seconds to
+    wait first.
     """
 
     port: str
@@ -27,9 +28,9 @@ class Open(_Report, frozen=True):
 
 
 class StartRecording(_Report, frozen=True):
-    """Command to write received messages into a journal, whose path is encoded by `os.fsencode`, since not all paths
-    are text. ``resumed_ns``: end of the messages of another recorder that began the journal. ``elsewhere``: path used
-    if the disk of the first is full; empty to wait for that disk.
+    """Command to write received messages to a journal. Its path is encoded by `os.fsencode`, since not all paths are
+    text. ``resumed_ns``: time of the last message of another recorder that began the journal. ``elsewhere``: path to
+    use if the first disk is full; empty to wait until it has room.
     """
 
     path: bytes

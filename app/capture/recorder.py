@@ -268,8 +268,8 @@ def _read_commands(queue: SimpleQueue[Command | None], channel: MessageChannel[C
 
 
 def _private_output() -> IO[bytes]:
-    """Return a private copy of the output, so that output of drivers' libraries is discarded and Python's errors still
-    appear.
+    """Return a private copy of standard output, for messages to the editor. Output of drivers' libraries is discarded
+    from then on; Python's own errors still appear.
     """
     own = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     # On Windows a program without a console has none.

@@ -71,7 +71,7 @@ def bound_mm(contact: Contact) -> float:
 
 
 def allowed_mm(name: str, bound_mm: float, missed: Mapping[str, float]) -> float:
-    """Return the allowed error of a contact in millimetres: its bound plus the error that the grip itself has, which is
+    """Allowed error of a contact in millimetres: its bound plus the error of the grip itself (``missed``), which is
     reported separately (`app.contacts.missed_contacts`).
     """
     return bound_mm + missed.get(name, 0.0)

@@ -67,7 +67,7 @@ class NoteFrames:
         return self._inside(*self._bounds(self._starts_s, self._ends_s))
 
     def within(self, spans_s: Iterable[tuple[float, float]]) -> BoolArray:
-        """Mask (F,) of the frames inside any of these spans."""
+        """Mask (F,) of the frames inside any of the spans (start, end) in seconds."""
         starts_s, ends_s = np.array(list(spans_s), dtype=np.float64).reshape(-1, 2).T
         return self._inside(*self._bounds(starts_s, ends_s))
 
@@ -80,8 +80,9 @@ class NoteFrames:
         return known
 
     def working(self, control: Control, values: FloatArray) -> tuple[BoolArray, BoolArray]:
-        """Return two masks (F,) of frames in a sounding note: the control is away from rest as the note requires, and
-        at rest as the note requires."""
+        """Masks (F,) of the frames of sounding notes in which a control is where the note requires it: away from its
+        rest position, and at its rest position.
+        """
         pressed, released = np.zeros((2, len(self._times_s)), dtype=np.bool_)
         frames, notes = self._frames_of_notes
         targets = self.targets(control)[notes]
@@ -219,7 +220,7 @@ class NoteFrames:
         return self._bounds(self._starts_s, np.minimum(self._ends_s, following_s[: len(self.notes)]))
 
     def _bounds(self, starts_s: FloatArray, ends_s: FloatArray) -> tuple[IndexArray, IndexArray]:
-        """Return the index of the first frame (K,) of each of K spans of seconds, and of the frame after its last."""
+        """For each of K spans of seconds the index of its first frame (K,), and of the frame after its last (K,)."""
         return np.searchsorted(self._times_s, starts_s - 1e-9), np.searchsorted(self._times_s, ends_s - 1e-9)
 
     def _inside(self, starts: IndexArray, stops: IndexArray) -> BoolArray:

@@ -76,7 +76,7 @@ class HandDepths:
         least_m: FloatArray | None = None,
         least_of: Callable[[FloatArray], float] = lambda found_m: 0.0,
     ) -> FloatArray:
-        """Greatest depth of any vertex in any body, at each frame.
+        """Compute at each frame the greatest depth of any vertex of the hand in any body of the instrument.
 
         Parameters
         ----------
@@ -162,7 +162,7 @@ class _Pairs:
         return _Pairs(*map(np.concatenate, both))
 
     def of_blocks(self, values: SingleArray) -> SingleArray:
-        """Return the value (N,) of the block to which each of N pairs belongs, from one value (B,) per block."""
+        """Expand values per block (B,) to values per pair (N,): each pair gets the value of its block."""
         found: SingleArray = values[self.blocks][self.spots]
         return found
 
@@ -276,7 +276,9 @@ class _Search:
         return places_m
 
     def _placed(self, pairs: _Pairs, vertices: IndexArray) -> NodePoints:
-        """Return the positions of the candidate vertices (S,) in their nodes' frames at the middle of the blocks."""
+        """Positions of the candidate vertices (S,) in the frames of their nodes, at the middle frame of each block,
+        with bounds on their movement.
+        """
         size, spots = self._moved.size, pairs.spots
         middles = pairs.blocks * size + size // 2
         places_m, moves_m = self._poses.places_m(middles, vertices), np.full(len(vertices), _ROUNDING_M)
@@ -288,9 +290,10 @@ class _Search:
     def _near(
         self, pairs: _Pairs, vertices: IndexArray, radii_m: SingleArray, depths_m: SingleArray
     ) -> tuple[BoolArray, NodePoints]:
-        """Return a mask of the pairs (N,) of block and vertex that may be deepest in any frame of their block;
-        ``radii_m`` (S,) surround the vertices (S,). Depths (B, size) of B blocks are raised as far as they are
-        certain."""
+        """Mask (N,) of the pairs whose vertex may be the deepest in any frame of its block, and the positions of the
+        vertices. ``radii_m`` (S,) are the radii of the groups around the vertices (S,). Known depths (B, size) of the
+        frames of B blocks are raised in place.
+        """
         placed, own_m = self._placed(pairs, vertices), radii_m[pairs.spots]
         # Something this far away is known to be less deep than what has been found.
         clear_m = own_m + placed.moves_m - pairs.of_blocks(depths_m.min(axis=1))
@@ -327,7 +330,7 @@ class _Groups:
     radii_m: SingleArray
 
     def vertices(self, grouped: _Pairs) -> _Pairs:
-        """Replace groups by their vertices, in the same blocks."""
+        """Expand pairs with groups of vertices to pairs with the single vertices, in the same blocks."""
         members = self.members[grouped.items]
         row, _ = there = np.nonzero(members >= 0)
         counts = np.bincount(row, minlength=len(members))
@@ -366,8 +369,9 @@ def _split(rows: IndexArray, positions_m: FloatArray) -> list[IndexArray]:
 
 @lru_cache(maxsize=8)
 def _field(bodies: tuple[Proxy, ...]) -> tuple[tuple[str, ...], DistanceField]:
-    """Return the names of the nodes that have bodies, and the distance field of the bodies; cached, since hands and
-    similar players share it."""
+    """Build the distance field of the bodies, and return it with the names of the nodes that have bodies; cached, since
+    hands and similar players share it.
+    """
     by_node: dict[str, list[Proxy]] = {}
     for body in bodies:
         by_node.setdefault(body.node, []).append(body)

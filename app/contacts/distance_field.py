@@ -169,7 +169,7 @@ class DistanceField:
         return found, _off_middle(inside, cells, 1)
 
     def _flat(self, places: npt.NDArray[np.int32], nodes: IndexArray) -> npt.NDArray[np.int32]:
-        """Flat indices of bricks at grid places (3, N) of nodes (N,)."""
+        """Convert grid positions (3, N) in the grids of ``nodes`` (N,) to flat indices (N,) of bricks."""
         x, y, z = places
         flat: npt.NDArray[np.int32] = (x * self._shapes[:, 1].take(nodes) + y) * self._shapes[:, 2].take(nodes) + z
         flat += self._starts.take(nodes)

@@ -47,7 +47,7 @@ class SkinnedVertices:
 
 
 def skinned_vertices(skin: Skin) -> SkinnedVertices:
-    """Return a skin's vertices in the form for fast skinning: per vertex the joints that carry it."""
+    """Convert a skin to arrays for fast skinning: for each vertex the joints that carry it, strongest first."""
     count = int(np.count_nonzero(skin.weights, axis=1).max())
     carriers = np.argsort(-skin.weights, axis=1, kind="stable")[:, :count]
     from_mesh = skin.joint_from_mesh[carriers]

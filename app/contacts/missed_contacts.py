@@ -23,7 +23,7 @@ def missed_mm(grip: GripPose) -> dict[str, float]:
 
 
 def missed_message(grip: GripPose) -> Message | None:
-    """Warning about missed touches; None if all are met."""
+    """Return a warning about the touches that a grip misses; None if it misses none."""
     off = missed_contacts(grip)
     if not off:
         return None

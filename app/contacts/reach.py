@@ -69,7 +69,7 @@ def notes_out_of_reach(problems: Iterable[Problem]) -> frozenset[str | None]:
 
 
 def carried_controls(instrument: InstrumentMap) -> frozenset[str]:
-    """Controls that a whole hand moves along, such as a slide; reach is checked only for these."""
+    """Names of the controls along which a whole hand moves, such as a slide; reach is checked only for these."""
     return frozenset(control.name for control in instrument.controls if control.finger.endswith(".hand"))
 
 

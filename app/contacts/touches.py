@@ -60,8 +60,8 @@ class Traces:
         return np.linalg.norm(self.from_rim_m(instrument, LIPS), axis=1) if LIPS in self.marks_m else None
 
     def upper_lip_m(self, instrument: InstrumentMap, playing: BoolArray) -> FloatArray | None:
-        """Return the displacement (F,) of the rim from its median place on the upper lip in the frames ``playing``
-        (F,); None without a mouth or such frames.
+        """Displacement (F,) in metres of the rim on the upper lip, relative to its median position in the frames
+        ``playing`` (F,); None for a head without a mouth, or without such frames.
         """
         if not playing.any() or UPPER_LIP not in self.marks_m:
             return None
@@ -90,7 +90,7 @@ def hand_gaps_m(
 
 
 def hole_values(instrument: InstrumentMap, traces: Traces) -> dict[str, FloatArray]:
-    """Value (F,) of every hole without a moving part, from the positions of fingers.
+    """Value (F,) of every hole that has no moving part, by name, derived from the positions of the fingers.
 
     1 or 0.5 where a finger covers it, 0 where none is near, NaN where a finger is too near for an open hole.
     """
@@ -116,8 +116,8 @@ def hole_values(instrument: InstrumentMap, traces: Traces) -> dict[str, FloatArr
 def _gap_m(
     contact: Contact, instrument: InstrumentMap, traces: Traces, targets: FloatArray | None = None
 ) -> FloatArray:
-    """Return the distance (F,) of a part of a hand from its touch point; measured sideways for a hole to be half
-    closed, as given in ``targets`` (F,) or (1,).
+    """Distance (F,) in metres of a part of a hand from its touch point. For a hole that ``targets`` (F,) or (1,)
+    require half closed, it is measured from the side of the hole.
     """
     point_m = np.asarray(contact.position_m)
     if targets is not None and contact.control is not None:

@@ -157,7 +157,7 @@ def decode_answers(content: bytes, path: Path) -> ViewerFile:
 
 
 def encode_answers(answers: Sequence[Answer]) -> bytes:
-    """Return a CSV file of answers, as the evaluation's web page writes it."""
+    """Format answers as a CSV file, like the evaluation's web page does."""
     lines = [",".join(COLUMNS)]
     for answer in answers:
         values = msgspec.structs.asdict(answer) | {"seconds": f"{answer.seconds:.1f}"}
@@ -166,7 +166,7 @@ def encode_answers(answers: Sequence[Answer]) -> bytes:
 
 
 def _fields(line: str, separator: str) -> list[str]:
-    """Return the fields of a line; since no field contains a line end, an unclosed quote affects only its line."""
+    """Split a line into its fields. Fields never contain line ends, so an unclosed quote affects only its own line."""
     try:
         rows = list(csv.reader([line], delimiter=separator))
     except csv.Error:

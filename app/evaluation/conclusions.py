@@ -101,7 +101,7 @@ def _of_control(control: ManipulationCheck) -> Message:
 
 
 def _better(results: EvaluationResults) -> Iterator[Message]:
-    """Yield the variants that were judged better than another, with the number of questions."""
+    """Yield a message for each variant that was judged better than another one, with the number of questions."""
     total: dict[tuple[Presentation, frozenset[Variant]], int] = defaultdict(int)
     found: dict[tuple[Presentation, Variant, Variant], list[float]] = defaultdict(list)
     for contrast in results.contrasts:

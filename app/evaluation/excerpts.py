@@ -86,6 +86,6 @@ def _notes_s(project: Project) -> tuple[FloatArray, FloatArray]:
 
 
 def practice_of(excerpts: Sequence[Excerpt], longest_s: float = 4.0) -> Excerpt:
-    """Return the excerpt for practice: the beginning of the last one."""
+    """Return the excerpt for the practice clip: the beginning of the last excerpt, up to ``longest_s`` seconds."""
     last = excerpts[-1]
     return Excerpt(last.from_s, min(last.from_s + longest_s, last.until_s))

@@ -73,7 +73,7 @@ class ImportedVideo:
 
 
 def require_covered(path: Path, covered_s: tuple[float, float], excerpt: Excerpt) -> None:
-    """Raise FileError if a file showing a span of seconds does not show all of an excerpt."""
+    """Raise FileError unless a file that shows the span ``covered_s`` of the performance shows all of an excerpt."""
     first_s, last_s = covered_s
     if excerpt.from_s < first_s - _EARLY_S or excerpt.until_s > last_s + _EARLY_S:
         raise FileError(
@@ -188,7 +188,9 @@ def pictures_of(video: ImportedVideo, from_s: float, size: tuple[int, int]) -> I
 
 
 class _Framed:
-    """Places pictures in a frame, and repeats the last one at the end."""
+    """Function object that places the pictures of a video in a frame; after the video's end it repeats the last
+    picture.
+    """
 
     def __init__(
         self, video: ImportedVideo, pictures: VideoPictures, size: tuple[int, int], inner: tuple[int, int]

@@ -212,8 +212,7 @@ def read_keyframes(
 
 
 def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
-    """Return the path of each player's motion file in a folder, by player id; those without exactly one are left
-    out."""
+    """Find the motion file of each player in a folder, by player id; players with no file or several are omitted."""
     try:
         there = {path.name.casefold(): path for path in sorted(folder.iterdir())}
     except OSError as error:
@@ -252,7 +251,9 @@ def _read(path: Path) -> BvhClip:
 
 
 def _on_skeleton(clip: BvhClip, path: Path, performer: Performer) -> tuple[FloatArray, FloatArray]:
-    """Return rotations (F, J, 4) of a character's J joints and hip positions (F, 3) in metres, from a motion file."""
+    """Convert a motion file to a character's skeleton: rotations (F, J, 4) of its J joints, and hip positions (F, 3) in
+    metres.
+    """
     skeleton = performer.character.skeleton
     place = {name: joint for joint, name in enumerate(clip.names)}
     below = [joint for joint in range(len(skeleton.names)) if _hangs_on_hips(skeleton, joint)]
@@ -287,7 +288,9 @@ def _on_skeleton(clip: BvhClip, path: Path, performer: Performer) -> tuple[Float
 
 
 def _rest(offsets_cm: FloatArray, joints: Sequence[int], parents: Sequence[int], character: Character) -> FloatArray:
-    """Return rotations (J, 4) of the joints in a file's rest pose: the T-pose, or that of the mesh (FBX, GLB)."""
+    """Find the rest pose of a motion file: rotations (J, 4) of the joints, which are those of the T-pose or of the mesh
+    (FBX, GLB).
+    """
     skeleton = character.skeleton
     bound = rest_transforms(character, normalised_target(skeleton))[:, :3, :3].astype(np.float64)
     poses = np.tile(quaternion.IDENTITY, (len(skeleton.names), 1)), quaternion.from_matrix(bound)
@@ -322,7 +325,7 @@ def _hips(clip: BvhClip, hips: int) -> tuple[FloatArray, FloatArray]:
 
 
 def _upright(clip: BvhClip, skeleton: Skeleton, place: Mapping[str, int]) -> BvhClip:
-    """Return a clip with Y up, since some programs (Blender) write BVH with Z up and all bones rotated accordingly."""
+    """Rotate a clip so that Y is up, since some programs (Blender) write BVH with Z up."""
     spine = place[next(name for name in skeleton.names if _on_hips(skeleton, name))]
     way = clip.offsets_cm[spine]
     ours = skeleton.offsets_m[skeleton.index(clip.names[spine])]

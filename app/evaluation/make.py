@@ -124,8 +124,7 @@ def make_evaluation(
 def _files(
     clips: Path, variants: Sequence[Variant], drawn: Sequence[EvaluationClip], scenes: Sequence[ClipScene]
 ) -> dict[Variant, dict[Path, ClipScene]]:
-    """Return the video files by variant, each with the scene to film; the practice clip is filmed as one of the
-    generated ones."""
+    """Assign video files to variants, each with the scene to film; the practice clip is one of a generated variant."""
     files = {
         variant: {clips / f"{clip.code}.mp4": scenes[clip.excerpt - 1] for clip in drawn if clip.variant == variant}
         for variant in variants
@@ -194,8 +193,9 @@ def _videos(
 def _keyframes(
     performance: Performance, request: EvaluationRequest, variants: Sequence[Variant]
 ) -> dict[Variant, Keyframes]:
-    """Read the animation that the user gave as a motion file, to compare it with ours; empty if there is none, or it is
-    a video."""
+    """Read the other animation for comparison if the user gave it as motion files; empty if there is none, or if it is
+    a video.
+    """
     path = Path(restored(request.keyframes))
     if "keyframes" not in variants or not holds_motion(path):
         return {}
@@ -209,7 +209,7 @@ def _scenes(
     report: Report,
     stop_requested: StopRequested,
 ) -> list[ClipScene]:
-    """Return the scenes of every excerpt and of the practice after them."""
+    """Build the scenes of all excerpts, followed by that of the practice clip."""
     spans = _spans(performance, request, videos)
     film, sounds = videos.get("film"), list[Block]()
     for number, span in enumerate(spans):
@@ -225,7 +225,7 @@ def _scenes(
 
 
 def _spans(performance: Performance, request: EvaluationRequest, videos: dict[Variant, Imported]) -> list[FrameSpan]:
-    """Return the frames of the excerpts and of the practice."""
+    """Choose the frames of all excerpts, followed by those of the practice clip."""
     fps = Fraction(*request.fps)
     if request.bars is not None:
         bars = bars_span(performance, fps, request.bars)

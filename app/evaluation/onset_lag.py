@@ -89,8 +89,8 @@ def measure_lag(
 def _lags(
     fingerings: Sequence[FingeringEvent], control: Control, values: FloatArray, times_s: FloatArray
 ) -> Iterator[tuple[int, float]]:
-    """Yield for every judged note that moves the control its index, and the lag in seconds of the control behind the
-    onset; infinite if it never arrives.
+    """Yield for every judged note that moves a control: the note's index, and the time in seconds from the note's onset
+    to the control's arrival; infinite if it never arrives.
 
     Arrivals are assigned in the order of the notes, each once, so that a late trill note is not taken for the next one.
     """
@@ -119,8 +119,9 @@ def _lags(
 
 
 def _arrivals_s(control: Control, values: FloatArray, before: float, target: float, times_s: FloatArray) -> FloatArray:
-    """Return the ascending times in seconds of a control's arrivals at a value: the last tenth of its way from
-    ``before``, or contact (`app.contacts.bounds.in_place`) if later, interpolated between frames.
+    """Ascending times in seconds at which a control arrives at ``target``: when it has less than a tenth of its way
+    from ``before`` left, or makes contact (`app.contacts.bounds.in_place`) if that is later; interpolated between
+    frames.
     """
     touches = SLIDE_M / control.travel_m if control.kind == "slide" and control.travel_m else 1.0 - PRESSED
     bound = min(touches, (1.0 - PRESSED) * abs(target - before)) + 1e-9

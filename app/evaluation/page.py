@@ -65,7 +65,7 @@ def _texts(index: int) -> dict[str, str]:
 
 
 def _shown_files(table: Sequence[Order], clips: Path) -> list[Path]:
-    """Return the files that any viewer sees; a pair with exchanged sides is the same file."""
+    """List the video files that viewers see; a pair with exchanged sides counts as the same file."""
     names = {"practice"}
     for shown in {shown for order in table for shown in order}:
         turned = f"{shown.right}-{shown.left}"

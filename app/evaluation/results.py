@@ -40,8 +40,9 @@ class Question(msgspec.Struct, frozen=True):
 
 
 class VariantScore(msgspec.Struct, frozen=True):
-    """Viewers' judgements of one variant for one question: numbers of answers and of those not judged; ``over_viewers``
-    is None if no viewer could judge it."""
+    """Viewers' judgements of one variant for one question: number of answers, number of "cannot judge", and
+    ``over_viewers``, the summary of the viewers' means (None if no viewer judged).
+    """
 
     question: Question
     variant: Variant
@@ -78,8 +79,7 @@ class Contrast(msgspec.Struct, frozen=True):
 
 
 class Agreement(msgspec.Struct, frozen=True):
-    """Agreement of the viewers on the same clips for one question: Krippendorff's alpha (ordinal); None if it is
-    undefined."""
+    """Agreement of the viewers for one question, as Krippendorff's alpha (ordinal); None if it is undefined."""
 
     question: Question
     clips: int
@@ -278,7 +278,9 @@ def _contrasts(question: Question, ratings: Sequence[_Rating]) -> list[Contrast]
 
 
 def _differences(ratings: Sequence[_Rating], first: Variant, second: Variant) -> list[float]:
-    """Return each viewer's mean difference of two variants over the excerpts or pairs in which both were judged."""
+    """For each viewer the mean difference between two variants, over the excerpts or pairs for which the viewer judged
+    both.
+    """
     values: dict[str, dict[tuple[object, ...], dict[str, list[int]]]] = defaultdict(lambda: defaultdict(dict))
     for rating in ratings:
         if rating.clip.variant in (first, second):
@@ -296,8 +298,8 @@ def _differences(ratings: Sequence[_Rating], first: Variant, second: Variant) ->
 
 
 def _agreement(question: Question, ratings: Sequence[_Rating]) -> Agreement:
-    """Return the agreement of viewers. A unit is a clip, in a pair together with the other clip; a viewer's first
-    answer counts.
+    """Compute the agreement of viewers on clips. In pairs a clip is distinguished by the clip beside it; only a
+    viewer's first answer counts.
     """
     units: dict[object, dict[str, int]] = defaultdict(dict)
     for rating in sorted(ratings, key=lambda rating: (rating.viewer, rating.answer.position, rating.answer.side)):

@@ -73,7 +73,7 @@ class Comparison(msgspec.Struct, frozen=True):
 
 
 def summary(values: Sequence[float]) -> Summary | None:
-    """Return the summary of one value per viewer; None if there are no viewers."""
+    """Summarise one value per viewer; None if there are no viewers."""
     if not values:
         return None
     given = np.asarray(values, np.float64)
@@ -86,7 +86,8 @@ def summary(values: Sequence[float]) -> Summary | None:
 
 
 def compared(differences: Sequence[float]) -> Comparison | None:
-    """Return Wilcoxon's signed-rank test of one difference per viewer; None without viewers.
+    """Test whether differences, one per viewer, are other than zero (Wilcoxon's signed-rank test); None without
+    viewers.
 
     Zeros are omitted (Wilcoxon's original method). Differences that are equal up to rounding share a rank.
     """
@@ -103,14 +104,14 @@ def compared(differences: Sequence[float]) -> Comparison | None:
 
 
 def lower_p(differences: Sequence[float]) -> float | None:
-    """Return Wilcoxon's one-sided p for differences below zero; None if all are zero."""
+    """Return the one-sided p of Wilcoxon's signed-rank test that differences are below zero; None if all are zero."""
     given = np.round(np.asarray(differences, np.float64), 9)
     ranked = given[given != 0.0]
     return float(_wilcoxon_p(ranked, "less")) if len(ranked) else None
 
 
 def _wilcoxon_p(ranked: FloatArray, alternative: Literal["two-sided", "less"]) -> float:
-    """Return Wilcoxon's p for differences without zeros.
+    """Return the p of Wilcoxon's signed-rank test for differences, none of which is zero.
 
     Exact even with ties, which are usual among means of a few steps: scipy enumerates all signs then, which takes a
     second for 13 viewers, and is not exact for more.
@@ -136,7 +137,7 @@ def smallest_p(differing: int) -> float:
 
 
 def holm(ps: Sequence[float]) -> list[float]:
-    """Return Holm's correction for several comparisons (1979), in the given order."""
+    """Correct p values of several comparisons by Holm's method (1979), in the given order."""
     order = sorted(range(len(ps)), key=lambda index: ps[index])
     corrected, least = [0.0] * len(ps), 0.0
     for rank, index in enumerate(order):

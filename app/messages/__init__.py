@@ -117,8 +117,7 @@ _FILLING = _Filling()
 
 
 def filled(template: str, arguments: Mapping[str, object]) -> str:
-    """Return a template filled with arguments; ``{count:note|notes}`` becomes the first word if the count is 1, else
-    the second.
+    """Fill a template with arguments; ``{count:note|notes}`` becomes the first word if the count is 1, else the second.
 
     Languages without a plural omit such a field. Values in Japanese text are surrounded by spaces if Latin letters or
     digits meet Japanese, and by none otherwise, regardless of the template.

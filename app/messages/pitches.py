@@ -29,7 +29,7 @@ _SPELLING: Final = (
 
 
 def spelled(steps: Sequence[str]) -> tuple[str, ...]:
-    """Return the names of the twelve pitch classes from C on, given the names of the steps C to B."""
+    """Complete the names of the seven steps C to B to those of the twelve pitch classes from C on."""
     return tuple(f"{steps[step]}{accidental}" for step, accidental in _SPELLING)
 
 

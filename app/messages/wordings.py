@@ -36,5 +36,5 @@ CORRECTIONS: Final = tuple(id.removeprefix(CORRECTION) for id in WORDINGS if id.
 
 
 def wording(id: str, language: str) -> str:
-    """Return the template of a message in one of `LANGUAGES`."""
+    """Return the template of a message id in one of `LANGUAGES`."""
     return WORDINGS[id][list(LANGUAGES).index(language)]

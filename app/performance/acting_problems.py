@@ -13,7 +13,7 @@ from metadata.library import MetadataLibrary
 
 
 def unknown_acting(player: Player, library: MetadataLibrary) -> tuple[Message, ...]:
-    """Warnings about a missing style or missing habits, which have no effect."""
+    """Return warnings about a style or habits of a player that do not exist any more and so have no effect."""
     styles, habits = library.styles.items, library.habits.items
     style, found = player.parameters.style, list[Message]()
     if style not in styles:
@@ -27,8 +27,8 @@ def unknown_acting(player: Player, library: MetadataLibrary) -> tuple[Message, .
 
 
 class JudgeOfChoreographies(Protocol):
-    """Interface to the module that makes dances, which the core may not import, for checks before there is a
-    performance.
+    """Protocol of the function that checks whether a player can dance a choreography; its implementation is optional,
+    so the core does not import it.
     """
 
     def unfit_choreography(self, player: Player, frame: TimeFrame) -> Message | None:
@@ -36,7 +36,7 @@ class JudgeOfChoreographies(Protocol):
 
 
 def unfit_choreography(player: Player, frame: TimeFrame) -> tuple[Message, ...]:
-    """Warnings about a choreography that a player cannot dance; loads the module that makes dances."""
+    """Return warnings if a player cannot dance the selected choreography; loads the module that makes dances."""
     if not player.parameters.choreography:
         return ()
     for _, module in modules("dances"):

@@ -61,7 +61,7 @@ def _body(size: float) -> Body:
 
 
 def model_of(instrument: InstrumentMap) -> InstrumentModel:
-    """Return the model of an instrument map at its size; cached. Raises MapError or FileError."""
+    """Return the 3D model of an instrument map, scaled to the map's size; cached. Raises MapError or FileError."""
     return _MODELS.step(_loaded, _as_usual(instrument))
 
 
@@ -148,8 +148,8 @@ def _strained(character: Character, hands: Character, instrument: InstrumentMap)
 
 
 def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[FloatArray, FloatArray] | None:
-    """Return position (3,) and rotation (4,) of an unused instrument in the player's frame while the musician plays
-    another. None as long as the grip is not computed.
+    """Position (3,) and rotation (4,), in the player's frame, at which an instrument lies while the musician plays
+    another one; None until the grip is computed.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[Non
 
 
 def is_held(player: Player, instrument: InstrumentMap) -> bool:
-    """Return whether the grip of a player on a library instrument is available without computing it."""
+    """Return whether the grip of a player on an instrument of the library is already computed."""
     ours = player.character_id in our_characters() and bundled_maps().get(instrument.id) is instrument
     return (ours and _is_stored(player.character_id, instrument.id)) or _pair(player, instrument) in _HELD
 

@@ -103,7 +103,7 @@ class Chunk:
 
 
 def poses_of(chunks: Sequence[Chunk], frame: int, share: float) -> list[Pose]:
-    """Poses of players at a frame of their chunks, or between it and the next frame.
+    """Poses of several players at a frame, or between it and the next one (``share`` 0..1 of the way).
 
     Computed for all players at once, which takes half the time.
     """
@@ -142,7 +142,7 @@ def poses_of(chunks: Sequence[Chunk], frame: int, share: float) -> list[Pose]:
 
 
 def between(before: SingleArray, after: SingleArray, share: float) -> SingleArray:
-    """Rotations (N, 4) linearly interpolated between two similar frames and normalised."""
+    """Interpolate rotations (N, 4) linearly between two similar frames, and normalise them."""
     sign = np.where(np.einsum("ji,ji->j", before, after) < 0.0, np.float32(-share), np.float32(share))
     mixed: SingleArray = before * np.float32(1.0 - share) + after * sign[:, None]
     mixed /= np.sqrt(np.einsum("ji,ji->j", mixed, mixed))[:, None]
@@ -167,7 +167,9 @@ class FrameGrid:
         return -(-self.frames // self.length)
 
     def place(self, time_s: float) -> tuple[int, float]:
-        """Frame at or before a time, and the share of the way to the next one; clipped to the performance."""
+        """Convert a time to the index of the frame at or before it and the share of the way to the next frame; clipped
+        to the performance.
+        """
         exact = (time_s - self.start_s) * self.fps.numerator / self.fps.denominator
         frame = math.floor(exact + 1e-6)
         if frame < 0:

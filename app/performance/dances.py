@@ -21,9 +21,7 @@ from app.rig.model import Character
 
 
 class Dancing(Protocol):
-    """One dancer's dance, generated when frames are requested; the interface keeps the implementation out of the
-    core.
-    """
+    """Protocol of a dancer's dance, which is generated when frames are requested."""
 
     dancer: Dancer
     character: Character
@@ -34,10 +32,10 @@ class Dancing(Protocol):
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """Problems of the dance; they are found when it is generated."""
+        """Problems of the dance; empty until it is generated."""
 
     def motion(self, fps: Fraction, first: int, count: int) -> Motion:
-        """Motion of some frames of the performance; a frame is bit-identical in every span."""
+        """Return the motion of some frames of the performance; a frame is bit-identical whatever span is requested."""
 
     def changed_s(self, before: object) -> FloatArray:
         """Return the K spans (K, 2) in seconds in which the motion differs from that of another dance."""

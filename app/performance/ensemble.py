@@ -305,8 +305,9 @@ class Performance:
         made: Mapping[str, PlayerPlan],
         turns: tuple[str, tuple[InstrumentChange, ...]] | None,
     ) -> PlayerPlan:
-        """A player's plan, empty without an instrument. For a musician with several, events while this one is put aside
-        are removed; ``made`` are the plans of all the musician's players, ``turns`` the instrument changes.
+        """Return a player's plan, empty for a player without an instrument. For a musician with several instruments,
+        events while this one is put aside are removed; ``made`` are the plans of all the musician's players, ``turns``
+        the instrument changes.
         """
         plan = made.get(player.id)
         if plan is None:
@@ -347,8 +348,8 @@ class Performance:
         return self._plans
 
     def problems(self, player_id: str) -> tuple[Problem, ...]:
-        """Problems of a player known before its motion, by time: of the plan, of instrument and character, and of
-        reach. Empty for dancers.
+        """Problems of a player that are known before its motion is computed, by time: those of the plan, of instrument
+        and character, and notes out of reach. Empty for dancers.
         """
         if player_id not in self._plans:
             self.prepare()
@@ -377,7 +378,7 @@ class Performance:
         return sum(work_of(part, known.get(part.player_id)) for part in self.parts)
 
     def is_planned(self, player_id: str) -> bool:
-        """Return whether a player's plan is made."""
+        """Return whether the plan of a player has been made."""
         return player_id in self._plans
 
     def plan(self, player: Player) -> PlayerPlan:
@@ -386,7 +387,7 @@ class Performance:
         return self.plans[player.id] if known is None else known
 
     def instrument(self, player: Player) -> InstrumentMap:
-        """Instrument map of a player. Raises MapError if there is none: see `lacking`."""
+        """Return the instrument map of a player. Raises MapError if it does not exist; `lacking` has the reason."""
         instrument = self.library.maps.get(player.instrument_id)
         if instrument is None:
             message = self._no_instrument(player)
@@ -460,6 +461,8 @@ class Performance:
 
 
 def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str, tuple[InstrumentChange, ...]]:
-    """For a musician with several instruments: the player whose instrument is in hand first, and the changes."""
+    """Return the instrument changes of a musician who plays several instruments, and before them the id of the player
+    whose instrument is in hand first.
+    """
     plans = {player.id: performance.plan(player) for player in played}
     return first_played(plans), changes(plans)

@@ -61,12 +61,14 @@ class PerformanceExcerpt(Performance):
 
     @property
     def shown_players(self) -> tuple[Player, ...]:
-        """The included players: those without a choreography, which would take seconds to generate."""
+        """Return the players that the excerpt shows: those without a choreography, which would take seconds to
+        generate.
+        """
         danced = {one.doubles or one.id for one in self.project.players if one.parameters.choreography}
         return tuple(one for one in self.project.players if (one.doubles or one.id) not in danced)
 
     def plan(self, player: Player) -> PlayerPlan:
-        """One player's plan, or an empty one if it is not made yet; never waits."""
+        """Return the plan of one player, or an empty one if it is not made yet; never waits."""
         known = self._plans.get(player.id)
         return no_events(player.id, self.time_frame) if known is None else known
 

@@ -28,7 +28,7 @@ _TONGUING: Final = "_tongue"
 
 
 def breath_source(event: BreathEvent) -> FactSource:
-    """Return the source of a breath: a breath mark, a recorded breath, a correction by hand, or rests and air."""
+    """Source of a breath: a breath mark, a recorded breath, a correction by hand, or the rules for rests and air."""
     if event.corrected:
         return "hand"
     for id in (event.reason.id, str(event.reason.arguments.get("why"))):
@@ -49,7 +49,7 @@ def tempo_source(score: Score) -> FactSource:
 def note_sources(
     part: Part, notes: Sequence[Note], plan: PlayerPlan, corrections: tuple[Correcting, ...], quarter: int
 ) -> list[dict[str, FactSource]]:
-    """Return the source of each of `FACTS` for each note.
+    """Sources of the facts about each note, by the names in `FACTS`.
 
     Parameters
     ----------

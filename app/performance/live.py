@@ -33,7 +33,9 @@ BEHIND_COSTS = 3
 
 
 class PlayerFault(Exception):
-    """A bug in the computation of one player's motion (its cause); only that player is stopped."""
+    """A bug in the computation of one player's motion, with the exception as cause; only the motion of that player is
+    stopped.
+    """
 
 
 class LiveMotion:
@@ -107,8 +109,8 @@ class LiveMotion:
             self._report(self._shown)
 
     def show(self, performance: Performance) -> None:
-        """Show another performance. Unchanged parts stay; changed ones are shown in their old state until
-        recomputed.
+        """Change to another performance, such as after an edit. Unchanged motion is kept; changed motion is shown in
+        its old state until it is computed.
         """
         grid = FrameGrid.of(performance.time_frame, performance.project.fps)
         with self._lock:
@@ -168,7 +170,9 @@ class LiveMotion:
             self._report(self._shown)
 
     def request(self, time_s: float, span_s: float = SEEN_S, player_ids: tuple[str, ...] = ()) -> None:
-        """Set the visible span: from a time on, for some seconds, with these players first (empty: all)."""
+        """Set the visible span, ``span_s`` seconds from ``time_s`` on, and the players to compute first
+        (empty: all).
+        """
         grid, (last_s, last_span_s, last_ids) = self._shown.grid, self._requested
         self._requested = (time_s, span_s, player_ids)
         moved = grid.place(time_s)[0] // grid.length != grid.place(last_s)[0] // grid.length
@@ -201,8 +205,8 @@ class LiveMotion:
         return result
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """A player's pose at a time in the current performance, computed immediately if missing; for a dance not
-        generated yet, the shown one.
+        """Return a player's pose at a time in the current performance, computed immediately if it is missing. If that
+        needs a dance not generated yet, return the pose shown so far.
 
         None for a player that cannot be shown (see `error`).
         """
@@ -257,7 +261,7 @@ class LiveMotion:
         return False
 
     def make_now(self, player_id: str, time_s: float) -> None:
-        """Compute a player's frames around a time immediately, in any thread.
+        """Compute the frames of a player around a time immediately; may be called in any thread.
 
         Does nothing for players never shown, for dances not generated yet, and while the worker computes the same
         player. Reuse of unchanged frames of the previous performance is left to the worker, since comparing takes as
@@ -304,8 +308,8 @@ class LiveMotion:
         return True
 
     def _judge_made(self) -> None:
-        """Check the contacts of recently computed chunks; separate from their computation, so that no picture waits for
-        it.
+        """Check contacts in chunks that were computed recently; a separate step, so that showing the poses does not
+        wait for it.
         """
         with self._lock:
             shown, made = self._shown, self._made
@@ -323,8 +327,8 @@ class LiveMotion:
                     self._judge(track, index, motion)
 
     def judge(self, stop_requested: StopRequested = lambda: False) -> bool:
-        """Check the contacts of some frames that there is no room to store, once `work` is done; returns whether there
-        were any.
+        """Check the contacts of some frames for which there is no memory, after `work` has finished; returns whether
+        there were any such frames.
 
         Must be called on the thread of `work`. Raises PlayerFault.
         """
@@ -374,7 +378,7 @@ class LiveMotion:
 
     @property
     def is_moving(self) -> bool:
-        """True if each shown player has a motion at the playhead, or cannot have one."""
+        """True if each player that can be shown has a motion at the playhead."""
         shown = self._shown
         here = self._in_sight(shown.grid)[0]
         return all(
@@ -384,12 +388,14 @@ class LiveMotion:
 
     @property
     def broken(self) -> dict[str, tuple[Problem, ...]]:
-        """Broken contacts by player in the frames computed so far; a new dict whenever it changes."""
+        """Problems of broken contacts by player id, in all frames computed so far; a new dict whenever it changes."""
         return self._broken
 
     @contextmanager
     def _own_fault(self, track: LiveTrack) -> Iterator[None]:
-        """Confine an exception within the block to one player, whose motion then stops, instead of all."""
+        """Context manager that turns an exception in the block into a fault of this player alone, whose motion then
+        stops.
+        """
         try:
             yield
         except Exception as fault:
@@ -404,7 +410,7 @@ class LiveMotion:
             self._name_problems(track)
 
     def _name_problems(self, track: LiveTrack) -> None:
-        """Report a player's broken contacts, or a dance's unmet corrections."""
+        """Update a player's problems: broken contacts, or corrections that its dance does not follow."""
         problems = track.found_problems()
         if problems != track.problems:
             track.problems = problems
@@ -485,7 +491,9 @@ class LiveMotion:
         return range(grid.place(time_s)[0] // grid.length, grid.place(time_s + span_s)[0] // grid.length + 1)
 
     def _make_room(self, shown: ShownTracks, track: LiveTrack, index: int) -> bool:
-        """Drop chunks farther away than a chunk, as many as it needs; returns False if that is impossible."""
+        """Drop chunks that are farther from the playhead than the chunk ``index``, until that chunk has room; returns
+        False if that is impossible.
+        """
         player_ids, places = self._requested[2], self._in_sight(shown.grid)
         here = places[0]
 

@@ -125,7 +125,7 @@ class LiveBreath:
         return self._struck if self._breath is None else self._breath
 
     def play(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:
-        """Begin a note of a live performance; ``attacked`` is False if it is slurred to."""
+        """Begin a note; ``attacked`` is False if it is slurred to the note before."""
         self.advance(now_s)
         self._pitch, self._struck = float(pitch), velocity / 127.0
         self._onset_s, self._sounding = now_s, True
@@ -134,7 +134,7 @@ class LiveBreath:
         self._turn(now_s)
 
     def rest(self, now_s: float) -> None:
-        """End the note played live, so that silence begins."""
+        """End the current note, so that silence begins."""
         self.advance(now_s)
         self._sounding = False
         self._turn(now_s)
@@ -190,7 +190,7 @@ class LiveBreath:
         self._follow(now_s, elapsed_s)
 
     def _pause(self, now_s: float) -> None:
-        """Update a pause: inhale, hold the breath, release it."""
+        """Update the state of a pause between notes: inhale, hold the breath, then release it."""
         waits_s = FULL_PAUSE_S + (EMPTY_PAUSE_S - FULL_PAUSE_S) * self._spent
         paused_s = now_s - self._paused_s
         if now_s >= self._inhaled_s:
@@ -289,7 +289,7 @@ class LiveBreath:
 
 
 class LiveLook:
-    """Eyes that rest on the music, with occasional blinks that avoid entries."""
+    """Gaze of a live player: the eyes stay on the music, with occasional blinks that avoid entries."""
 
     def __init__(self, curves: PerformanceCurves) -> None:
         self._random = generator(curves.player_id, curves.parameters.seed, "look")

@@ -102,7 +102,7 @@ class LiveHands:
 
     @property
     def fingering(self) -> Fingering | None:
-        """Last fingering; None before any note and after its release."""
+        """Fingering used last; None before any note, and after it was released."""
         return None if self._grip is None else self._grip.fingering
 
     @property
@@ -111,7 +111,7 @@ class LiveHands:
         return bool(self._carrying)
 
     def play(self, now_s: float, pitch: int, loudness: float) -> None:
-        """Begin a note; for one out of the instrument's range the fingers stay."""
+        """Begin a note; the fingers do not move for a note outside the instrument's range."""
         self.advance(now_s)
         self._silent_s = math.inf
         if not self._instrument.in_range(pitch):
@@ -125,7 +125,7 @@ class LiveHands:
         self._take(now_s, self._grip_of(pitch, column))
 
     def rest(self, now_s: float) -> None:
-        """End the notes played live, so that the hands come to rest."""
+        """End the current note; the hands return to rest if no other follows soon."""
         self.advance(now_s)
         if self._before:
             self._end_last(now_s)
@@ -166,7 +166,9 @@ class LiveHands:
         return Hands(controls, placed, np.full(FRAMES, raised), arrived_s)
 
     def carry(self, now_s: float, length_s: float) -> None:
-        """Slow down controls that move a hand along, so that they take at least this long from now."""
+        """Slow down the controls that move a hand along (such as a slide), so that they arrive ``length_s`` from now at
+        the earliest.
+        """
         for name in self._carrying if length_s > 0.0 else ():
             reach = self._reaches[name]
             if not reach.ended(now_s) and reach.end_s < now_s + length_s:
@@ -191,7 +193,7 @@ class LiveHands:
         return grip
 
     def _vents(self, fingering: Fingering) -> dict[str, float]:
-        """Return the controls that the fingering uses only for the attack, at their rest values."""
+        """Return the controls that a fingering uses only for the attack, each with its value at rest."""
         if "attack" not in fingering.tags:
             return {}
         controls = (self._controls[name] for name in fingering.controls)

@@ -47,7 +47,7 @@ class LiveHelp:
         self.carries_s = 0.0
 
     def at(self, now_s: float, arrived_s: float, needed: Help) -> Help:
-        """The help at a time, as one frame.
+        """Return the help that trunk and shoulders give at a time, as one frame.
 
         Parameters
         ----------

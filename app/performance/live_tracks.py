@@ -83,7 +83,7 @@ class LiveTrack:
         return sum(chunk.bytes for chunks in kinds for chunk in tuple(chunks.values()))
 
     def shown(self, index: int) -> Chunk | None:
-        """Best available chunk for a chunk index; None if there is none."""
+        """Return the best chunk available for a chunk index, even if outdated; None if there is none."""
         return self.chunks.get(index) or self.unproven.get(index) or self.outdated.get(index)
 
     def fail(self, error: Message) -> None:
@@ -115,7 +115,7 @@ class LiveTrack:
         return self.prepared
 
     def judge_contacts(self, index: int, motion: Motion) -> bool:
-        """Check the contacts of a chunk; returns whether it breaks any, or did before."""
+        """Check the contacts of a chunk; returns whether any are broken now or were at the last check."""
         assert isinstance(self.playing, PerformanceCurves)
         assert self.performer is not None
         if self.judge is None:
@@ -151,7 +151,9 @@ class LiveTrack:
     def after(
         self, player: Player | Dancer, plan: PlayerPlan, known: tuple[Problem, ...], same_chunks: int
     ) -> LiveTrack:
-        """The track of the same performer after an edit; chunks from ``same_chunks`` on have changed frames."""
+        """Return the track for the same performer after an edit, which keeps what is still valid; chunks from the index
+        ``same_chunks`` on have different frames.
+        """
         proven = self.playing is not None
         # What is newest is shown: of a performance that is not compared yet, too.
         left = {index: chunk for index, chunk in self.unproven.items() if index not in self.chunks}
@@ -197,7 +199,9 @@ def soon_made(shown: ShownTracks, track: LiveTrack) -> bool:
 
 
 def played_before(shown: ShownTracks, player: Player) -> set[str]:
-    """Ids of all players of the musician that a player belonged to in the shown performance."""
+    """Return the ids of all players that were played by the same musician as a player in the performance
+    shown so far.
+    """
     project = shown.performance.project
     return {one.id for one in project.played_by(project.player(player.id))}
 

@@ -77,7 +77,7 @@ def note_levels(part: Part, reading: VelocityReading | None = None) -> tuple[flo
 def note_marks(
     part: Part, reading: VelocityReading | None = None, written: WrittenDynamics = NONE_WRITTEN
 ) -> tuple[str, ...]:
-    """Dynamic in force at every note; accents are no dynamics.
+    """Return the dynamic in force at every note, such as ``"mf"``; accents are not dynamics.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def _heard_marks(part: Part, reading: VelocityReading | None) -> list[str]:
 
 
 def controller_input(part: Part) -> ControllerInput | None:
-    """Recorded curves of breath and lips of a part; None if none of them changes."""
+    """Return the recorded curves of breath, bite and pitch bend of a part; None if none of them changes."""
     breath = speaking_curve(part)
     span = _span(part)
     moving = {
@@ -129,7 +129,9 @@ def speaking_curve(part: Part) -> ControllerCurve | None:
 
 
 def sounding_curve(part: Part) -> ControllerCurve | None:
-    """Loudness curve as heard: notes that were not blown have the loudness of their velocity."""
+    """Return the loudness curve of a part as it is heard; notes that were not blown have the loudness of their
+    velocity. None if there is no curve.
+    """
     curve = speaking_curve(part)
     if curve is None:
         return None

@@ -40,7 +40,7 @@ _DOUBLED: IdentityCache[tuple[Doubling, ...]] = IdentityCache(8)
 def performance_curves(
     performance: Performance, performer: Performer, before: PerformanceCurves | None = None, *, danced: bool = True
 ) -> PerformanceCurves:
-    """Curves of a player's plan; cached for each plan, and unchanged parts of ``before`` are reused.
+    """Return the curves of a player's plan, cached for each plan; unchanged parts of ``before`` are used again.
 
     ``danced``: include the player's choreography, which may take seconds to generate.
     """
@@ -65,7 +65,7 @@ def _doubled(*alone: PerformanceCurves) -> tuple[Doubling, ...]:
 def _alone(
     performance: Performance, performer: Performer, before: PerformanceCurves | None, danced: bool
 ) -> PerformanceCurves:
-    """Curves of a player's plan as if the musician had no other instrument."""
+    """Compute the curves of a player's plan as if the musician had no other instrument."""
     player, plan = performer.player, performance.plan(performer.player)
     dance = layer_of(performance, player) if danced and player.parameters.choreography else None
     parameters = performance.parameters(player)
@@ -100,7 +100,7 @@ def player_motion(
     progress: Progress = lambda share: None,
     cores: int = 1,
 ) -> Motion:
-    """Compute one player's motion over some frames; frames are bit-identical in every span.
+    """Compute one player's motion over some frames; a frame is bit-identical whatever span is requested.
 
     Parameters
     ----------
@@ -124,8 +124,9 @@ def player_motion(
 
 
 def generated_channel(performance: Performance, player_id: str, channel: str) -> tuple[FloatArray, FloatArray]:
-    """Times (N,) and generated values (N,) of an animation channel, in its unit, without the user's additive curves.
-    Raises AppError if the player cannot be shown."""
+    """Sample an animation channel without the user's additive curves: times (N,) in seconds, and values (N,) in the
+    channel's unit. Raises AppError if the player cannot be shown.
+    """
     performer = performer_of(performance, performance.project.player(player_id))
     curves = performance_curves(performance, performer, danced=False)
     frame = curves.plan.time_frame

@@ -78,7 +78,7 @@ def all_problems(performance: Performance, players: Iterable[Player], without_li
 def _judged(
     performance: Performance, performers: Sequence[Performer], looked: _Looked
 ) -> dict[str, tuple[Problem, ...]]:
-    """Check the motion of all instruments that one musician plays, computed once; returns the problems by player id."""
+    """Check the motion of all instruments that one musician plays; returns the problems by player id."""
     fps, every = looked
     everyone = [performance_curves(performance, one) for one in performers]
     judges = [ContactJudge(curves, one.character, one.model) for curves, one in zip(everyone, performers, strict=True)]
@@ -126,7 +126,7 @@ def _looked(
 def _notice(
     performance: Performance, looked: _Looked | None, groups: Sequence[Sequence[Performer]], judged: int
 ) -> Message | None:
-    """Message if fewer frames than usual, or not all players, were checked; None otherwise."""
+    """Return a message if fewer frames than usual, or not all players, were checked; else None."""
     frame, players = performance.time_frame, sum(map(len, groups))
     minutes = max(1, round((frame.end_s - frame.first_frame_s) / 60.0))
     if looked is None:
@@ -148,7 +148,8 @@ def reported_lines(
     with_ignored: bool = False,
     bars: tuple[int, int] | None = None,
 ) -> tuple[list[str], int]:
-    """Report lines for a player's problems, and the number of omitted ones that the project ignores.
+    """Return the lines of a report about a player's problems, and the number of problems omitted because the project
+    ignores them.
 
     Parameters
     ----------
@@ -169,7 +170,9 @@ def reported_lines(
 
 
 def judged_problems(performance: Performance, performer: Performer, motion: Motion) -> tuple[Problem, ...]:
-    """Problems of plan and body, and contacts broken in frames of a player's motion, by time."""
+    """Return all problems of a player by time: those of plan and body, and contacts broken in the frames of
+    ``motion``.
+    """
     judge = ContactJudge(performance_curves(performance, performer), performer.character, performer.model)
     return _problems(performance, performer.player, judge.breaks(motion))
 

@@ -76,7 +76,7 @@ class PlayAlong:
 
     @property
     def lying(self) -> dict[str, tuple[SingleArray, SingleArray]]:
-        """Return the places of the musician's other instruments by player: position (3,) and rotation (4,)."""
+        """Return the positions (3,) and rotations (4,) at which the musician's other instruments lie, by player id."""
         if not isinstance(self._whole, Doubling):
             return {}
         others = (
@@ -103,7 +103,7 @@ class PlayAlong:
         self._sound(now_s, pitch, velocity, attacked)
 
     def note_off(self, time_s: float, pitch: int) -> None:
-        """End a note; the one held before it sounds again, if any."""
+        """End a note; if another note is still held, it sounds again."""
         now_s = self._time(time_s)
         if pitch not in self._held:
             return
@@ -202,8 +202,8 @@ class PlayAlong:
             self._hands.carry(now_s, self._help.carries_s)
 
     def _solved(self, now_s: float) -> tuple[ContactCurves, Help]:
-        """Inputs of the contact solvers now (first frame) and on the hands' way to their goals (further frames), with
-        the current help for far hands.
+        """Return the inputs of the contact solvers, with the current help for far hands: now (first frame), and at
+        later moments on the hands' way to their goals (further frames).
         """
         hands, breathing, look = self._hands.at(now_s), self._breath.at(now_s), self._look.at(now_s)
         times_s = np.full(FRAMES, now_s)

@@ -87,5 +87,5 @@ def cut_span(frame: TimeFrame, fps: Fraction, start_s: float, end_s: float) -> F
 
 
 def _frames_from(frame: TimeFrame, fps: Fraction, first: int, end: int) -> FrameSpan:
-    """The frames ``first`` .. ``end - 1``, at least one."""
+    """Return the span of the frames ``first`` .. ``end - 1``, extended to at least one frame."""
     return FrameSpan(fps, first, max(1, end - first), frame.first_frame_s + first * fps.denominator / fps.numerator)

@@ -39,7 +39,7 @@ _MADE: IdentityCache[Supports | None] = IdentityCache(128)
 
 @dataclass(frozen=True, eq=False)
 class HeldInstrument:
-    """An instrument as a musician plays it; the grip is None until it has been computed."""
+    """An instrument with the grip of the musician who plays it; the grip is None until it is computed."""
 
     player: Player
     instrument: InstrumentMap
@@ -94,7 +94,9 @@ def _supports(
 
 
 def still_pose(player: PlayerBody, lowered: float = 0.0) -> Motion:
-    """One frame of a player who keeps still, the instrument at the lips or lowered."""
+    """Pose of a player who keeps still, as a motion of one frame; ``lowered`` is 0 with the instrument at the lips, 1
+    with it lowered.
+    """
     still = replace(player.still, lowered=np.array([lowered]))
     curves = ContactCurves(still, {}, {}, np.zeros(1))
     curves = replace(curves, body=body_with_help(player, curves.body, needs(player, curves)))

@@ -122,8 +122,9 @@ class Sent:
 
 
 def _transforms(positions_m: AnyFloatArray, rotations: AnyFloatArray) -> AnyFloatArray:
-    """Return positions (B, 3) and rotations (B, 4) in Unity's coordinate system as one row of numbers, seven for each
-    bone."""
+    """Convert positions (B, 3) and rotations (B, 4) of B bones to Unity's coordinate system, as one row with seven
+    numbers per bone.
+    """
     return np.concatenate([unity_positions(positions_m), unity_rotations(rotations)], axis=1).ravel()
 
 

@@ -59,5 +59,5 @@ def detail_text(detail: str, language: str, label: Label = lambda kind, name: na
 
 
 def _labelled(quoted: str, label: Callable[[str], str]) -> str:
-    """Return a quoted name replaced by its name for the user, in the same quotes."""
+    """Replace a quoted internal name by its name for users, in the same quotes."""
     return f"{quoted[0]}{label(quoted[1:-1])}{quoted[-1]}"
