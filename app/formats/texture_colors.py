@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from app.arrays import AnyFloatArray, FloatArray
-from app.formats.images import resized, small
+from app.formats.images import Pixels, resized, small
 from app.formats.scene import Material, Scene, SkinnedMesh
 from app.formats.textures import NO_TEXTURES, TextureUse
 
@@ -18,22 +18,33 @@ OPAQUE: Final = 0.5
 
 def sampled(use: TextureUse, uvs: AnyFloatArray) -> FloatArray | None:
     """Return texture values (N, 4), 0..1, at texture coordinates (N, 2), v down; None if the texture cannot be read."""
+    found = _sampled(use, uvs)
+    return None if found is None else found.astype(np.float64) / 255.0
+
+
+def _sampled(use: TextureUse, uvs: AnyFloatArray) -> Pixels | None:
+    """Return the values of `sampled` as they are in the picture, 0..255."""
     pixels = small(use.texture)
     if pixels is None:
         return None
     height, width = pixels.shape[:2]
     places = np.asarray(uvs, np.float64) * use.scale + use.offset
-    # The end of a picture is not its beginning.
-    places = np.where((places < 0.0) | (places > 1.0), places % 1.0, places)
+    if len(places) and (places.min() < 0.0 or places.max() > 1.0):
+        # The end of a picture is not its beginning.
+        places = np.where((places < 0.0) | (places > 1.0), places % 1.0, places)
     rows = np.minimum((places[:, 1] * height).astype(np.intp), height - 1)
     columns = np.minimum((places[:, 0] * width).astype(np.intp), width - 1)
-    values: FloatArray = pixels[rows, columns].astype(np.float64)
-    return values / 255.0
+    found: Pixels = pixels.reshape(-1, 4).take(rows * width + columns, axis=0)
+    return found
 
 
 def linear(srgb: FloatArray) -> FloatArray:
     """Convert sRGB values 0..1 of any shape to linear ones (IEC 61966-2-1)."""
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+_LINEAR: Final = linear(np.arange(256) / 255.0)
+"""Linear value of each sRGB number."""
 
 
 def encoded_color(linear_color: tuple[float, float, float]) -> tuple[int, int, int]:
@@ -53,15 +64,16 @@ def plain_material(material: Material, uvs: AnyFloatArray) -> Material:
         return material
     color, roughness, metallic = np.array(material.base_color[:3]), material.roughness, material.metallic
     if material.textures.color is not None and len(uvs):
-        found = sampled(material.textures.color, uvs)
+        found = _sampled(material.textures.color, uvs)
         if found is not None:
-            seen = found if material.alpha_mode == "opaque" else found[found[:, 3] > OPAQUE]
+            seen = found if material.alpha_mode == "opaque" else found[found[:, 3] > 255.0 * OPAQUE]
             if len(seen):
-                color = color * linear(seen[:, :3]).mean(axis=0)
+                color = color * _LINEAR[seen[:, :3]].mean(axis=0)
     if material.textures.metallic_roughness is not None and len(uvs):
-        found = sampled(material.textures.metallic_roughness, uvs)
+        found = _sampled(material.textures.metallic_roughness, uvs)
         if found is not None:
-            roughness, metallic = roughness * float(found[:, 1].mean()), metallic * float(found[:, 2].mean())
+            rough, metal = found[:, 1:3].mean(axis=0) / 255.0
+            roughness, metallic = roughness * float(rough), metallic * float(metal)
     red, green, blue = color.tolist()
     alpha = None if material.alpha == "mask" else material.alpha
     return replace(

@@ -94,7 +94,9 @@ def _supports(project: Project, musician: Player, assets: RenderAssets) -> Suppo
     held = []
     for player in project.played_by(musician):
         instrument = suited_to(player, library().maps[player.instrument_id]).instrument
-        held.append(HeldInstrument(player, instrument, hold_of(player, instrument) if is_known(player) else None))
+        # Only straps need the hold, which takes as long as all else of a figure.
+        needed = bool(instrument.hold.supports) and is_known(player)
+        held.append(HeldInstrument(player, instrument, hold_of(player, instrument) if needed else None))
     return supports_of(assets.character, held)
 
 

@@ -19,7 +19,7 @@ from app.formats.texture_colors import linear, sampled
 from app.rig.mesh import Mesh, plain_materials
 from app.rig.model import Character, InstrumentModel
 from app.rig.supports.model import Supports
-from widgets.viewport.normals_across_seams import SplitMesh, Weld, row_keys, split_mesh
+from widgets.viewport.normals_across_seams import SplitMesh, row_keys, split_mesh, turned_morphs
 from widgets.viewport.shape_cache import kept
 from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
 from widgets.viewport.texture_groups import texture_groups, textured_looks, uv_islands
@@ -330,26 +330,23 @@ class _Whole:
 
     def _all_morphs(self) -> dict[str, tuple[IntArray, SingleArray, SingleArray]]:
         """Return every morph over all meshes by name: vertex indices, displacements, and changes of the normals."""
-        names = list(dict.fromkeys(morph.name for split in self._splits for morph in split.mesh.morphs))
-        result: dict[str, tuple[IntArray, SingleArray, SingleArray]] = {}
-        welds = {index: Weld(split) for index, split in enumerate(self._splits) if split.mesh.morphs}
-        for name in names:
-            found = []
-            for index, split in enumerate(self._splits):
-                for morph in split.mesh.morphs:
-                    if morph.name == name and len(morph.vertices):
-                        moves = np.zeros((len(split.mesh.positions_m), 3), np.float32)
-                        moves[morph.vertices] = morph.deltas_m
-                        own = np.flatnonzero(np.abs(moves[split.vertices]).max(axis=1) > 1e-6)
-                        turns = welds[index].turned(moves[split.vertices])
-                        found.append((own + self._starts[index], moves[split.vertices][own], turns[own]))
-            if found:
-                result[name] = (
-                    np.concatenate([item[0] for item in found]),
-                    np.concatenate([item[1] for item in found]),
-                    np.concatenate([item[2] for item in found]),
-                )
-        return result
+        found: dict[str, list[tuple[IntArray, SingleArray, SingleArray]]] = {}
+        for split, start in zip(self._splits, self._starts, strict=False):
+            if not split.mesh.morphs:
+                continue
+            for morph, turned in zip(split.mesh.morphs, turned_morphs(split), strict=True):
+                parts = found.setdefault(morph.name, [])
+                if len(morph.vertices):
+                    parts.append((turned.vertices + start, turned.moves_m, turned.turns))
+        return {
+            name: (
+                np.concatenate([part[0] for part in parts]),
+                np.concatenate([part[1] for part in parts]),
+                np.concatenate([part[2] for part in parts]),
+            )
+            for name, parts in found.items()
+            if parts
+        }
 
 
 def _is_plain(mesh: Mesh) -> bool:

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from app.arrays import AnyIntArray, FloatArray, IntArray, SingleArray
+from app.identity_cache import IdentityCache
 from app.rig.mesh import Mesh
 
 
@@ -40,35 +45,171 @@ class SplitMesh:
 
 
 def split_mesh(mesh: Mesh) -> SplitMesh:
-    count = len(mesh.materials)
-    keys = mesh.triangles.astype(np.int64) * count + mesh.triangle_materials.astype(np.int64)[:, None]
+    if not mesh.morphs:
+        return SplitMesh(mesh, *_split(mesh.triangles, mesh.triangle_materials))
+    return SplitMesh(mesh, *_SPLITS.step(_split, mesh.triangles, mesh.triangle_materials))
+
+
+def _split(corners: AnyIntArray, of_triangles: AnyIntArray) -> tuple[IntArray, IntArray, IntArray]:
+    """Return vertices, materials and triangles as in `SplitMesh`."""
+    count = int(of_triangles.max(initial=0)) + 1
+    keys = corners.astype(np.int64) * count + of_triangles.astype(np.int64)[:, None]
     unique, triangles = np.unique(keys.ravel(), return_inverse=True)
-    return SplitMesh(mesh, unique // count, unique % count, triangles.reshape(-1, 3))
+    return unique // count, unique % count, triangles.reshape(-1, 3)
 
 
-class Weld:
-    """Smooth normals of a mesh across its seams."""
+# People made from one body share their triangles.
+_SPLITS: IdentityCache[tuple[IntArray, IntArray, IntArray]] = IdentityCache(48)
 
-    def __init__(self, split: SplitMesh) -> None:
-        self._positions = split.mesh.positions_m[split.vertices].astype(np.float64)
-        places = np.rint(self._positions * 1e6).astype(np.int64)
-        whole = np.unique(row_keys(*places.T), return_inverse=True)[1].reshape(-1)
-        self._whole = whole
-        self._corners = whole[split.triangles]
-        self._triangles = split.triangles
-        self._rest = self._normals(self._positions)
 
-    def _normals(self, positions: FloatArray) -> FloatArray:
-        a, b, c = (positions[self._triangles[:, corner]] for corner in range(3))
-        faces = np.cross(b - a, c - a)
-        count = int(self._whole.max()) + 1
-        total = np.zeros((count, 3))
-        for axis in range(3):
-            for corner in range(3):
-                total[:, axis] += np.bincount(self._corners[:, corner], faces[:, axis], count)
-        total /= np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-20)
-        return total[self._whole]
+@dataclass(frozen=True, eq=False)
+class TurnedMorph:
+    """A morph over the vertices of a split mesh.
 
-    def turned(self, moves: SingleArray) -> SingleArray:
-        """Return the change (V, 3) of the normals of V vertices under displacements (V, 3)."""
-        return (self._normals(self._positions + moves) - self._rest).astype(np.float32)
+    Attributes
+    ----------
+    vertices : (K,) int
+    moves_m, turns : (K, 3) float32
+        Displacements, and changes of the normals.
+    """
+
+    vertices: IntArray
+    moves_m: SingleArray
+    turns: SingleArray
+
+
+def turned_morphs(split: SplitMesh) -> list[TurnedMorph]:
+    """Return all morphs of a mesh, with normals smoothed across its seams."""
+    morphs = split.mesh.morphs
+    positions = split.mesh.positions_m[split.vertices].astype(np.float64)
+    places = np.rint(positions * 1e6).astype(np.int64)
+    # Numbered by their first vertex, positions are the same for all people made from one body.
+    _, first, place = np.unique(row_keys(*places.T), return_index=True, return_inverse=True)
+    whole = _shared(first[place.reshape(-1)].astype(np.int64).tobytes())
+    parts = _PARTS.step(_turning, whole, split.vertices, split.triangles, *(morph.vertices for morph in morphs))
+    rest = _summed([positions[corner] for corner in split.triangles.T], whole[split.triangles.T], len(whole))
+    moves = np.concatenate([*(morph.deltas_m for morph in morphs), np.zeros((1, 3), np.float32)])
+    corners = zip(parts.corners, parts.corner_rows, strict=True)
+    sums = _summed([positions[own] + moves[rows] for own, rows in corners], parts.places, parts.count + 1)
+    turns = _unit(sums[parts.place_of]) - _unit(rest)[whole[parts.own]]
+    moved = moves[parts.rows]
+    x, y, z = np.abs(moved).T > 1e-6
+    kept = np.flatnonzero(x | y | z)
+    found = parts.own[kept], moved[kept], turns[kept].astype(np.float32)
+    ends = np.searchsorted(kept, parts.ends)
+    return [TurnedMorph(*of_one) for of_one in zip(*(np.split(whole, ends) for whole in found), strict=True)]
+
+
+@lru_cache(maxsize=48)
+def _shared(content: bytes) -> IntArray:
+    """Convert bytes to an array of integers; equal bytes give the same object."""
+    return np.frombuffer(content, np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class _Turning:
+    """Vertices that the morphs of a split mesh move and the faces around them, concatenated over the morphs.
+
+    Attributes
+    ----------
+    own, rows, place_of : (K,) int
+        Moved vertices, their rows among the displacements of all morphs, and numbers of their positions.
+    ends : (M - 1,) int
+        First index into these of each of M morphs but the first.
+    corners, corner_rows, places : (3, F) int
+        Corners of the faces: vertices, rows of displacements, and numbers of positions. A corner that does not move has
+        the row after the last one, and ``count`` as its position.
+    count : int
+        Number of positions.
+    """
+
+    own: IntArray
+    rows: IntArray
+    place_of: IntArray
+    ends: IntArray
+    corners: IntArray
+    corner_rows: IntArray
+    places: IntArray
+    count: int
+
+
+def _turning(whole: IntArray, vertices: IntArray, triangles: IntArray, *moved: npt.NDArray[np.int32]) -> _Turning:
+    """Find the vertices and faces whose normals the morphs of a mesh change.
+
+    Parameters
+    ----------
+    whole : (V,) int
+        Number of each vertex's position, the same on both sides of a seam.
+    vertices, triangles
+        As in `SplitMesh`.
+    moved : (N,) int
+        Vertices of the original mesh that each morph moves.
+    """
+    total = sum(len(one) for one in moved)
+    parts, start, count = list[_Part](), 0, 0
+    for one in moved:
+        row_of = np.full(max(int(vertices.max(initial=0)), int(one.max(initial=0))) + 1, total)
+        row_of[one] = start + np.arange(len(one))
+        parts.append(_part(row_of[vertices], total, whole, triangles, count))
+        start, count = start + len(one), int(parts[-1].place_of.max(initial=count - 1)) + 1
+    places = np.concatenate([part.places for part in parts], axis=1)
+    return _Turning(
+        own=np.concatenate([part.own for part in parts]),
+        rows=np.concatenate([part.rows for part in parts]),
+        place_of=np.concatenate([part.place_of for part in parts]),
+        ends=np.cumsum([len(part.own) for part in parts])[:-1],
+        corners=np.concatenate([part.corners for part in parts], axis=1),
+        corner_rows=np.concatenate([part.corner_rows for part in parts], axis=1),
+        places=np.where(places < 0, count, places),
+        count=count,
+    )
+
+
+class _Part(NamedTuple):
+    """Arrays of `_Turning` for one morph; the position of a corner that does not move is -1."""
+
+    own: IntArray
+    rows: IntArray
+    place_of: IntArray
+    corners: IntArray
+    corner_rows: IntArray
+    places: IntArray
+
+
+def _part(row: IntArray, none: int, whole: IntArray, triangles: IntArray, first: int) -> _Part:
+    """Find the vertices and faces whose normals one morph changes.
+
+    Parameters
+    ----------
+    row : (V,) int
+        Row of each vertex among the displacements; ``none`` if the morph does not move it.
+    first : int
+        Number of the first position.
+    """
+    own = np.flatnonzero(row < none)
+    number = np.full(len(whole), -1)
+    asked = np.unique(whole[own])
+    number[asked] = first + np.arange(len(asked))
+    near = number[whole[triangles]]
+    around = np.flatnonzero((near >= 0).any(axis=1))
+    corners: IntArray = triangles[around].T
+    return _Part(own, row[own], number[whole[own]], corners, row[corners], near[around].T)
+
+
+_PARTS: IdentityCache[_Turning] = IdentityCache(24)
+
+
+def _summed(corners_m: Sequence[FloatArray], places: IntArray, count: int) -> FloatArray:
+    """Sum the normals of F faces, weighted by area, at each of ``count`` positions (3, F) of their corners (F, 3)."""
+    first, second = corners_m[1] - corners_m[0], corners_m[2] - corners_m[0]
+    (ax, ay, az), (bx, by, bz) = first.T, second.T
+    total = np.zeros((count, 3))
+    for axis, across in enumerate((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)):
+        for corner in places:
+            total[:, axis] += np.bincount(corner, across, count)
+    return total
+
+
+def _unit(ways: FloatArray) -> FloatArray:
+    found: FloatArray = ways / np.maximum(np.linalg.norm(ways, axis=1, keepdims=True), 1e-20)
+    return found

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
 
 from app.arrays import AnyFloatArray, FloatArray, IndexArray, SingleArray
+from app.identity_cache import IdentityCache
 from app.rig.mesh import Mesh
 from app.rig.model import Character
 
@@ -33,13 +35,20 @@ class Binding:
         return carried.astype(np.float64)
 
 
-def bound(mesh: Mesh, base_m: FloatArray) -> Binding:
-    """Bind each vertex of a mesh to the nearest of the V base vertices (V, 3)."""
-    from scipy.spatial import cKDTree  # heavy; people are made seldom
+class Attaching:
+    """Binds meshes to the V base vertices (V, 3) of a body."""
 
-    far, corners = cKDTree(base_m).query(mesh.positions_m, k=NEIGHBOURS)
-    shares = 1.0 / (np.square(far) + NEAR_M**2)
-    return Binding(np.asarray(corners, dtype=np.intp), (shares / shares.sum(axis=1, keepdims=True)).astype(np.float32))
+    def __init__(self, base_m: FloatArray) -> None:
+        from scipy.spatial import cKDTree  # heavy; people are made seldom
+
+        self._tree = cKDTree(base_m)
+
+    def bound(self, mesh: Mesh) -> Binding:
+        """Bind each vertex of a mesh to the nearest of the base vertices."""
+        far, corners = self._tree.query(mesh.positions_m, k=NEIGHBOURS)
+        shares = 1.0 / (np.square(far) + NEAR_M**2)
+        shares /= shares.sum(axis=1, keepdims=True)
+        return Binding(np.asarray(corners, dtype=np.intp), shares.astype(np.float32))
 
 
 def normals_of(positions_m: AnyFloatArray, mesh: Mesh, places: IndexArray) -> FloatArray:
@@ -78,12 +87,20 @@ class FaceChange:
 
     def at(self, places_m: AnyFloatArray) -> FloatArray:
         """Return the linear maps (N, 3, 3) by which displacements of morphs change at points (N, 3)."""
-        squares = np.square(places_m[:, None] - self.anchors).sum(axis=2)
-        near = np.exp(-squares / (2.0 * REACH_M**2))
-        near /= near.sum(axis=1, keepdims=True) + BEYOND
+        near = _NEAR.step(_nearness, places_m, self.anchors)
         turns: FloatArray = (near @ (self.turns - np.eye(3)).reshape(-1, 9)).reshape(-1, 3, 3) + np.eye(3)
         return turns
 
+
+def _nearness(places_m: AnyFloatArray, anchors: FloatArray) -> FloatArray:
+    """Return the weights (N, A) of A anchors (A, 3) at N points (N, 3): greater near an anchor, together below 1."""
+    squares = np.square(places_m[:, None] - anchors).sum(axis=2)
+    near: FloatArray = np.exp(-squares / (2.0 * REACH_M**2))
+    near /= near.sum(axis=1, keepdims=True) + BEYOND
+    return near
+
+
+_NEAR: IdentityCache[FloatArray] = IdentityCache(64)
 
 NO_CHANGE: Final = FaceChange(np.zeros((1, 3)), np.eye(3)[None])
 """Change of a face that stays as it is."""
@@ -101,6 +118,40 @@ def face_change(before: Character, mesh: Mesh, after_m: FloatArray) -> FaceChang
     after_m : (V, 3)
         Positions of the skin's vertices on the other body.
     """
+    face = _face_before(before, mesh)
+    if face is None:
+        return NO_CHANGE
+    after = np.einsum("awk,wl->akl", face.ways, after_m[face.head])
+    turns = np.linalg.solve(face.spreads, after + face.keep).transpose(0, 2, 1)
+    return FaceChange(face.anchors, turns)
+
+
+@dataclass(frozen=True, eq=False)
+class _FaceBefore:
+    """Parts of a least-squares fit of a face's change that are the same for all people made from one body.
+
+    Attributes
+    ----------
+    head : (H,) int
+        Vertices of the head.
+    anchors : (A, 3)
+        Points of the face at which changes are found.
+    ways : (A, H, 3)
+        Weighted offsets of the head's vertices from their weighted mean around each anchor.
+    spreads, keep : (A, 3, 3)
+        Matrices of the fit, and its regularisation, which is included in ``spreads``.
+    """
+
+    head: IndexArray
+    anchors: FloatArray
+    ways: FloatArray
+    spreads: FloatArray
+    keep: FloatArray
+
+
+@lru_cache(maxsize=8)
+def _face_before(before: Character, mesh: Mesh) -> _FaceBefore | None:
+    """Prepare the fit for the skin of a body; None if it has no morphs of the face."""
     head = before.skeleton.index("head")
     own = np.flatnonzero((mesh.weights * (mesh.joints == head)).sum(axis=1) > 0.5)
     moving = np.zeros(len(mesh.positions_m))
@@ -108,11 +159,17 @@ def face_change(before: Character, mesh: Mesh, after_m: FloatArray) -> FaceChang
         np.maximum.at(moving, morph.vertices, np.abs(morph.deltas_m).max(axis=1))
     lively = own[moving[own] > 0.002]
     if not len(lively):
-        return NO_CHANGE
+        return None
     positions = mesh.positions_m.astype(np.float64)
     anchors = positions[_spread(positions, lively)]
-    turns = [_turn(positions[own], after_m[own], anchor) for anchor in anchors]
-    return FaceChange(anchors, np.array(turns))
+    near = np.exp(-np.square(positions[own] - anchors[:, None]).sum(axis=2) / (2.0 * REACH_M**2))
+    near /= near.sum(axis=1, keepdims=True)
+    first = positions[own] - (near @ positions[own])[:, None]
+    # Ways from a middle, weighted, sum to nothing: the middle of where vertices go need not be taken off.
+    ways = first * near[..., None]
+    spreads = np.einsum("awk,wl->akl", ways, positions[own])
+    keep = 1e-3 * np.trace(spreads, axis1=1, axis2=2)[:, None, None] * np.eye(3)
+    return _FaceBefore(own, anchors, ways, spreads + keep, keep)
 
 
 def _spread(positions: FloatArray, rows: IndexArray) -> IndexArray:
@@ -125,16 +182,3 @@ def _spread(positions: FloatArray, rows: IndexArray) -> IndexArray:
         far = np.minimum(far, np.linalg.norm(positions[rows] - positions[chosen[-1]], axis=1))
         chosen.append(int(rows[np.argmax(far)]))
     return np.array(chosen, dtype=np.intp)
-
-
-def _turn(before: FloatArray, after: FloatArray, anchor: FloatArray) -> FloatArray:
-    """Return the linear map (3, 3) that approximates, by least squares, how points near ``anchor`` move from ``before``
-    to ``after``.
-    """
-    near = np.exp(-np.square(before - anchor).sum(axis=1) / (2.0 * REACH_M**2))
-    near /= near.sum()
-    first, second = before - near @ before, after - near @ after
-    spread = (first * near[:, None]).T @ first
-    keep = 1e-3 * float(np.trace(spread)) * np.eye(3)
-    turn: FloatArray = np.linalg.solve(spread + keep, (first * near[:, None]).T @ second + keep).T
-    return turn

@@ -19,7 +19,7 @@ from app.formats.textures import Texture
 from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character, Skeleton
 from app.rig.people.body_shapes import BodyShapes, Phenotype, body_m
-from app.rig.people.displacement import NO_CHANGE, Binding, FaceChange, bound, face_change, normals_of, places_of
+from app.rig.people.displacement import NO_CHANGE, Attaching, Binding, FaceChange, face_change, normals_of, places_of
 from app.rig.people.moved_joints import SIDES, MovedJoints, moved_joints, t_positions
 from app.rig.people.person import Color
 from app.rig.skeleton import ancestors
@@ -54,6 +54,8 @@ class Original:
         lengthened.
     places : dict of str to (N,)
         By mesh: number of each vertex's position (`places_of`).
+    normals : dict of str to (N, 3)
+        By mesh: normals smoothed across vertices at one position (`normals_of`).
     """
 
     character: Character
@@ -62,19 +64,25 @@ class Original:
     hands: Mapping[str, FloatArray]
     arms: Mapping[str, FloatArray]
     places: Mapping[str, IndexArray]
+    normals: Mapping[str, FloatArray]
 
 
 def original_of(character: Character, shapes: BodyShapes, phenotype: Phenotype) -> Original:
     """Prepare a bundled body with a phenotype for making people from it; takes a fraction of a second."""
     base_m = body_m(shapes, phenotype)
-    skin_m = base_m[: len(shapes.vertices)]
+    attaching = Attaching(base_m[: len(shapes.vertices)])
+    places = {mesh.name: places_of(mesh) for mesh in character.meshes}
     return Original(
         character,
         base_m,
-        {mesh.name: bound(mesh, skin_m) for mesh in character.meshes},
+        {mesh.name: attaching.bound(mesh) for mesh in character.meshes},
         {mesh.name: _hand_shares(character, mesh) for mesh in character.meshes},
         {mesh.name: _arm_shares(character, mesh) for mesh in character.meshes},
-        {mesh.name: places_of(mesh) for mesh in character.meshes},
+        places,
+        {
+            mesh.name: normals_of(mesh.positions_m.astype(np.float64), mesh, places[mesh.name])
+            for mesh in character.meshes
+        },
     )
 
 
@@ -209,26 +217,61 @@ def _changed(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoin
     """Return a mesh of a bundled body, fitted to another body: vertices, normals and morphs."""
     points, moved = mesh.positions_m.astype(np.float64), _moved(original, mesh, body, joints)
     moved = _off_the_eyes(original, points, moved, joints)
-    places = original.places[mesh.name]
-    normals = mesh.normals + normals_of(moved, mesh, places) - normals_of(points, mesh, places)
+    normals = mesh.normals + normals_of(moved, mesh, original.places[mesh.name]) - original.normals[mesh.name]
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
-    turns = face.at(points) if mesh.morphs else np.zeros((0, 3, 3))
-    morphs = tuple(_shape(original, morph, points, moved, joints, turns) for morph in mesh.morphs)
+    morphs = _shapes(original, mesh, moved, joints, face) if mesh.morphs else ()
     positions = moved.astype(np.float32)
     return replace(mesh, positions_m=positions, normals=normals.astype(np.float32), morphs=morphs)
 
 
-def _shape(
-    original: Original, morph: Morph, points: FloatArray, moved: FloatArray, joints: MovedJoints, turns: FloatArray
-) -> Morph:
-    """Return a morph of the face for another person's face: displacements are turned and stretched with the skin, and
+def _shapes(
+    original: Original, mesh: Mesh, moved: FloatArray, joints: MovedJoints, face: FaceChange
+) -> tuple[Morph, ...]:
+    """Return the morphs of a mesh for another person's face: displacements are turned and stretched with the skin, and
     lids stay on the eyeballs.
     """
-    rows = morph.vertices
-    before = points[rows] + morph.deltas_m
-    after = moved[rows] + np.einsum("nij,nj->ni", turns[rows], morph.deltas_m)
+    rows = _moved_by_morphs(mesh)
+    before = rows.places_m + np.concatenate([morph.deltas_m for morph in mesh.morphs])
+    turned = np.einsum("nij,nj->ni", face.at(rows.moving_m)[rows.numbered], before - rows.places_m)
+    rest = moved[rows.vertices]
+    after = rest + turned
     after = _off_the_eyes(original, before, after, joints)
-    return replace(morph, deltas_m=(after - moved[rows]).astype(np.float32))
+    made = np.split((after - rest).astype(np.float32), rows.ends)
+    return tuple(replace(morph, deltas_m=own) for morph, own in zip(mesh.morphs, made, strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class _MorphRows:
+    """Vertices that the morphs of a bundled body's mesh move, concatenated over the morphs.
+
+    Attributes
+    ----------
+    vertices : (R,) int
+        Indices of the vertices.
+    places_m : (R, 3)
+        Their positions.
+    moving_m : (M, 3)
+        The positions without repetition.
+    numbered : (R,) int
+        Index into ``moving_m``.
+    ends : (N - 1,) int
+        First row of each of N morphs but the first.
+    """
+
+    vertices: IndexArray
+    places_m: FloatArray
+    moving_m: FloatArray
+    numbered: IndexArray
+    ends: IndexArray
+
+
+@lru_cache(maxsize=64)
+def _moved_by_morphs(mesh: Mesh) -> _MorphRows:
+    points = mesh.positions_m.astype(np.float64)
+    rows = np.concatenate([morph.vertices for morph in mesh.morphs]).astype(np.intp)
+    moving, numbered = np.unique(rows, return_inverse=True)
+    ends = np.cumsum([len(morph.vertices) for morph in mesh.morphs])[:-1]
+    return _MorphRows(rows, points[rows], points[moving], numbered, ends)
 
 
 def _off_the_eyes(original: Original, before: FloatArray, after: FloatArray, joints: MovedJoints) -> FloatArray:

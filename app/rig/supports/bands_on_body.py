@@ -137,7 +137,7 @@ def leg_of(trunk: PosedTrunk, route: BandRoute, meet_m: FloatArray, low_m: Float
     parts = [_resampled(string, 0.0, share, _ON_BODY) for string in strings]
     on_body, outwards = parts[0]
     half = route.half_m(np.linspace(0.0, 1.0, _ON_BODY))[:, None] / widest
-    edges = np.array([on_body + half * _evened(line - on_body, _EVEN, 1) for line, _ in parts[1:]])
+    edges = np.array([on_body + half * evened(line - on_body, _EVEN, 1) for line, _ in parts[1:]])
     weights = _smoothed(trunk.weights_at(on_body))
     joints = np.argsort(-weights[-1])[:_MOST_JOINTS]
     shares = weights[-1][joints] / weights[-1][joints].sum()
@@ -258,11 +258,18 @@ def _lengths(points: FloatArray) -> FloatArray:
     return found
 
 
-def _evened(points: FloatArray, window: int, degree: int) -> FloatArray:
-    """Return points (R, 3) smoothed by polynomials of a degree over windows of points (Savitzky-Golay)."""
-    from scipy.signal import savgol_filter  # heavy: few pieces have straps
+def evened(points: FloatArray, window: int, degree: int) -> FloatArray:
+    """Smooth the points (R, 3) of a line along it by polynomials of a degree over windows of points (Savitzky-Golay).
 
-    return np.asarray(savgol_filter(points, window, degree, axis=0))
+    Equals ``scipy.signal.savgol_filter``, whose import takes longer than making all straps of a band.
+    """
+    powers = np.vander(np.arange(window) - window // 2, degree + 1).astype(np.float64)
+    fit = powers @ np.linalg.pinv(powers)
+    rows = np.arange(len(points))
+    first = np.clip(rows - window // 2, 0, len(points) - window)
+    windows = np.lib.stride_tricks.sliding_window_view(points, window, axis=0)[first]
+    found: FloatArray = np.einsum("rw,rkw->rk", fit[rows - first], windows)
+    return found
 
 
 def _resampled(string: TautString, first: float, last: float, count: int) -> tuple[FloatArray, FloatArray]:
@@ -271,7 +278,7 @@ def _resampled(string: TautString, first: float, last: float, count: int) -> tup
     at, asked = _lengths(string.points_m), np.linspace(first, last, count)
     points = np.stack([np.interp(asked, at, string.points_m[:, axis]) for axis in range(3)], axis=1)
     # Corners of the hull are those of triangles; what bends evenly is left as it is.
-    points[1:-1] = _evened(points, _EVEN, 2)[1:-1]
+    points[1:-1] = evened(points, _EVEN, 2)[1:-1]
     ways = _smoothed(np.stack([np.interp(asked, at, string.outwards[:, axis]) for axis in range(3)], axis=1))
     return points, _unit(ways)
 

@@ -71,20 +71,22 @@ def posed_trunk(character: Character, joints: FloatArray, morphs: dict[str, floa
     curves = {name: np.array([weight]) for name, weight in morphs.items()}
     corners, vertices, weights = list[FloatArray](), list[FloatArray](), list[FloatArray]()
     for mesh in character.meshes:
-        dense = np.zeros((len(mesh.positions_m), len(skeleton.names)))
-        np.add.at(dense, (np.arange(len(dense))[:, None], mesh.joints), mesh.weights)
         cards = all(material.alpha_mode != "opaque" for material in mesh.materials)
-        if dense[:, skeleton.index("head")].mean() > (_CARDS if cards else _HAIR):
+        on_head = mesh.weights[mesh.joints == skeleton.index("head")].sum() / len(mesh.weights)
+        if on_head > (_CARDS if cards else _HAIR):
             continue
-        own = dense[:, trunk].sum(axis=1) >= _LEAST_TRUNK
-        triangles = mesh.triangles[own[mesh.triangles].all(axis=1)]
+        own = np.einsum("nk,nk->n", mesh.weights, trunk[mesh.joints]) >= _LEAST_TRUNK
+        one, two, three = mesh.triangles.T
+        triangles = mesh.triangles[own[one] & own[two] & own[three]]
         if not len(triangles):
             continue
         used, numbered = np.unique(triangles, return_inverse=True)
+        dense = np.zeros((len(used), len(skeleton.names)))
+        np.add.at(dense, (np.arange(len(used))[:, None], mesh.joints[used]), mesh.weights[used])
         posed = patch(character, mesh, used).deformed(world, curves)[0]
         corners.append(posed[numbered.reshape(-1, 3)])
         vertices.append(posed)
-        weights.append(dense[used])
+        weights.append(dense)
     if not corners:
         empty = np.zeros((0, 3, 3))
         return PosedTrunk(empty, np.zeros((0, 3)), np.zeros((0, len(skeleton.names))))

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-import numpy as np
+from dataclasses import replace
 
+import msgspec
+import numpy as np
+import pytest
+
+from app.performance.bodies import hold_of
 from app.project.casting import StagePosition
 from app.project.edit import players as edit
 from app.project.model import Project
+from app.project.performers import Player
+from app.rig.grip.grip_pose import GripPose
+from instrument_maps.model import InstrumentMap
 from tests.support.doubled import flutist
+from widgets.viewport import figures
 from widgets.viewport.cast import Stage
 from widgets.viewport.figures import DrawableFigures, cast_key, load, moved, same_figures
 from widgets.viewport.limb_capsules import HELD, LimbCapsules
@@ -57,3 +66,19 @@ def test_separating_asks_for_another_stage_and_moving_does_not() -> None:
     stage = moved(after, before).stage
     assert [member.has_body for member in stage.members] == [True, False, True]
     assert np.allclose([member.world_from_player[0, 3] for member in stage.members[:2]], 1.0)
+
+
+def test_figures_whose_instruments_hang_on_nothing_wait_for_no_hold(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = list[str]()
+
+    def noted(player: Player, instrument: InstrumentMap) -> GripPose:
+        asked.append(instrument.id)
+        return hold_of(player, instrument)
+
+    monkeypatch.setattr(figures, "hold_of", noted)
+    project = flutist()
+    loaded(project)
+    assert not asked
+    bassoonist = msgspec.structs.replace(project.players[2], instrument_id="bassoon")
+    loaded(replace(project, players=(bassoonist,)))
+    assert asked == ["bassoon"]

@@ -6,10 +6,12 @@ import math
 
 import numpy as np
 import pytest
+from scipy.signal import savgol_filter
 
 from app.formats.scene import Material
 from app.rig.mesh import Mesh
 from app.rig.supports.band import SurfaceStrip, mesh_of, tube
+from app.rig.supports.bands_on_body import evened
 from app.rig.supports.chair import ChairFit, chair
 from app.rig.supports.taut_string import PosedTrunk, taut_string
 
@@ -77,3 +79,9 @@ def test_a_tube_is_round_and_closed() -> None:
     mesh = mesh_of("rod", [strip], PLAIN)
     assert _volume_m3(mesh) == pytest.approx(math.pi * 0.02**2, rel=0.01)
     assert _seen_from_outside(mesh) == 1.0
+
+
+@pytest.mark.parametrize(("window", "degree"), [(5, 2), (7, 1), (9, 2)])
+def test_lines_are_smoothed_as_scipy_does(window: int, degree: int) -> None:
+    line = np.random.default_rng(window).normal(size=(23, 3))
+    assert np.allclose(evened(line, window, degree), savgol_filter(line, window, degree, axis=0), atol=1e-12)
