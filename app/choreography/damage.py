@@ -86,7 +86,8 @@ _OF_TRUNK: Final = {
     "head": FASTEST_HEAD_RAD_S,
 }
 _TRUNK: Final = (*map(SEGMENTS.index, _OF_TRUNK), len(SEGMENTS))
-_FASTEST: FloatArray = np.array([*(_OF_TRUNK.get(name, FASTEST_RAD_S) for name in SEGMENTS), np.inf])
+FASTEST: FloatArray = np.array([*(_OF_TRUNK.get(name, FASTEST_RAD_S) for name in SEGMENTS), np.inf])
+"""Greatest rotation speed of each segment in radians per second, and no limit for the place of the hips."""
 
 
 @dataclass(frozen=True, order=True)
@@ -189,12 +190,12 @@ def _off_the_cubic(
 
 def _too_fast(speeds: FloatArray, fps: float) -> Iterator[tuple[int, int, int]]:
     """Yield the spans of joints that rotate too fast, and of hips that turn fast without spinning."""
-    for part in np.flatnonzero((speeds > _FASTEST).any(axis=0)).tolist():
+    for part in np.flatnonzero((speeds > FASTEST).any(axis=0)).tolist():
         # Such a turn is followed to where it begins and ends, and so is a spin.
-        for start, stop in runs(speeds[:, part] > _FASTEST[part] * BEGINS):
+        for start, stop in runs(speeds[:, part] > FASTEST[part] * BEGINS):
             turned = speeds[start:stop, part]
             spins = part == 0 and (stop - start) / fps >= SPIN_S and turned.sum() / fps >= SPIN_RAD
-            if turned.max() > _FASTEST[part] and not spins:
+            if turned.max() > FASTEST[part] and not spins:
                 yield start, stop, part
 
 

@@ -22,17 +22,18 @@ from app.choreography.arrivals import (
     joint_speed_m_s,
     smoothed,
 )
-from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.dance_flaws import usual_change_rad_s
 from app.choreography.drums_of_dancers import TakeShares, take_shares
+from app.choreography.feet_on_floor import grounded
 from app.choreography.footfalls import Footfalls, on_beats
 from app.choreography.hands_out_of_body import out_of_body
 from app.choreography.hit_log_odds import Hearing, hearing
 from app.choreography.idling import idling_odds
 from app.choreography.joins import distances_m
+from app.choreography.joint_speeds import within_speeds
 from app.choreography.limbs import unbroken
 from app.choreography.model import ChoreographyModel
 from app.choreography.music_motion_dependence import trust_in
@@ -40,12 +41,12 @@ from app.choreography.phrases import returning_places
 from app.choreography.rhythm import Rhythm, felt_at, own_beat_s
 from app.choreography.segment_arrivals import accents_s, meets_of
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
+from app.choreography.sized import sized
 from app.choreography.spins import hips_rad, without_haste
-from app.choreography.standing_feet import STEP_S, FootPlant, foot_speeds_m_s, planted, stands, steps_s
+from app.choreography.standing_feet import STEP_S, FootPlant, foot_speeds_m_s, planted, planted_frames, stands, steps_s
 from app.choreography.stitch import Frames, Stitcher, on_stage
 from app.choreography.sudden_ends import UsualAccelerations, usual_accelerations, without_twitches
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
-from app.rig import quaternion
 
 DRAFT_FPS: Final = Fraction(60)
 """Frame rate of the drafts in which arrivals and footfalls are found; at half of it contacts differ from the dance."""
@@ -59,9 +60,6 @@ PREFERRED: Final = 12.0
 """Log odds of a segment of the preferred source."""
 BEAT_S: Final = 0.5
 """Time in seconds between footfalls for a capture without steps."""
-ARM: Final = ("UpperArm", "LowerArm", "Hand")
-UPPER_BODY: Final = ("spine", "chest", "head", *(f"left{part}" for part in ARM), *(f"right{part}" for part in ARM))
-"""Joints whose motion `Manner.size` scales; steps are unchanged."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,13 +213,15 @@ class Choreographer:
         if not plan.steps:
             return Dance(self._stitcher.still(count, body, fps), first_s, (), np.zeros(count), (), ())
         clip, moved_m, contacts, seams, speeds = self._motion(plan, body, fps, first_s + np.arange(count) / float(fps))
-        clip = _sized(clip, manner.size)
+        clip = sized(clip, manner.size, self._stitcher.hinges)
         if manner.mirrored:
             clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
         clip = out_of_body(without_haste(clip, self._fastest_rad_s))
         falls = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm))
         clip = planted(clip, falls.standing, manner.weight, falls.shown)
         clip = without_twitches(clip, falls.standing, self._usual_accelerations(fps))
+        on_floor = planted_frames(falls.standing, len(clip))
+        clip = within_speeds(grounded(clip, on_floor), on_floor)
         return Dance(clip, first_s, plan.steps, speeds, seams, falls.standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:
@@ -391,17 +391,3 @@ class Choreographer:
         clip, contacts, seams = self._stitcher.stitched(frames, body, fps)
         hips_m = on_stage(clip.hips_m, float(fps))
         return _Motion(unbroken(replace(clip, hips_m=hips_m)), hips_m - clip.hips_m, contacts, seams, speeds)
-
-
-def _sized(clip: MotionClip, size: float) -> MotionClip:
-    """Scale the rotations of trunk and arms about their mean pose by ``size``."""
-    if size == 1.0:
-        return clip
-    rotations = clip.rotations.copy()
-    for name in UPPER_BODY:
-        at = SEGMENTS.index(name)
-        middle = quaternion.normalize(rotations[:, at].mean(axis=0))
-        rotations[:, at] = quaternion.slerp(
-            np.broadcast_to(middle, rotations[:, at].shape), rotations[:, at], np.full(len(rotations), size)
-        )
-    return replace(clip, rotations=quaternion.continuous(rotations))

@@ -24,6 +24,12 @@ _HEAVY: Final = {"leftFoot": 2.0, "rightFoot": 2.0, "leftHand": 0.7, "rightHand"
 """Weights of parts in a difference, which shows most at standing feet and least at hands."""
 FADE_S: Final = 0.45
 """Time in seconds within which the difference of two motions fades out."""
+MOST_CARRIED_RAD: Final = 0.6
+"""Angle in radians by which a difference of speeds may turn a joint before it has faded out; one that would turn it
+farther fades sooner, but not within less than `LEAST_FADE_S`."""
+LEAST_FADE_S: Final = 0.18
+_CARRIED: Final = 0.198
+"""Maximum of the quintic with slope 1 at the start, relative to its time."""
 
 
 class Clouds:
@@ -104,3 +110,21 @@ def fading_difference(value: FloatArray, slope: FloatArray, times_s: FloatArray,
     held = rest**3 * (1.0 + 3.0 * u + 6.0 * u * u)
     moved = rest**3 * u * (1.0 + 3.0 * u)
     return np.asarray(held * value + moved * (fade_s * np.asarray(slope)))
+
+
+def fading_turn(turn: FloatArray, spin_rad_s: FloatArray, times_s: FloatArray) -> FloatArray:
+    """Return a difference of rotations that fades out, (T, B, 3) rotation vectors at T times of B joints.
+
+    Parameters
+    ----------
+    turn, spin_rad_s : (B, 3) float64
+        Rotation vector of each joint at time 0, and its rate of change per second.
+    times_s : (T,) float64
+        From 0 on.
+    """
+    fading = fading_difference(turn, np.zeros_like(spin_rad_s), times_s)
+    for joint, spin in enumerate(spin_rad_s):
+        far_s = MOST_CARRIED_RAD / (_CARRIED * max(float(np.linalg.norm(spin)), 1e-9))
+        fade_s = min(max(far_s, LEAST_FADE_S), FADE_S)
+        fading[:, joint] += fading_difference(np.zeros(3), spin, times_s, fade_s)
+    return fading

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -23,6 +24,59 @@ STRETCHED_RAD: Final = 0.15
 FOLDED_RAD: Final = 2.6
 """Angle in radians that the bend of a knee exceeds by at most `STRETCHED_RAD`, also in a blend of a kick."""
 _ACROSS: Final = (1.0, 0.0, 0.0)
+HINGES: Final = {
+    "leftLowerLeg": _ACROSS,
+    "rightLowerLeg": _ACROSS,
+    "leftLowerArm": (0.0, -1.0, 0.0),
+    "rightLowerArm": (0.0, 1.0, 0.0),
+}
+"""Segments beyond a knee or an elbow, each with the axis about which it bends, in the T-pose."""
+
+
+def hinge_ranges(clips: Sequence[MotionClip]) -> FloatArray:
+    """Return the least and greatest bend (4, 2) in radians of each of `HINGES`: those of people, or of the clips if
+    these go beyond."""
+    ranges = np.tile((0.0, FOLDED_RAD), (len(HINGES), 1))
+    for at, (name, axis) in enumerate(HINGES.items()):
+        if name.endswith("LowerArm"):
+            for clip in clips:
+                bent = quaternion.twist_angle(clip.rotations[:, SEGMENTS.index(name)], axis)
+                ranges[at] = min(ranges[at, 0], float(bent.min())), max(ranges[at, 1], float(bent.max()))
+    return ranges
+
+
+def within_hinges(rotations: FloatArray, captured: FloatArray, ranges: FloatArray) -> FloatArray:
+    """Return rotations (F, 16, 4) with knees and elbows bent within their ranges, exceeded softly by at most
+    `STRETCHED_RAD`.
+
+    Parameters
+    ----------
+    captured : (F, 16, 4) float64
+        Rotations that these deviate from; from their bends it follows how far a joint is turned that has gone beyond
+        half a turn.
+    ranges : (4, 2) float64
+        See `hinge_ranges`.
+    """
+    result = rotations.copy()
+    for (name, axis), (least, most) in zip(HINGES.items(), ranges, strict=True):
+        at = SEGMENTS.index(name)
+        usual = quaternion.twist_angle(captured[:, at], axis)
+        off = quaternion.twist_angle(rotations[:, at], axis) - usual
+        # The deviation fades out: at the end it is less than half a turn.
+        off = np.unwrap(((off + np.pi) % (2.0 * np.pi) - np.pi)[::-1])[::-1]
+        bent = usual + off
+        back = softly_within(bent, float(least), float(most)) - bent
+        if back.any():
+            turn = quaternion.from_rotation_vector(back[:, None] * np.array(axis))
+            result[:, at] = quaternion.multiply(turn, result[:, at])
+    return result
+
+
+def softly_within(values: FloatArray, least: float, most: float) -> FloatArray:
+    """Return values that exceed a range by at most `STRETCHED_RAD`, smoothly."""
+    under, over = np.minimum(values - least, 0.0), np.minimum(most - values, 0.0)
+    inside = values - under + over
+    return np.asarray(inside + STRETCHED_RAD * (np.expm1(under / STRETCHED_RAD) - np.expm1(over / STRETCHED_RAD)))
 
 
 def unbroken(clip: MotionClip) -> MotionClip:
@@ -35,9 +89,7 @@ def unbroken(clip: MotionClip) -> MotionClip:
         bent_rad = quaternion.twist_angle(shank, _ACROSS)
         # A knee that is bent by more than half a turn is no knee that bends backwards by nearly as much.
         bent_rad = np.where(bent_rad < -0.5 * np.pi, bent_rad + 2.0 * np.pi, bent_rad)
-        behind_rad, beyond_rad = np.minimum(bent_rad, 0.0), np.minimum(FOLDED_RAD - bent_rad, 0.0)
-        back_rad = STRETCHED_RAD * (np.expm1(behind_rad / STRETCHED_RAD) - np.expm1(beyond_rad / STRETCHED_RAD))
-        back_rad += beyond_rad - behind_rad
+        back_rad = softly_within(bent_rad, 0.0, FOLDED_RAD) - bent_rad
         shank[:] = quaternion.multiply(shank, quaternion.from_rotation_vector(back_rad[:, None] * np.array(_ACROSS)))
     return replace(clip, rotations=quaternion.continuous(rotations))
 

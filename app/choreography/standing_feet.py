@@ -16,15 +16,12 @@ from app.arrays import BoolArray, FloatArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
-from app.choreography.limbs import bend
+from app.choreography.feet_on_floor import legs_to, rest_tip_m
 from app.rig import quaternion
 from app.rig.ik import leg
 from app.rig.skeleton import JointTransforms
 from app.rig.sole import SIDES
 
-LEG: Final = ("UpperLeg", "LowerLeg", "Foot")
-AHEAD: Final = (0.0, 0.0, 1.0)
-"""Direction of a knee, in the frame of the thigh."""
 BRIDGED_S: Final = 0.06
 """Longest absence from the floor in seconds that is ignored."""
 LEAST_S: Final = 0.1
@@ -83,7 +80,7 @@ def stands(clip: MotionClip, contacts: BoolArray, moved_m: FloatArray | None = N
     unmoved = tips if moved_m is None else tips - moved_m[:, None]
     found = []
     for foot in range(2):
-        on_floor_m = _tip_height_m(clip, foot)
+        on_floor_m = rest_tip_m(clip, foot)
         low = tips[:, foot, 1] < on_floor_m + REACHED_M
         for start, stop in _spans(contacts[:, foot] & low, fps):
             for first, last in _still(unmoved[start:stop, foot], fps):
@@ -134,7 +131,10 @@ def _apart(standing: list[FootPlant], fps: float) -> list[FootPlant]:
 
 
 def planted(
-    clip: MotionClip, standing: tuple[FootPlant, ...], weight: float = 0.0, shown: FloatArray | None = None
+    clip: MotionClip,
+    standing: tuple[FootPlant, ...],
+    weight: float = 0.0,
+    shown: FloatArray | None = None,
 ) -> MotionClip:
     """Solve the legs again so that feet do not move while they are planted; between two plants the corrections are
     blended.
@@ -163,12 +163,15 @@ def planted(
     lower = (lower_m + _sink_m(clip, world, targets, standing, lower_m))[:, None] * np.array((0.0, 1.0, 0.0))
     clip = replace(clip, hips_m=clip.hips_m + towards - lower)
     world = replace(world, positions_m=world.positions_m - lower[:, None])
-    rotations = clip.rotations.copy()
-    for foot, side in enumerate(SIDES):
-        turned = world.rotations[:, 1 + SEGMENTS.index(FEET[foot])]
-        ankle = targets[:, foot] - quaternion.rotate(turned, clip.shape.ends_m[ENDS.index(FEET[foot])])
-        bend(clip, world, ("hips", *(f"{side}{part}" for part in LEG)), ankle, AHEAD, rotations)
-    return replace(clip, rotations=quaternion.continuous(rotations))
+    return legs_to(clip, world, targets, planted_frames(standing, len(clip)))
+
+
+def planted_frames(standing: Sequence[FootPlant], frames: int) -> BoolArray:
+    """Return whether the left and the right foot stand in each frame (F, 2)."""
+    found = np.zeros((frames, 2), bool)
+    for stand in standing:
+        found[stand.start : stand.stop, stand.foot] = True
+    return found
 
 
 def _feet_at(tips: FloatArray, world: JointTransforms, shown: FloatArray) -> tuple[FloatArray, JointTransforms]:
@@ -184,14 +187,6 @@ def _feet_at(tips: FloatArray, world: JointTransforms, shown: FloatArray) -> tup
             CubicSpline(frames, quaternion.continuous(rotations[:, at, None])[:, 0])(shown[:, foot])
         )
     return tips, replace(world, rotations=rotations)
-
-
-def _tip_height_m(clip: MotionClip, foot: int) -> float:
-    """Height in metres of a foot's tip above the floor in the T-pose."""
-    side = SIDES[foot]
-    names = ("hips", f"{side}UpperLeg", f"{side}LowerLeg", f"{side}Foot")
-    height = sum(clip.shape.offsets_m[SEGMENTS.index(name), 1] for name in names)
-    return float(height + clip.shape.ends_m[ENDS.index(FEET[foot]), 1])
 
 
 def _spans(contact: BoolArray, fps: float) -> list[tuple[int, int]]:

@@ -17,7 +17,8 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts
 from app.choreography.features import facing, height_m
-from app.choreography.joins import FADE_S, STATURE_M, Clouds, best_turn_rad, fading_difference
+from app.choreography.joins import FADE_S, STATURE_M, Clouds, best_turn_rad, fading_difference, fading_turn
+from app.choreography.limbs import hinge_ranges, within_hinges
 from app.choreography.model import ChoreographyModel
 from app.rig import quaternion
 
@@ -70,12 +71,15 @@ class Stitcher:
         The bodies about the first and the last frame of each segment.
     contacts : list of (F, 2) bool
         Whether the feet of each clip stand, by frame.
+    hinges : (4, 2) float64
+        Ranges of knees and elbows, see `app.choreography.limbs.hinge_ranges`.
     """
 
     def __init__(self, model: ChoreographyModel) -> None:
         self._model = model
         self._clips = [_SmoothClip(clip) for clip in model.clips]
         self._heights_m = [height_m(clip) for clip in model.clips]
+        self.hinges = hinge_ranges(model.clips)
         self.contacts = [foot_contacts(clip) for clip in model.clips]
         self.starts = Clouds(model.clips, [(one.clip, one.start) for one in model.segments])
         self.ends = Clouds(model.clips, [(one.clip, one.end) for one in model.segments])
@@ -121,7 +125,7 @@ class Stitcher:
         """
         runs = np.flatnonzero(np.diff(frames.which, prepend=-1, append=frames.which[-1] + 1))
         captured, contacts = self._captured(frames, runs, body, fps)
-        out = _Output(fps, len(frames.which))
+        out = _Output(fps, len(frames.which), self.hinges)
         seams: list[int] = []
         turn, moved = 0.0, 0.0 + 0.0j
         before: int | None = None
@@ -213,8 +217,8 @@ class _SmoothClip:
 class _Output:
     """Output frames in progress, in which each new motion is blended from the previous one."""
 
-    def __init__(self, fps: Fraction, count: int) -> None:
-        self._rate = float(fps)
+    def __init__(self, fps: Fraction, count: int, hinges: FloatArray) -> None:
+        self._rate, self._hinges = float(fps), hinges
         self.hips = np.zeros((count, 3))
         self.rotations = np.tile(quaternion.IDENTITY, (count, len(SEGMENTS), 1))
         self._fades_until, self._carried = 0, 0
@@ -248,8 +252,11 @@ class _Output:
             fading = slice(0, min(count, length))
             times_s = np.arange(fading.stop) / self._rate
             hips[fading] += fading_difference(off[0], (off[1] - off[0]) * self._rate, times_s)
-            off_turns = quaternion.from_rotation_vector(fading_difference(turned[0], spin * self._rate, times_s))
+            off_turns = quaternion.from_rotation_vector(fading_turn(turned[0], spin * self._rate, times_s))
+            captured = rotations[fading].copy()
             rotations[fading, :carried] = quaternion.multiply(off_turns, rotations[fading, :carried])
+            if carried == len(SEGMENTS):
+                rotations[fading] = within_hinges(rotations[fading], captured, self._hinges)
         here = slice(start, start + count)
         self.hips[here], self.rotations[here] = hips[:-1], rotations[:-1]
 

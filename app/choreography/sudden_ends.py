@@ -20,10 +20,11 @@ from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.body_speeds import runs
 from app.choreography.clip import MotionClip
 from app.choreography.features import height_m
+from app.choreography.feet_on_floor import AHEAD, LEG
 from app.choreography.hands_out_of_body import ELBOW
 from app.choreography.limbs import bend
 from app.choreography.resample import resampled
-from app.choreography.standing_feet import AHEAD, LEG, FootPlant
+from app.choreography.standing_feet import FootPlant, planted_frames
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
 from app.rig.sole import SIDES
@@ -77,9 +78,7 @@ def usual_accelerations(clips: Sequence[MotionClip], fps: Fraction) -> UsualAcce
 
 def without_twitches(clip: MotionClip, standing: Sequence[FootPlant], usual: UsualAccelerations) -> MotionClip:
     """Limit the accelerations of hands and feet to `MOST` times the usual ones, as far as joints allow."""
-    planted = np.zeros((len(clip), 2), bool)
-    for stand in standing:
-        planted[stand.start : stand.stop, stand.foot] = True
+    planted = planted_frames(standing, len(clip))
     for _ in range(TRIES):
         calmer = _calmer(clip, planted, usual)
         if calmer is clip:

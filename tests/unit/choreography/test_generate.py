@@ -17,7 +17,7 @@ from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.dance import Dance, Manner
 from app.choreography.generate import Choreographer
-from app.choreography.joins import fading_difference
+from app.choreography.joins import FADE_S, MOST_CARRIED_RAD, fading_difference, fading_turn
 from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.choreography.sequence import Constraints
 from app.choreography.stitch import STAGE_M
@@ -195,6 +195,17 @@ def test_what_fades_begins_as_it_was_and_ends_at_rest() -> None:
     assert np.abs(curve[times >= 0.5]).max() == 0.0
     assert np.abs(slope[-80:]).max() < 1e-9
     assert math.isfinite(np.abs(np.gradient(slope, times)).max())
+
+
+def test_a_fast_difference_of_speeds_turns_no_joint_far_before_it_has_faded_out() -> None:
+    """A knee that is kicked into another motion would be carried a quarter of a turn beyond it."""
+    times = np.linspace(0.0, FADE_S, 451)
+    spins = np.array([[12.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+    turns = fading_turn(np.zeros((2, 3)), spins, times)[..., 0]
+    assert turns.max(axis=0)[0] == pytest.approx(MOST_CARRIED_RAD, rel=0.01)
+    assert np.gradient(turns[:, 0], times)[0] == pytest.approx(12.0, rel=0.02)
+    slow = fading_difference(np.zeros(3), spins[1], times)[:, 0]
+    assert turns[:, 1] == pytest.approx(slow)
 
 
 def test_what_idles_in_the_capture_is_hardly_danced(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,7 +11,7 @@ from app.arrays import BoolArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
-from app.choreography.limbs import FOLDED_RAD, STRETCHED_RAD, unbroken
+from app.choreography.limbs import FOLDED_RAD, HINGES, STRETCHED_RAD, hinge_ranges, unbroken, within_hinges
 from app.choreography.standing_feet import DEEPER, HIGHER, STEP_S, FootPlant, planted, stands
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps
@@ -151,3 +151,19 @@ def test_a_knee_that_would_fold_through_the_thigh_stays_folded() -> None:
     assert np.abs(np.diff(found)).max() < 1.01 * np.abs(np.diff(bends_rad)).max()
     kept = bends_rad < FOLDED_RAD
     assert found[kept] == pytest.approx(bends_rad[kept], abs=1e-9)
+
+
+@pytest.mark.parametrize("name", list(HINGES))
+def test_a_fade_that_carries_a_hinge_beyond_half_a_turn_keeps_it_in_range(name: str) -> None:
+    """A knee or an elbow that a fade would bend backwards by 200 degrees stays straight until it bends forwards."""
+    captured, faded = still(60), still(60)
+    at, axis = SEGMENTS.index(name), np.array(HINGES[name])
+    off_rad = -np.radians(200.0) * np.sin(np.pi * np.linspace(0.0, 1.0, 60)) ** 2
+    for clip, bends_rad in ((captured, np.full(60, 0.4)), (faded, 0.4 + off_rad)):
+        clip.rotations[:, at] = quaternion.from_rotation_vector(bends_rad[:, None] * axis)
+    found = within_hinges(faded.rotations, captured.rotations, hinge_ranges([captured]))
+    bends_rad = quaternion.twist_angle(found[:, at], axis)
+    assert bends_rad.min() == pytest.approx(-STRETCHED_RAD, abs=1e-6)
+    assert np.abs(np.diff(bends_rad)).max() <= np.abs(np.diff(off_rad)).max() + 1e-9
+    ahead = 0.4 + off_rad >= 0.0
+    assert bends_rad[ahead] == pytest.approx((0.4 + off_rad)[ahead])

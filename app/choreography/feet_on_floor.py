@@ -1,0 +1,178 @@
+"""Keeps soles above the floor, and feet turned about their ankles no farther than those of people."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
+
+from app.arrays import BoolArray, FloatArray
+from app.choreography.body import ENDS, FEET, SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.limbs import bend, softly_within
+from app.rig import quaternion
+from app.rig.skeleton import JointTransforms
+from app.rig.sole import SIDES
+
+LEG: Final = ("UpperLeg", "LowerLeg", "Foot")
+AHEAD: Final = (0.0, 0.0, 1.0)
+"""Direction of a knee, in the frame of the thigh."""
+SINKS_M: Final = 0.008
+"""Depth in metres that a tip or heel approaches but never exceeds under the floor."""
+LIFTS_S: Final = 0.05
+"""Standard deviation in seconds over which a foot is lifted before and after it would be under the floor."""
+FREE_S: Final = 0.12
+"""Time in seconds beside a stand within which such a lift begins and ends."""
+ANKLE_RAD: Final = ((-1.3, 1.45), (-1.0, 1.0), (-0.75, 0.75))
+"""Least and greatest rotation in radians of a left foot relative to its lower leg, from the T-pose, about +X (toes
+down), +Y (toes out) and +Z (sole out): the extremes of 70 clean captures from six sources."""
+_UP: Final = np.array([0.0, 1.0, 0.0])
+_MIRRORED: Final = (1.0, -1.0, -1.0)
+
+
+def legs_to(
+    clip: MotionClip,
+    world: JointTransforms,
+    tips: FloatArray,
+    planted: BoolArray,
+) -> MotionClip:
+    """Return the motion with the tips of its feet at places, as far as legs reach, ankles and floor allow.
+
+    Parameters
+    ----------
+    world : JointTransforms
+        Of the clip, with the feet turned as they should be.
+    tips : (F, 2, 3) float64
+        Places in metres.
+    planted : (F, 2) bool
+        Frames in which the tip stays exactly at its place.
+    """
+    rotations = clip.rotations.copy()
+    for foot, side in enumerate(SIDES):
+        limb = ("hips", *(f"{side}{part}" for part in LEG))
+        at, end = 1 + SEGMENTS.index(FEET[foot]), clip.shape.ends_m[ENDS.index(FEET[foot])]
+        world = replace(world, rotations=world.rotations.copy(), positions_m=world.positions_m.copy())
+        tip = _over_floor(tips[:, foot], rest_tip_m(clip, foot), planted[:, foot], float(clip.fps))
+        bend(clip, world, limb, tip - quaternion.rotate(world.rotations[:, at], end), AHEAD, rotations)
+        _move(clip, world, limb, rotations)
+        before = quaternion.rotate(world.rotations[:, at], end)
+        off = _into_range(rotations[:, at - 1], foot)
+        world.rotations[:, at] = quaternion.multiply(world.rotations[:, at], off)
+        # In the air a foot is turned about its ankle, on the floor about its tip.
+        turned = quaternion.rotate(world.rotations[:, at], end) - before
+        tip += free(planted[:, foot], float(clip.fps))[:, None] * turned
+        tip[:, 1] = _above(tip[:, 1], rest_tip_m(clip, foot), planted[:, foot])
+        world.rotations[:, at] = _heel_up(world.rotations[:, at], tip[:, 1], end)
+        bend(clip, world, limb, tip - quaternion.rotate(world.rotations[:, at], end), AHEAD, rotations)
+    return replace(clip, rotations=quaternion.continuous(rotations))
+
+
+def _move(clip: MotionClip, world: JointTransforms, limb: tuple[str, ...], rotations: FloatArray) -> None:
+    """Write the places of a leg's joints and the rotations of thigh and shank, as ``rotations`` (F, 16, 4) of a clip
+    have them, into joint transforms in the world."""
+    above = 1 + SEGMENTS.index(limb[0])
+    for name in limb[1:]:
+        at = 1 + SEGMENTS.index(name)
+        way = quaternion.rotate(world.rotations[:, above], clip.shape.offsets_m[at - 1])
+        world.positions_m[:, at] = world.positions_m[:, above] + way
+        world.rotations[:, at] = quaternion.multiply(world.rotations[:, above], rotations[:, at - 1])
+        above = at
+
+
+def rest_tip_m(clip: MotionClip, foot: int) -> float:
+    """Return the height of a tip over the floor in the T-pose."""
+    side = SIDES[foot]
+    names = ("hips", *(f"{side}{part}" for part in LEG))
+    height = sum(clip.shape.offsets_m[SEGMENTS.index(name), 1] for name in names)
+    return float(height + clip.shape.ends_m[ENDS.index(FEET[foot]), 1])
+
+
+def soles_m(clip: MotionClip, world: JointTransforms) -> FloatArray:
+    """Return the heights (F, 2, 2) in metres of tip and heel, the point of the sole under the ankle, of each foot."""
+    found = []
+    for name in FEET:
+        at, end = 1 + SEGMENTS.index(name), clip.shape.ends_m[ENDS.index(name)]
+        ankle, turned = world.positions_m[:, at], world.rotations[:, at]
+        found.append([(ankle + quaternion.rotate(turned, way))[:, 1] for way in (end, end * _UP)])
+    return np.moveaxis(np.array(found), -1, 0)
+
+
+def grounded(clip: MotionClip, planted: BoolArray) -> MotionClip:
+    """Return the motion with soles on or above the floor; the same object if they are. See `legs_to`."""
+    world = clip.world()
+    if soles_m(clip, world).min(initial=0.0) >= -SINKS_M:
+        return clip
+    ends = [(1 + SEGMENTS.index(name), clip.shape.ends_m[ENDS.index(name)]) for name in FEET]
+    tips = [world.positions_m[:, at] + quaternion.rotate(world.rotations[:, at], end) for at, end in ends]
+    return legs_to(clip, world, np.stack(tips, axis=1), planted)
+
+
+def _over_floor(tip: FloatArray, rest_m: float, planted: BoolArray, fps: float) -> FloatArray:
+    """Return the path (F, 3) of a tip that is lifted where it would be under the floor, in time where it is free."""
+    floor_m = min(rest_m, 0.0)
+    depth = np.where(planted, 0.0, np.maximum(floor_m - tip[:, 1], 0.0))
+    tip = tip.copy()
+    if depth.any():
+        wide = 2 * round(2.0 * LIFTS_S * fps) + 1
+        lift = gaussian_filter1d(maximum_filter1d(depth, wide, mode="nearest"), LIFTS_S * fps, mode="nearest")
+        tip[:, 1] += lift * free(planted, fps)
+        tip[:, 1] = _above(tip[:, 1], rest_m, planted)
+    return tip
+
+
+def _above(heights_m: FloatArray, rest_m: float, planted: BoolArray) -> FloatArray:
+    """Return heights (F,) of a tip at most `SINKS_M` under the floor; those of planted feet stay."""
+    under = np.where(planted, 0.0, np.minimum(heights_m - min(rest_m, 0.0), 0.0))
+    return np.asarray(heights_m + SINKS_M * np.expm1(under / SINKS_M) - under)
+
+
+def free(planted: BoolArray, fps: float) -> FloatArray:
+    """Return a smooth share (F,): 0 while a foot stands, 1 from `FREE_S` before and after that on."""
+    if not planted.any():
+        return np.ones(len(planted))
+    frames, stands = np.arange(len(planted)), np.flatnonzero(planted)
+    after = np.searchsorted(stands, frames)
+    next_at = stands[np.minimum(after, len(stands) - 1)]
+    last_at = stands[np.maximum(after - 1, 0)]
+    away = np.minimum(np.abs(next_at - frames), np.abs(frames - last_at))
+    share = np.clip(away / max(FREE_S * fps, 1.0), 0.0, 1.0)
+    return np.asarray(share * share * (3.0 - 2.0 * share))
+
+
+def _into_range(turned: FloatArray, foot: int) -> FloatArray:
+    """Return the rotations (F, 4), in the foot's own axes, that bring a foot, rotated by ``turned`` (F, 4) relative to
+    its lower leg, back within `ANKLE_RAD`."""
+    sign = np.array(_MIRRORED) if foot else np.ones(3)
+    angles = quaternion.to_rotation_vector(turned) * sign
+    inside = [softly_within(angles[:, axis], *bounds) for axis, bounds in enumerate(ANKLE_RAD)]
+    held = quaternion.from_rotation_vector(np.stack(inside, axis=1) * sign)
+    return quaternion.multiply(quaternion.conjugate(turned), held)
+
+
+def _heel_up(turned: FloatArray, tip_m: FloatArray, end: FloatArray) -> FloatArray:
+    """Return world rotations (F, 4) of a foot, pitched about its tip where its heel would be under the floor.
+
+    Parameters
+    ----------
+    tip_m : (F,) float64
+        Heights of the tip.
+    end : (3,) float64
+        Vector from ankle to tip.
+    """
+    way = quaternion.rotate(turned, end * (1.0, 0.0, 1.0))
+    across = quaternion.rotate(turned, np.array([1.0, 0.0, 0.0])) * (1.0, 0.0, 1.0)
+    size = np.linalg.norm(across, axis=1, keepdims=True)
+    across = across / np.maximum(size, 1e-9)
+    high, ahead = way[:, 1], np.einsum("fi,fi->f", way, np.cross(across, _UP))
+    reach = np.maximum(np.hypot(high, ahead), 1e-9)
+    # A sole that leans back beyond upright is pitched as one that is upright.
+    high = np.where((ahead < 0.0) & (high > 0.0), reach, high)
+    # The heel lies under the tip by as much as the sole rises to the tip.
+    under = np.maximum(high - np.maximum(tip_m, 0.0), 0.0)
+    allowed = high - under - SINKS_M * np.expm1(-under / SINKS_M)
+    pitch = np.where(under > 0.0, np.arctan2(way[:, 1], ahead) - np.arcsin(np.clip(allowed / reach, -1.0, 1.0)), 0.0)
+    # A foot that lies on its side has no heel under its toes.
+    share = np.clip(2.0 * size[:, 0] - 0.5, 0.0, 1.0)
+    return quaternion.multiply(quaternion.from_rotation_vector(across * (share * pitch)[:, None]), turned)

@@ -1,0 +1,76 @@
+"""Limits the rotation speeds of joints in a dance to the fastest that captures of people have.
+
+A joint that turns faster is turned more slowly through the frames around, on the way between its rotations before and
+after. Standing feet stay in place.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
+
+from app.arrays import BoolArray, FloatArray
+from app.choreography.body import SEGMENTS
+from app.choreography.body_speeds import angle, runs
+from app.choreography.clip import MotionClip
+from app.choreography.damage import FASTEST
+from app.choreography.feet_on_floor import free
+from app.rig import quaternion
+
+ROOM: Final = 0.95
+"""Share of the limits that is used, since frames are rounded to files, and feet are lifted from the floor again."""
+SMOOTH_S: Final = 0.015
+"""Standard deviation in seconds of the first smoothing; that of later ones is as many times longer."""
+ROUNDS: Final = 10
+
+
+def within_speeds(clip: MotionClip, planted: BoolArray) -> MotionClip:
+    """Return the motion with rotation speeds within `app.choreography.damage.FASTEST`, except those of hips; the same
+    object if they are.
+
+    Parameters
+    ----------
+    planted : (F, 2) bool
+        Frames in which the left and the right foot stand; their legs stay as they are.
+    """
+    if len(clip) < 2:
+        return clip
+    rotations = clip.rotations
+    for part, fastest_rad_s in enumerate(FASTEST[: len(SEGMENTS)]):
+        if not part:
+            continue
+        name, fps = SEGMENTS[part], float(clip.fps)
+        turns = rotations[:, part]
+        may = np.ones(len(clip))
+        if name.endswith(("Leg", "Foot")):
+            may = free(planted[:, int(name.startswith("right"))], fps)
+        calm = _calm(turns, ROOM * float(fastest_rad_s) / fps, fps, may)
+        if calm is not turns:
+            rotations = rotations.copy() if rotations is clip.rotations else rotations
+            rotations[:, part] = calm
+    return clip if rotations is clip.rotations else replace(clip, rotations=quaternion.continuous(rotations))
+
+
+def _calm(turns: FloatArray, most_rad: float, fps: float, may: FloatArray) -> FloatArray:
+    """Return rotations (F, 4) that differ by at most ``most_rad`` from frame to frame, where the shares (F,) of change
+    that are allowed are 1; the same object if they do."""
+    for number in range(1, ROUNDS + 1):
+        fast = angle(turns[:-1], turns[1:]) > most_rad
+        if not fast.any():
+            break
+        sigma = number * SMOOTH_S * fps
+        wide = max(1, round(2.0 * sigma))
+        result = turns.copy()
+        for start, stop in runs(maximum_filter1d(np.append(fast, False), 4 * wide + 1)):
+            here = slice(max(0, start - 3 * wide), stop + 3 * wide)
+            some = quaternion.continuous(turns[here, None])[:, 0]
+            share = np.zeros(len(some))
+            share[start - here.start : stop - here.start] = 1.0
+            share = gaussian_filter1d(share, 0.5 * wide, mode="nearest") * may[here]
+            smooth = gaussian_filter1d(some, sigma, axis=0, mode="nearest")
+            result[here] = quaternion.normalize(some + share[:, None] * (smooth - some))
+        turns = quaternion.continuous(result[:, None])[:, 0]
+    return turns
