@@ -91,7 +91,7 @@ class Cancelled(AppError):
 
 
 def raise_if_stopped(stop_requested: StopRequested) -> None:
-    """Raise `Cancelled` if the work is to stop."""
+    """Raise `Cancelled` if ``stop_requested`` returns True."""
     if stop_requested():
         raise Cancelled("work.stopped")
 

@@ -269,7 +269,7 @@ class Vocabulary(InstrumentRelations):
         return word
 
     def _parts(self, token: str) -> tuple[str, ...]:
-        """Return the parts of a word that joins a name and a size or prefix ("Altklar", "Soloflöte", "saxtenor")."""
+        """Split a word into a name and a size or prefix joined to it ("Altklar", "Soloflöte", "saxtenor")."""
         if (token,) not in self._by_tokens and (token,) not in self._marks and not is_wide(token):
             for cut in range(len(token) - 2, 2, -1):
                 before, name = token[:cut], token[cut:]

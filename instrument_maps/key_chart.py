@@ -69,7 +69,7 @@ class ChartedKey:
 
 @dataclass(frozen=True)
 class KeyChart:
-    """The holes and keys of an instrument in the order of labels."""
+    """Fingering chart of an instrument: its holes and keys, in the order in which labels name them."""
 
     keys: tuple[ChartedKey, ...]
 

@@ -20,7 +20,7 @@ from instrument_maps.score_order import in_score_order
 
 @dataclass(frozen=True)
 class Library(Shelf[InstrumentMap]):
-    """All instruments in the state of the last reading of the folders."""
+    """All available instruments, as the folders were last read."""
 
     @cached_property
     def maps(self) -> Mapping[str, InstrumentMap]:

@@ -78,7 +78,7 @@ class MetadataLibrary(NamedTuple):
 
     @property
     def problems(self) -> Mapping[Path, tuple[Message, ...]]:
-        """Problems of the user's files, by file."""
+        """Problems found in the user's files, by file."""
         return {path: said for shelf in self for path, said in shelf.problems.items()}
 
 

@@ -122,7 +122,9 @@ class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defa
 
 
 class Sway(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Sideways lean of the trunk with the music, and bending of knees and hips on an accent; sizes by amplitude."""
+    """Sizes of the trunk's sideways lean with the music, and of the bend of knees and hips on an accent, by
+    amplitude.
+    """
 
     side_deg: AmplitudeScale
     forward_deg: AmplitudeScale
@@ -161,7 +163,9 @@ class PhraseMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Overlap(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Delays of the chest behind the hips, and of head and elbows behind the chest."""
+    """Delays in seconds between parts of the body: of the chest behind the hips, and of head and elbows behind the
+    chest.
+    """
 
     chest_s: Delay
     head_s: Delay
@@ -214,8 +218,8 @@ class BellMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class CueMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Motion of the player who gives a cue: head and instrument rise on the preparatory beat and drop onto the entry,
-    the knees bend.
+    """Sizes of the motion of a player who gives a cue: head and instrument rise on the preparatory beat and drop onto
+    the entry, and the knees bend.
     """
 
     knee_deg: AmplitudeScale

@@ -1,4 +1,4 @@
-"""Reading and checking of all kinds of tables in `metadata`, with file and key in messages."""
+"""Reads and checks the tables in `metadata` of all kinds; messages name the file and the key."""
 
 from __future__ import annotations
 

@@ -112,7 +112,7 @@ def _correlate(
 
 
 def _peaks(values: FloatArray) -> list[int]:
-    """Return the indices of the few highest separate peaks."""
+    """Indices of the few highest maxima that are not next to a higher one."""
     rest = values.copy()
     apart = round(_APART_S / CHROMA_S)
     result = []

@@ -73,6 +73,7 @@ def chroma(sound: Sound, rate_hz: int, size: int, hop: int, tuned: float) -> Flo
     Returns
     -------
     float64, shape (12, frames)
+        Energy of each pitch class in each frame.
     """
     lines = np.arange(1, size // 2 + 1)
     octaves = np.log2(lines * rate_hz / size / _A4_HZ)
@@ -98,6 +99,7 @@ def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> FloatArra
     Returns
     -------
     float64, shape (frames,)
+        Increase in loudness in each frame.
     """
     edges = np.geomspace(_LOWEST_BAND_HZ, rate_hz / 2, _BANDS, endpoint=False) * size / rate_hz
     starts = np.unique(np.round(edges).astype(np.intp))

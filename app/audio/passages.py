@@ -32,7 +32,9 @@ _JUMPED: Final = 3
 
 @dataclass(frozen=True)
 class Passage:
-    """Corresponding seconds of the score and of the recording, from start to end."""
+    """A passage that a recording plays: start and end in seconds of the score, and the corresponding seconds of the
+    recording.
+    """
 
     start_s: float
     end_s: float

@@ -42,6 +42,7 @@ class Playback(QObject):
     Signals
     -------
     playing_changed(bool)
+        Whether the performance plays now.
     silent_changed(bool)
         Whether there is no device to play on.
     """

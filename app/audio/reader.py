@@ -133,7 +133,7 @@ class Reader:
         return at + stream - start
 
     def _input_all(self, count: int) -> Block:
-        """Return a number of samples of the mix, across the end of a loop if necessary."""
+        """Read a number of samples from the mix, continuing at the start of a loop where its end is reached."""
         parts = []
         while count:
             part = self._input(count)
@@ -142,7 +142,7 @@ class Reader:
         return np.concatenate(parts) if parts else np.zeros((0, 2), np.float32)
 
     def _input(self, count: int) -> Block:
-        """Return samples of the mix at the current position, at most up to the end of the loop."""
+        """Read samples of the mix at the current position, up to the end of the loop at most."""
         ends = self._loop is not None and self._at < self._loop[1] <= self._at + count
         if self._loop is not None and ends:
             count = self._loop[1] - self._at

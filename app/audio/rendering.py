@@ -26,7 +26,7 @@ def soundfont(of_drums: bool = False) -> bytes:
 
 
 def rendered(midi: bytes) -> Samples:
-    """Return a MIDI file as sound: int16, mono, without silence at the end.
+    """Render a MIDI file to sound: int16, mono, without silence at the end.
 
     A file of one track whose first event is at tick 0 on channel 10 is played by the drum kit.
 

@@ -146,8 +146,9 @@ def levelled_onsets(onsets: FloatArray) -> FloatArray:
 
 
 def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.0) -> FloatArray:
-    """Return the expected chroma (12, F) of the score played ``ratio`` times as fast, beginning ``later_frames`` frames
-    before second 0."""
+    """Compute the expected chroma (12, F) of a score that is played ``ratio`` times as fast as written and begins
+    ``later_frames`` frames before second 0.
+    """
     begin = expected.onset_s / ratio / CHROMA_S + later_frames
     end = expected.end_s / ratio / CHROMA_S + later_frames
     frames = int(np.ceil(end.max())) + 1
@@ -164,7 +165,7 @@ def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.
 
 
 def onset_edges(onsets: FloatArray, width_s: float) -> FloatArray:
-    """Return the increase of onset strength (F,) from before to after each frame.
+    """Compute the increase of onset strength (F,) from before to after each frame.
 
     The strength of an onset keeps rising for a while, longer for slow onsets; the note begins at the start of the rise
     and not at the maximum.

@@ -196,8 +196,8 @@ def _opening(program: int, bent: int) -> bytes:
 
 
 def _controls(part: Part, tempo_map: TempoMap, bent: int) -> tuple[tuple[IntArray, tuple[bytes, ...]], ...]:
-    """Return sample positions and MIDI messages of each audible controller of a part: loudness as expression, volume,
-    pitch bend.
+    """Convert a part's audible controllers (loudness as expression, volume, pitch bend) to sample positions and MIDI
+    messages.
 
     ``bent`` is the range of the bends in semitones.
     """

@@ -109,7 +109,9 @@ class Warped:
         return replace(self, score_s=self.score_s + score_s, missing=(*missing, *outside), length_s=end_s)
 
     def at(self, score_s: FloatArray) -> FloatArray:
-        """Return seconds of the recording for seconds of the score, extrapolated at the tempo near the ends."""
+        """Convert seconds of the score to seconds of the recording; outside the alignment the tempo near its ends is
+        assumed.
+        """
         x, y = self.score_s, self.recording_s
         near = min(_NEAR, len(x) - 1)
         first = (y[near] - y[0]) / (x[near] - x[0])
@@ -157,7 +159,7 @@ def dynamic_time_warping(
 
 
 def played_passages(score: FloatArray, recording: FloatArray) -> tuple[Passage, ...]:
-    """Return the passages of a score that a recording plays; arguments as in `dynamic_time_warping`."""
+    """Find the passages of a score that a recording plays; arguments as of `dynamic_time_warping`."""
     pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
     return passages(_pooled(score, pool), _pooled(recording, pool), pool * CHROMA_S)
 

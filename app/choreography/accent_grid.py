@@ -35,8 +35,9 @@ class AccentGrid:
 
     @cached_property
     def strengths(self) -> FloatArray:
-        """Strength (G,) of each of G accents: 1 on a beat of the piece, `WEAK` on an additional beat, 0 between
-        beats."""
+        """Strength (G,) of each grid time for accents: 1 on a beat of the piece, `WEAK` on a beat that dancers feel in
+        addition, 0 between beats.
+        """
         written = self.on_beat if self.written is None else self.written
         return np.where(written, 1.0, np.where(self.on_beat, WEAK, 0.0))
 

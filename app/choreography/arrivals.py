@@ -49,12 +49,12 @@ def joint_speed_m_s(clip: MotionClip) -> FloatArray:
 
 
 def smoothed(speed_m_s: FloatArray, fps: float) -> FloatArray:
-    """Return a speed (F,) smoothed for finding arrivals."""
+    """Smooth a speed (F,) over time, so that arrivals can be found in it."""
     return np.asarray(gaussian_filter1d(speed_m_s, SMOOTHING_S * fps, mode="nearest"))
 
 
 def arrival_frames(speed_m_s: FloatArray, fps: float) -> IntArray:
-    """Return the frames of arrivals for a speed (F,)."""
+    """Find the arrivals of a body: frames of the minima of a speed (F,)."""
     return speed_minima(speed_m_s, fps, SMOOTHING_S)[0]
 
 

@@ -24,7 +24,7 @@ STARTS: Final = 8
 def classify(
     features: FloatArray, states: int | None, seed: int, proceed: Callable[[], None] = lambda: None
 ) -> IntArray:
-    """Return the basic motion of each motion.
+    """Assign each motion to a basic motion.
 
     Parameters
     ----------

@@ -128,7 +128,7 @@ def _above(parents: Sequence[int], bone: int) -> set[int]:
 
 
 def report(found: Sequence[Checked]) -> Message:
-    """Return a message with the largest angle of each kind of exceeded joint limit."""
+    """Return a message about the exceeded limits of a T-pose, with the largest angle of each kind."""
     most = dict.fromkeys(MOST_DEG, 0.0)
     for one in found:
         if one.most_deg == MOST_DEG[one.kind]:

@@ -62,7 +62,7 @@ PHRASE_S: Final = 2.0
 
 
 def body_layer(motion: Motion, character: Character, feet: DancedFeet | None = None) -> BodyLayer:
-    """Return the layer of a dance.
+    """Derive from a dance the layer of body motion that a player performs while playing.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def _facing_rad(hips: FloatArray) -> FloatArray:
 
 
 def _path(hips_m: FloatArray, facing: FloatArray) -> dict[str, FloatArray]:
-    """Return the path of the hips by channel: every step relative to the dancer's facing at that time."""
+    """Path of the hips by channel, with every step taken relative to the dancer's facing at that time."""
     steps = np.diff(hips_m, axis=0)
     middle = 0.5 * (facing[1:] + facing[:-1])
     side = np.cos(middle) * steps[:, 0] - np.sin(middle) * steps[:, 2]
@@ -127,8 +127,7 @@ def _fastest(channel: str) -> float:
 
 
 def _about_its_mean(values: FloatArray, fps: float, fastest: float) -> FloatArray:
-    """Return values (F,) after a band-pass filter, which removes motion that is too fast for a player (``fastest`` per
-    second), and slow motion."""
+    """Band-pass filter values (F,): removes slow motion, and motion too fast for a player (``fastest`` per second)."""
     speeds = np.diff(values) * fps
     kept = np.concatenate(([0.0], np.cumsum(within(speeds, fastest, fastest)))) / fps
     smooth = gaussian_filter1d(kept, SMOOTH_S * fps, mode="nearest")
@@ -137,8 +136,9 @@ def _about_its_mean(values: FloatArray, fps: float, fastest: float) -> FloatArra
 
 
 def _held(values: FloatArray, most: float, fps: float) -> FloatArray:
-    """Return values (F,) scaled down phrase by phrase until they are usually within ``most``, with extremes limited
-    softly; never scaled up."""
+    """Scale values (F,) down phrase by phrase, never up, until they are usually within ``most``; extremes are limited
+    softly.
+    """
     sizes = np.sqrt(gaussian_filter1d(np.square(values), PHRASE_S * fps, mode="nearest"))
     if not sizes.all():
         return values

@@ -198,7 +198,7 @@ class _Motion:
         return CapturedBody(body, mapping.profile, mapping.doubtful, turns, hanging, up, guesses, found, bones)
 
     def by_lengths(self) -> JointMapping:
-        """Return joints by the lengths of bones, with sides by known names or by the motion."""
+        """Find joints by the lengths of bones; left and right follow from known names, or else from the motion."""
         ends = {joint: float(np.linalg.norm(end)) for joint, end in self._bvh.end_sites_cm.items()}
         turning = set(np.flatnonzero(np.ptp(self._bvh.rotations_xyzw, axis=0).max(axis=1) > TURNS).tolist())
         bones = joints_by_lengths(self._bvh.parents, self.places, ends, turning)

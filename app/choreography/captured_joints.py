@@ -71,7 +71,7 @@ class Captured:
         return places
 
     def start(self, segment: str) -> FloatArray:
-        """Return positions (F, 3) of a segment's joint."""
+        """World position (F, 3) of the joint at which a segment begins."""
         places: FloatArray = self.positions[:, self.segments[segment]]
         return places
 

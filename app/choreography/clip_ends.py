@@ -113,8 +113,8 @@ def _lead(clip: MotionClip) -> int:
 
 
 def _settled(clip: MotionClip, frame: int) -> int:
-    """Return the frame from which the motion is regular again if a pose is left by a jump after a frame; otherwise that
-    frame.
+    """If the clip leaves a pose at ``frame`` by a jump, return the frame from which the motion is regular again;
+    otherwise ``frame``.
     """
     fps = float(clip.fps)
     steps, later = round(LEAD_S * fps), round((LEAD_S + AFTER_S) * fps)

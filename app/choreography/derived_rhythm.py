@@ -130,7 +130,9 @@ class _Moments:
         self.silence_s = self.times_s - np.concatenate([[-np.inf], self._sounded_s])[self._first]
 
     def melody(self, beat_s: FloatArray) -> IntArray:
-        """Return the symbol (M,) of the melody note that begins at each of M moments; -1 if none."""
+        """Symbol (M,) of the drum sound that replaces the melody note beginning at each of M moments; -1 if none
+        begins.
+        """
         found = np.full(len(self.times_s), -1, np.int64)
         last_pitch: int | None = None
         for moment, (time_s, highest) in enumerate(zip(self.times_s, self._begun(np.maximum), strict=True)):

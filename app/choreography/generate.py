@@ -181,7 +181,7 @@ class Choreographer:
 
     @cached_property
     def hearing(self) -> Hearing:
-        """Return the sounds of the model's segments."""
+        """Return the log odds with which sounds belong to the model's segments."""
         return hearing(self.model, trust_in(self.model))
 
     def dance(

@@ -33,9 +33,11 @@ def count(
     Returns
     -------
     transition : (n_states, n_states) float64
+        Probability of each state after each state.
     emission : (n_states, 47) float64
+        Probability of each symbol in each state.
     initial : (n_states,) float64
-        See `app.choreography.model.ChoreographyModel`.
+        Probability of each state at the beginning of a clip.
 
     Raises
     ------

@@ -77,7 +77,7 @@ def pairing_of(model: ChoreographyModel, seed: int = 0) -> Pairing | None:
 
 
 def trust_in(model: ChoreographyModel) -> float:
-    """Return the weight of single motions' sounds in a dance, 0..1.
+    """Return the weight, 0..1, that the sounds of single motions get when a dance is generated.
 
     0 if the test finds no information; 1 from `TRUSTED_BITS` on, or if the model is too small for the test.
     """

@@ -114,7 +114,7 @@ def read_motion(
     joints: Mapping[str, str] | None = None,
     figure: str = "",
 ) -> ReadMotion:
-    """Return the motion of a humanoid in a file.
+    """Read the motion of a humanoid from a motion capture file.
 
     Parameters
     ----------

@@ -45,7 +45,7 @@ def read_pair(
     joints: Mapping[str, str] | None = None,
     figure: str = "",
 ) -> ReadPair:
-    """Return a pair read from files.
+    """Read a motion, its music and its credits from files, as a pair to learn from.
 
     Parameters
     ----------

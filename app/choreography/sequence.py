@@ -271,7 +271,7 @@ class _Turns:
 
 
 class _Search:
-    """The search over a grid, with everything independent of the phrase computed once."""
+    """Search for the best sequence of segments over a grid; everything independent of the phrase is computed once."""
 
     def __init__(
         self,

@@ -56,7 +56,9 @@ def _any_of(joints: Collection[str], names: Sequence[str]) -> bool:
 
 
 def _knees_ahead(body: Captured) -> float:
-    """Return the certainty that the knees bend in the correct direction: 1, or -1 for the opposite."""
+    """Return the certainty that the knees bend in the correct direction, 1, or in the opposite one, -1; 0
+    if unknown.
+    """
     hips, found = unit(body.hip_line), []
     for side, sign in SIDES:
         bend = body.bend([side + name for name in LEG], sign)

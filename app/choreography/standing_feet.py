@@ -190,7 +190,9 @@ def _feet_at(tips: FloatArray, world: JointTransforms, shown: FloatArray) -> tup
 
 
 def _spans(contact: BoolArray, fps: float) -> list[tuple[int, int]]:
-    """Return the spans of contact without short interruptions and without short spans."""
+    """Convert a mask of contact frames to spans (start, stop); short interruptions are ignored, and short spans
+    dropped.
+    """
     edges = np.flatnonzero(np.diff(np.concatenate([[0], contact.astype(np.int8), [0]])))
     spans: list[tuple[int, int]] = []
     for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
@@ -254,8 +256,9 @@ def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> Flo
 
 
 def _edge(correction: FloatArray, frame: int, inwards: int) -> tuple[FloatArray, FloatArray]:
-    """Return value and slope per frame (3,) of a correction (F, 3) at the edge of a stand; ``inwards`` is the direction
-    away from the stand."""
+    """Value and slope per frame (3,) of a correction (F, 3) at the edge of a foot plant; ``inwards`` is the direction
+    away from the plant.
+    """
     inside = frame + (1 if inwards > 0 else -1)
     inside = min(max(inside, 0), len(correction) - 1)
     slope = (correction[inside] - correction[frame]) * (1 if inwards > 0 else -1)

@@ -199,7 +199,7 @@ class Stitcher:
 
 
 class _SmoothClip:
-    """A clip as smooth functions of the frame."""
+    """A clip interpolated smoothly between its frames."""
 
     def __init__(self, clip: MotionClip) -> None:
         self._last = len(clip) - 1.0
@@ -224,7 +224,7 @@ class _Output:
         self._fades_until, self._carried = 0, 0
 
     def fading(self, frame: int) -> int:
-        """Return the number of segments whose blend continues at a frame."""
+        """Number of body segments that are still being blended at a frame."""
         return self._carried if frame < self._fades_until else 0
 
     def append(self, start: int, hips: FloatArray, rotations: FloatArray, carried: int) -> None:

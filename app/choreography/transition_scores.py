@@ -80,7 +80,7 @@ class MoveTable:
 
     @cached_property
     def rows(self) -> IntArray:
-        """Index of the first element of each row in the flattened table."""
+        """Index (S,) of the first element of each row in the flattened table."""
         return np.asarray(np.arange(len(self.starts)) * self.starts.shape[1])
 
     def best(self, before: SingleArray, heard: SingleArray | None) -> tuple[IntArray, SingleArray]:

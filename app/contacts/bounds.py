@@ -51,7 +51,7 @@ class Spread(msgspec.Struct, frozen=True):
 
     @classmethod
     def of(cls, distances_m: FloatArray, bound_mm: float) -> Spread:
-        """Measure distances (F,) in metres over F frames against a bound."""
+        """Measure the distribution of distances (F,) in metres over F frames, and compare it with a bound."""
         if not len(distances_m):
             return cls(0.0, 0.0, bound_mm, 0)
         distances_mm = distances_m * 1000.0

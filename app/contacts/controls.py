@@ -93,7 +93,9 @@ class NoteFrames:
 
     @cached_property
     def _frames_of_notes(self) -> tuple[IndexArray, IndexArray]:
-        """Frames of all notes, concatenated (K,), and the note index (K,) of each; notes may overlap."""
+        """Indices of the frames of all notes, joined (K,), and for each the index of its note (K,); notes
+        may overlap.
+        """
         starts, stops = self._bounds(self._starts_s, self._ends_s)
         return _indices(starts, stops), np.repeat(np.arange(len(starts)), np.maximum(stops - starts, 0))
 

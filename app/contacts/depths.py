@@ -187,6 +187,7 @@ class _Search:
     poses : VertexPoses
         Poses in the frame of the base node.
     world_from_joint : (F, 3, J, 4) float32
+        Transforms of the hand's joints.
     morphs : dict of str to (F,) float32
         Morph weights.
     world_from_node : list of (F, 4, 4) float64
@@ -214,7 +215,7 @@ class _Search:
 
     @property
     def open(self) -> bool:
-        """True while candidates are left."""
+        """True while the search still has candidates."""
         return len(self._grouped) + len(self._single) > 0
 
     def begin(self, size: int, depths_m: SingleArray) -> None:

@@ -136,8 +136,9 @@ class VertexPoses:
         return result
 
     def moves(self, size: int, blocks: IndexArray) -> Moves:
-        """Return the movement of joints relative to the middle frames of the blocks with the indices ``blocks`` (B,),
-        each of ``size`` frames."""
+        """Bound the movement of the joints within blocks of ``size`` frames, relative to the middle frame of each;
+        ``blocks`` (B,) are indices of blocks.
+        """
         joints = self._node_from_joint.shape[3]
         placed = self._node_from_joint.reshape(3, 4, -1, size, joints)[:, :, blocks]
         moved = placed - placed[:, :, :, size // 2, None]
@@ -300,7 +301,8 @@ class PartMoves:
 
 @dataclass(frozen=True, eq=False)
 class NodePoints:
-    """Points in the frames of nodes in the middle of blocks, with bounds on their change of distance within a block.
+    """N points of a hand in the frames of instrument nodes at the middle frame of a block, with bounds on how much
+    their distance from the node's bodies changes within the block.
 
     Attributes
     ----------

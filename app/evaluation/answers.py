@@ -117,7 +117,7 @@ class ViewerFile(msgspec.Struct, frozen=True):
 
 
 def read_answers(path: Path) -> ViewerFile:
-    """Read the file of a viewer.
+    """Read the answers in the file of one viewer.
 
     Raises
     ------

@@ -31,7 +31,7 @@ CRF: Final = 22
 
 
 class PerformanceRenderer(Protocol):
-    """Renderer of a performance's pictures; the interface makes evaluations independent of the viewport."""
+    """Protocol of a renderer for pictures of a performance, so that evaluations do not depend on the viewport."""
 
     @property
     def left_out(self) -> Sequence[LeftOut]:
@@ -114,7 +114,7 @@ def cut_video(video: ImportedVideo, size: tuple[int, int], files: Mapping[Path, 
 
 
 def _drawn(files: Mapping[Path, ClipScene], report: Progress) -> Callable[[], None]:
-    """Return a function to call after each picture, which reports the completed share."""
+    """Return a function to be called after each picture, which then reports the completed share."""
     whole, done = sum(scene.span.count for scene in files.values()), count(1)
     return lambda: report(next(done) / whole)
 

@@ -28,12 +28,12 @@ class Conclusions(msgspec.Struct, frozen=True):
 
 
 def conclude(results: EvaluationResults) -> Conclusions:
-    """Return the conclusions from the tables, and the warnings."""
+    """Draw the conclusions from the results of an evaluation, and add warnings."""
     return Conclusions(tuple(_may(results)), tuple(_may_not(results)))
 
 
 def p_text(p: float) -> str:
-    """Return a probability as text for a report."""
+    """Format a p value as text for a report."""
     return "p < 0.001" if p < 0.001 else f"p = {p:.3f}"
 
 
@@ -144,7 +144,7 @@ def _viewers(results: EvaluationResults) -> Iterator[Message]:
 
 
 def _open(results: EvaluationResults) -> Iterator[Message]:
-    """Yield a reminder that unproven differences are not proven to be zero."""
+    """Yield a reminder that differences which are not significant may still exist."""
     tested = [contrast for contrast in results.contrasts if contrast.comparison.viewers > 1]
     unshown = [contrast for contrast in tested if not contrast.significant]
     if unshown:

@@ -93,7 +93,8 @@ def pairs_of(clips: Sequence[tuple[str, Variant, int]]) -> tuple[tuple[str, str]
 
 
 def orders(singles: Sequence[str], pairs: Sequence[tuple[str, str]]) -> tuple[Order, ...]:
-    """Return the order for each viewer by number: first single clips, then pairs. After the last order they repeat.
+    """Compute the order of clips for each viewer by number: first single clips, then pairs. After the last order they
+    repeat.
 
     Singles and pairs are balanced over all orders, and both clips of a pair are equally often at the left.
     """

@@ -41,7 +41,7 @@ def loudness_lufs(sound: Block) -> float:
 
 
 def equally_loud(sounds: Sequence[Block]) -> list[Block]:
-    """Return the sounds at equal loudness: `TARGET_LUFS`, or less to avoid clipping; silence is unchanged."""
+    """Scale sounds to equal loudness: `TARGET_LUFS`, or less to avoid clipping; silence is unchanged."""
     levels = [loudness_lufs(sound) for sound in sounds]
     audible = [index for index, level in enumerate(levels) if level > _SILENT_LUFS]
     target = TARGET_LUFS

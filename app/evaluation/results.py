@@ -329,7 +329,7 @@ def _control(presentation: Presentation, differences: Sequence[float]) -> Manipu
 
 
 def _orders(ratings: Sequence[_Rating]) -> Iterator[OrderEffect]:
-    """Yield for each viewer the mean of the second half of the session minus that of the first."""
+    """Yield for each viewer the mean of the answers in the second half of the session minus that in the first half."""
     cells: dict[object, list[int]] = defaultdict(list)
     for rating in ratings:
         cells[_question(rating.answer), rating.clip.variant].append(rating.value)

@@ -132,7 +132,7 @@ def _wilcoxon_p(ranked: FloatArray, alternative: Literal["two-sided", "less"]) -
 
 
 def smallest_p(differing: int) -> float:
-    """Return the smallest two-sided p possible with a number of viewers, if all agree."""
+    """Return the smallest two-sided p that this number of viewers can reach, if all their differences have one sign."""
     return min(1.0, 2.0 ** (1 - differing))
 
 
@@ -147,7 +147,7 @@ def holm(ps: Sequence[float]) -> list[float]:
 
 
 def ordinal_alpha(ratings: Mapping[object, Sequence[int]]) -> float | None:
-    """Return Krippendorff's alpha for ordinal data (Krippendorff 2011, "Computing Krippendorff's alpha-reliability").
+    """Compute Krippendorff's alpha for ordinal data (Krippendorff 2011, "Computing Krippendorff's alpha-reliability").
 
     Parameters
     ----------

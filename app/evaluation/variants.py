@@ -27,11 +27,11 @@ class LateFingers(Performance):
 
     @cached_property
     def plans(self) -> dict[str, PlayerPlan]:
-        """Return every player's plan by player id."""
+        """Return every player's plan with late fingers, by player id."""
         return {player_id: _late(plan) for player_id, plan in super().plans.items()}
 
     def plan(self, player: Player) -> PlayerPlan:
-        """The plan of a player in this variant."""
+        """Return a player's plan with late fingers."""
         return self.plans[player.id]
 
 

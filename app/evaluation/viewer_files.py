@@ -16,7 +16,7 @@ from app.evaluation.results import EvaluationResults, tabulate
 
 @dataclass(frozen=True)
 class Gathered:
-    """Tabulated answers of viewers with the measures, and the key of the clips."""
+    """Results of the viewers' answers, with the measures and the key of the evaluation."""
 
     results: EvaluationResults
     measures: tuple[VariantMeasures, ...]

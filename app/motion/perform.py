@@ -140,7 +140,7 @@ class PerformanceCurves:
         return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]), every)
 
     def frames(self, times_s: FloatArray) -> PlayedFrames:
-        """Sample the player's frames at ascending times."""
+        """Sample everything that moves the player at ascending times, before contacts are solved."""
         levels = replace(self.layers.sample(times_s), further=self._further.sample(times_s))
         return PlayedFrames(
             times_s=times_s,

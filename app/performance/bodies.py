@@ -79,7 +79,9 @@ def _loaded(instrument: InstrumentMap) -> InstrumentModel:
 
 
 def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
-    """Return the instrument fitted to a player's body (size and contacts); cached for each pair."""
+    """Return the instrument adapted to a player's body in size and contacts; cached for each pair of body and
+    instrument.
+    """
     # Ours and people are complete and play instruments as they are: plans are made before any character is loaded.
     if player.character_id in our_characters() or character_of(player).hands_of is not None:
         shares = carriage_of(player.character_id, instrument.id)

@@ -44,7 +44,7 @@ def body_problems(
     waiting: bool,
     runs: StepRuns,
 ) -> BodyProblems:
-    """Problems of a player's body.
+    """Find the problems of a player's body with its instrument.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def body_problems(
 
 
 def _posed(player: Player) -> Player:
-    """The player with only the data that affects reach: character, instrument and posture."""
+    """Return the player with only the data that affect reach (character, instrument and posture), as key of a cache."""
     posture = PlayerParameters(posture=player.parameters.posture)
     return Player(player.id, "", "", player.instrument_id, player.character_id, posture, StagePosition(0.0, 0.0, 0.0))
 

@@ -35,6 +35,7 @@ class Pose:
     morphs, controls : dict of str to float
         Weights of morphs by name, missing ones 0, and values 0..1 of the instrument's controls.
     instrument_position_m, instrument_rotation : (3,) and (4,) float32
+        Position in metres and rotation of the instrument.
     """
 
     rotations: SingleArray

@@ -48,7 +48,7 @@ class Dancing(Protocol):
 
 
 class MakerOfDances(Protocol):
-    """Functions of the module that implements dances, which the core may not import."""
+    """Protocol of the module that implements dances, which is optional, so the core does not import it."""
 
     def dancing_of(self, performance: Performance, dancer: Dancer) -> Dancing:
         """Return the dance of a dancer. Raises AppError if its character or choreography is missing."""

@@ -65,7 +65,9 @@ BELL_RISES = 0.5
 
 @dataclass(frozen=True)
 class BreathFrames:
-    """Body and face for `FRAMES` equal frames; fields as in `app.motion.played_frames.PlayedFrames`."""
+    """Body and face of a live player at one moment, repeated for `FRAMES` frames; fields as in
+    `app.motion.played_frames.PlayedFrames`.
+    """
 
     levels: LayerSamples
     face: Drivers
@@ -121,7 +123,7 @@ class LiveBreath:
 
     @property
     def loudness(self) -> float:
-        """Loudness 0..1 by the breath, or by the note's velocity if no breath is sent."""
+        """Current loudness, 0..1, by the breath, or by the note's velocity if no breath is sent."""
         return self._struck if self._breath is None else self._breath
 
     def play(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:
@@ -158,7 +160,7 @@ class LiveBreath:
         return self._sounding or (self._breath is not None and self._breath > SILENT)
 
     def _turn(self, now_s: float) -> None:
-        """Switch the blowing on or off, as breath and notes played live require."""
+        """Start or stop blowing, as the current breath and note require."""
         if self._blown and self._paused_s < math.inf:
             self._begin(now_s)
         elif not self._blown and self._paused_s == math.inf:
@@ -299,7 +301,7 @@ class LiveLook:
         self._moves_s = self._blinks_s = self._opens_s = math.inf
 
     def at(self, now_s: float) -> GazeFrames:
-        """Eyes and lids at a time, as `FRAMES` equal frames."""
+        """Gaze and lids at a time, repeated for `FRAMES` frames."""
         random = self._random
         if math.isinf(self._moves_s):
             self._moves_s, self._blinks_s = now_s + random.uniform(0.4, 1.5), now_s + random.uniform(0.5, 2.5)

@@ -54,7 +54,7 @@ class LiveTongue:
         self._before: deque[float] = deque(maxlen=ACCENT_NOTES)
 
     def strike(self, now_s: float, loudness: float) -> None:
-        """Attack a note with a loudness from 0 to 1."""
+        """Start the tongue stroke of a note that is attacked with a loudness 0..1."""
         self._quick = self._quick + 1 if now_s - self._struck_s < self._limit_s else 0
         self._was_back = self._quick >= LEAST_FAST_STEPS and not self._was_back
         self._struck_s = now_s

@@ -95,7 +95,7 @@ def _judged(
 def _looked(
     performance: Performance, players: Sequence[int], notes: Sequence[int], most: float
 ) -> tuple[_Looked | None, int]:
-    """Frames to check (None: none), and the number of musicians to check, counted from the first.
+    """Choose the frames to check (None: none), and the number of musicians to check, counted from the first.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ class FrameSpan(msgspec.Struct, frozen=True):
 
     @property
     def end_s(self) -> float:
-        """Time after the last frame, in seconds."""
+        """Time in seconds at which the last frame of the span ends."""
         return self.first_frame_s + self.count * self.fps.denominator / self.fps.numerator
 
     def shows_onset(self, onset_s: float) -> bool:
@@ -44,7 +44,7 @@ def whole_span(frame: TimeFrame, fps: Fraction) -> FrameSpan:
 
 
 def bars_span(performance: Performance, fps: Fraction, bars: BarRange, lead_in_beats: float = 0.0) -> FrameSpan:
-    """The frames of some bars.
+    """Return the frames of some bars.
 
     Planning always covers the whole piece, so a cut has equal motion. A bar begins at the nearest frame of the whole
     performance, so consecutive cuts join without missing or repeated frames.

@@ -104,7 +104,7 @@ def still_pose(player: PlayerBody, lowered: float = 0.0) -> Motion:
 
 
 def worn(instrument: InstrumentMap, posture: PostureName) -> tuple[Support, ...]:
-    """Return the straps on which an instrument hangs in a posture."""
+    """Return the straps on which an instrument hangs when it is played in a posture."""
     return tuple(one for one in instrument.hold.supports if posture in one.postures)
 
 

@@ -15,6 +15,7 @@ class EventId(NamedTuple):
     Attributes
     ----------
     kind : str
+        Kind of the event, such as ``"breath"``.
     of : str
         A note id, ``"@"`` and a tick, or a name; or a rule followed by one of these.
     number : int

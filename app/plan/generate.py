@@ -81,8 +81,8 @@ def frame_around(
 
 
 def usual_preroll(beat_s: float) -> float:
-    """Number of felt beats before the first note of a new piece: a bar of four, or as many as are needed to raise the
-    instrument.
+    """Number of felt beats before the first note of a new piece: four, or as many as the players need to raise their
+    instruments.
     """
     return max(PREROLL_BEATS, float(min(math.ceil(COME_UP_S / beat_s - 1e-6), MOST_PREROLL_BEATS)))
 

@@ -223,7 +223,7 @@ class GestureEvent(msgspec.Struct, frozen=True, gc=False):
 
 
 class ExpressionEvent(msgspec.Struct, frozen=True, gc=False):
-    """A facial expression from `metadata` with strength 0..1 and fades."""
+    """An event in which the face shows an expression of `metadata`, with strength 0..1 and fades."""
 
     id: str
     expression: str
@@ -301,7 +301,7 @@ class Planned(NamedTuple, Generic[E]):
 
 
 class TimeFrame(msgspec.Struct, frozen=True):
-    """Time span of a performance, shared by all players. Frame 0 is at ``first_frame_s``."""
+    """Time span of a performance in seconds, shared by all players. Frame 0 is at ``first_frame_s``."""
 
     first_frame_s: float
     end_s: float

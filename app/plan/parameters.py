@@ -106,7 +106,7 @@ class Parameter:
 
     @property
     def possible(self) -> str:
-        """Possible values as a text for a message: numbers and words only."""
+        """Possible values of the parameter as text for an error message: numbers and words."""
         if self.bounds is not None:
             return f"{self.bounds[0]} ... {self.bounds[1]}"
         options = [NONE, *self.names] if self.names else []
@@ -137,7 +137,7 @@ class Parameter:
         return self.kind(min(max(value, low), high))
 
     def read(self, text: str) -> Value:
-        """Parse a value. Raises ValueError if the text is invalid."""
+        """Parse a value of the parameter. Raises ValueError if the text is invalid."""
         if self.names:
             text = "" if text.casefold() in (AUTOMATIC, NONE) else as_text(names_in(text))
         try:
@@ -195,7 +195,7 @@ def _times(section: str, spread: float, *also: Decided, since: int = 10) -> Para
 
 
 def _beats(usual: float) -> Parameter:
-    """Declare a number of beats that affects breaths."""
+    """Declare a parameter that is a number of beats and affects breaths; ``usual`` is the upper end of its slider."""
     return Parameter("unit.beats", bounds=(0.0, 64.0), usual=usual, step=0.25, section="breath", decides=_BREATHS)
 
 

@@ -20,8 +20,9 @@ class SampledCurves:
     start_s, step_s : float
         Sample k is at ``start_s + k * step_s``; ``start_s`` is a multiple of the step.
     tension : (K,) float64
+        Lip tension at each sample.
     air, effort : (K,) float64 or None
-        None if no breath was recorded.
+        Air and effort at each sample; None if no breath was recorded.
     recorded : bool
         Whether they were recorded by a player, including vibrato; otherwise they follow the dynamics of the score.
     """

@@ -62,7 +62,9 @@ def find_beats(onsets_s: FloatArray, ends_s: FloatArray, start_bpm: float = 100.
 
 
 def _tracked(envelope: FloatArray, period: float) -> IndexArray:
-    """Frames of the beats: the path that maximises the envelope while the distances stay near ``period``, in frames."""
+    """Choose the frames of the beats: the path through the envelope with the greatest sum whose distances stay near
+    ``period`` frames.
+    """
     reach = round(period)
     kernel = np.exp(-0.5 * (np.arange(-(reach // 4), reach // 4 + 1) * _SMOOTHED / period) ** 2)
     strength = np.convolve(envelope / envelope.std(), kernel, "same")

@@ -228,5 +228,7 @@ def range_controls(semitones: int) -> tuple[tuple[int, int], ...]:
 
 
 def wheel(value: float, semitones: int) -> int:
-    """Convert a bend in units of the usual range to a pitch wheel value, -8192..8191, for a range in semitones."""
+    """Convert a bend in units of the usual range to a MIDI pitch wheel value, -8192..8191, for a bend range of
+    ``semitones``.
+    """
     return min(max(round(8192 * value * USUAL_SEMITONES / semitones), -8192), 8191)

@@ -176,7 +176,7 @@ def _in_unison(events: TrackEvents, channels: Collection[int], *, least: bool) -
 
 
 def _spans(events: TrackEvents, channels: Collection[int]) -> list[_Span]:
-    """Onset and end of all notes of the channels, by onset."""
+    """List the onset, end and channel of all notes of the channels, ordered by onset."""
     return sorted(
         (onset, end, channel)
         for channel in channels

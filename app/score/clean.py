@@ -74,6 +74,7 @@ class Cleaned:
     onsets_s, ends_s : float64
         Corrected times of kept notes; times as played of excluded ones.
     pitches, velocities : int64
+        Pitch and velocity of each note.
     """
 
     onsets_s: FloatArray

@@ -66,8 +66,9 @@ class MapChoice(msgspec.Struct, frozen=True):
         return (self.concert_low, self.concert_high) if self.usual is None else self.usual
 
     def outside(self, pitches: Sequence[int], written: bool = False, usual: bool = False) -> int:
-        """Return the number of pitches outside the instrument's range; ``written`` if they are written pitches,
-        ``usual`` for the narrower usual range."""
+        """Count the pitches outside the instrument's range; ``written`` if they are written pitches, ``usual`` to
+        compare with the narrower usual range.
+        """
         shift = self.transposition_semitones if written else 0
         low, high = self.usual_range if usual else (self.concert_low, self.concert_high)
         low, high = low + shift, high + shift

@@ -89,7 +89,9 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _table(self) -> tuple[IntArray, IntArray, IntArray, IntArray]:
-        """Table of the metres: tick, first bar, and numerator and denominator of the ticks of a bar."""
+        """Arrays that describe the metres: start tick, first bar, and the length of a bar in ticks as numerator and
+        denominator.
+        """
         wholes = [4 * self.ticks_per_quarter * metre.numerator for metre in self.metres]
         denominators = [metre.denominator for metre in self.metres]
         return tuple(np.array(row, np.int64) for row in (self._ticks, self._first_bars, wholes, denominators))  # type: ignore[return-value]
@@ -174,7 +176,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return 4 * self.ticks_per_quarter / self.metre_at(tick).denominator
 
     def place_of_tick(self, tick: int) -> tuple[int, int, int]:
-        """Bar, beat of the bar counted from 1, and ticks after the beat."""
+        """Convert a tick to bar, beat in the bar (from 1), and ticks after the beat."""
         bar, start, early = self._bar_at(tick)
         since = tick - start - early
         if since < 0:
@@ -242,7 +244,9 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return beats[max(bisect_right(beats, ticks, key=lambda beat: beat[0]) - 1, 0)][1]
 
     def felt_between(self, first_tick: int, last_tick: int) -> IntArray:
-        """Ticks of the felt beats, counted again in every bar, from before ``first_tick`` to after ``last_tick``."""
+        """Ticks of the felt beats, which restart at each bar line, from the last before ``first_tick`` to the first
+        after ``last_tick``.
+        """
         return self._kept("felt", (first_tick, last_tick), self._felt)
 
     def _felt(self, first_tick: int, last_tick: int) -> IntArray:

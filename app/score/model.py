@@ -289,7 +289,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
 
 def transposed(notes: tuple[Note, ...], semitones: int) -> tuple[Note, ...]:
-    """The notes transposed by semitones; pitches are clipped to 0..127."""
+    """Transpose notes by semitones; pitches are clipped to 0..127."""
     if not semitones:
         return notes
     return tuple(msgspec.structs.replace(note, pitch=min(max(note.pitch + semitones, 0), 127)) for note in notes)

@@ -70,7 +70,7 @@ _NAME: Final = re.compile("|".join(sorted(_NAMES, key=len, reverse=True)), re.IG
 
 
 def takes_mutes(instrument: Instrument | None) -> bool:
-    """Return whether an instrument is brass, the section that uses mutes and hand stopping."""
+    """Return whether an instrument is a brass instrument, for which mutes and hand stopping are read."""
     return instrument is not None and instrument.family in _muted_families()
 
 

@@ -94,7 +94,7 @@ def _refused(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapCh
 
 
 def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapChoice]) -> list[Message]:
-    """A warning for each map that is only a substitute for the instrument."""
+    """Return a warning for each map of a part that only substitutes for the part's instrument."""
     return [
         Message("score.substituted", {"part": parts[0].name, "instrument": instrument.names[0], "map": map_id})
         for map_id in dict.fromkeys(part.map_id for part in parts)

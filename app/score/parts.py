@@ -32,7 +32,8 @@ from instrument_maps.instrument_names import vocabulary
 def parts_of(
     channels: Sequence[TrackChannel], maps: Sequence[MapChoice], piece: Score
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
-    """Sort tracks into parts with players and parts without, and report guesses, with the suggested assignments.
+    """Sort tracks into parts with players and parts without, using the suggested assignments; also return messages
+    about guesses.
 
     Parameters
     ----------
@@ -51,7 +52,7 @@ def assigned_parts(
     piece: Score,
     stop_requested: StopRequested = lambda: False,
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
-    """Sort tracks into the assigned parts and those without a player, and report guesses.
+    """Sort tracks into the assigned parts and parts without a player; also return messages about guesses.
 
     Parameters
     ----------

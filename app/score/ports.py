@@ -58,7 +58,7 @@ def _without(messages: Sequence[Any], left_out: set[int], port: int | None) -> l
 
 
 def _with_deltas(rows: Sequence[tuple[int, Any]], end: int) -> list[Any]:
-    """Messages at ticks with delta times, and the end of the track."""
+    """Convert messages at ticks to messages with delta times, and add the end of the track."""
     found, at = [], 0
     for tick, message in rows:
         if message.type != "end_of_track":

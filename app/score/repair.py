@@ -216,7 +216,7 @@ class _TrackCopy:
         return end
 
     def closed(self, truncated_at: int | None) -> Repaired:
-        """Return the copied track with an end-of-track, without content after the original end if that is not music."""
+        """Finish the copy with an end-of-track; content after the original end is dropped unless it is music."""
         properly = self._data.endswith(bytes([0xFF, _END_OF_TRACK, 0]))
         broken = truncated_at is not None
         if self._ended is not None and (broken or (self._skipped > self._ended[2] and not properly)):
@@ -270,7 +270,9 @@ def _variable_length(data: bytes, at: int) -> tuple[int, int]:
 
 
 def encoded_length(value: int) -> bytes:
-    """Encode a variable-length quantity; values above 28 bits take more than four bytes, which mido reads."""
+    """Encode a number as a variable-length quantity; numbers above 28 bits take more than four bytes, which mido can
+    read.
+    """
     encoded = [value & 0x7F]
     while value := value >> 7:
         encoded.append(value & 0x7F | 0x80)

@@ -97,7 +97,9 @@ def joined(channels: Sequence[TrackChannel]) -> TrackChannel:
 
 
 def _curves(channels: Sequence[TrackChannel]) -> tuple[ControllerCurve, ...]:
-    """Join the curves of consecutive regions; each region's curve applies from the end of the previous region."""
+    """Join the controller curves of consecutive regions; the curve of each region applies from the end of the previous
+    one.
+    """
     starts = [0, *(max(before.end_ticks) for before in channels[:-1]), LAST_TICK + 1]
     kinds = sorted({curve.kind for channel in channels for curve in channel.curves})
     return tuple(_curve(kind, channels, starts) for kind in kinds)

@@ -185,7 +185,7 @@ _Parameter: TypeAlias = Literal["mode", "receive", "bend"]
 
 
 class _PartValue(NamedTuple):
-    """A parameter of a part (0..15) of a sound module with the value that a message sets."""
+    """Value that a message sets for a parameter of one part (0..15) of a sound module."""
 
     other_port: bool
     part: int
@@ -258,7 +258,7 @@ class _Row(NamedTuple):
 
 
 def _modes(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, list[list[SoundChange]]]:
-    """Resets and part modes by port and channel."""
+    """Collect the resets and part modes that messages set, by port and channel."""
     return _by_port(tracks, ports, ("receive", "mode"), _port_modes)
 
 

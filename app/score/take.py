@@ -109,7 +109,7 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True, r
 
     @property
     def number(self) -> int:
-        """The number in the take's id."""
+        """Number of the take, from its id."""
         return int(self.id.rpartition(":")[2])
 
     @cached_property
@@ -156,6 +156,7 @@ class Played:
     onsets_s, ends_s : float64
         Start and end of each note in performance time; a note still held at the end of the take ends there.
     pitches, velocities : int64
+        Pitch and velocity of each note.
     curves : mapping of CurveKind to Controlled
         ``breath`` and ``bite`` by the take's mapping, the others as received.
     """
@@ -209,7 +210,7 @@ def _played(times_us: tuple[int, ...], messages: tuple[str, ...], mapping: Contr
 
 
 def is_wired(message: mido.Message, mapping: ControllerMapping) -> bool:
-    """Return whether a message comes on the wired channel."""
+    """Return whether a message comes on the MIDI channel that the mapping selects."""
     return not mapping.channel or bool(message.channel + 1 == mapping.channel)
 
 
@@ -235,7 +236,7 @@ def is_message(raw: str) -> bool:
 def curve_values(
     message: mido.Message, mapping: ControllerMapping, ranges: BendRanges | None = None
 ) -> Iterator[tuple[CurveKind, float]]:
-    """Return the breath, bite and bend values that a message sets, as values of a part's curves.
+    """Yield the breath, bite and bend values that a message sets, in the units of a part's curves.
 
     Parameters
     ----------

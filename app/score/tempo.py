@@ -97,7 +97,7 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
     @overload
     def seconds(self, ticks: AnyFloatArray | AnyIntArray) -> FloatArray: ...
     def seconds(self, ticks: float | AnyFloatArray | AnyIntArray) -> float | FloatArray:
-        """Seconds at ticks.
+        """Convert ticks to seconds.
 
         Parameters
         ----------
@@ -118,7 +118,7 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
     @overload
     def ticks(self, seconds: AnyFloatArray | AnyIntArray) -> FloatArray: ...
     def ticks(self, seconds: float | AnyFloatArray | AnyIntArray) -> float | FloatArray:
-        """Ticks at seconds, fractional: the inverse of `seconds`.
+        """Convert seconds to fractional ticks, the inverse of `seconds`.
 
         Parameters
         ----------

@@ -209,8 +209,8 @@ def _bytes_of(c: str, encoding: str) -> bytes:
 
 
 def _east_asian(c: str) -> float:
-    """Cost of characters that all East Asian encodings share: full-width letters and punctuation, Greek, Cyrillic, box
-    lines.
+    """Cost (improbability) of a character that all East Asian encodings share: full-width letters and punctuation,
+    Greek, Cyrillic, box lines.
     """
     if "\uff01" <= c <= "\uff5e" or c in "、。・「」『』（）！？～：；，．　★☆♪♭♯①②③④⑤⑥⑦⑧⑨ⅠⅡⅢⅣⅤ":
         return _FREQUENT
@@ -252,7 +252,7 @@ def _korean(c: str) -> float:
 
 
 def _cyrillic_cost(text: str) -> float:
-    """Cost of a text in Russian; words begin with a capital or are all capitals."""
+    """Cost (improbability) of a text in Russian, where words begin with a capital or are all capitals."""
     total = 0.0
     for place, c in enumerate(text):
         if c < "\x80":
@@ -274,7 +274,9 @@ def _cyrillic_cost(text: str) -> float:
 
 
 def _latin_cost(text: str) -> float:
-    """Cost of a text in a Western language; accented letters are single within words of plain letters."""
+    """Cost (improbability) of a text in a Western language, where accented letters are single within words of plain
+    letters.
+    """
     total = 0.0
     for place, c in enumerate(text):
         if c < "\x80":
@@ -298,12 +300,12 @@ def _latin_cost(text: str) -> float:
 
 
 def _dos_cost(text: str) -> float:
-    """Cost of a Cyrillic text in the DOS code page, with a penalty for box-drawing characters."""
+    """Cost (improbability) of a Cyrillic text in the DOS code page, with a penalty for box-drawing characters."""
     return _cyrillic_cost(text) + 2.0 * sum("\u2500" <= c <= "\u25ff" for c in text)
 
 
 def _greek_cost(text: str) -> float:
-    """Cost of a Greek text: words of small letters with one accent each."""
+    """Cost (improbability) of a Greek text, with words of small letters and one accent each."""
     total = 0.0
     for place, c in enumerate(text):
         if c < "\x80":

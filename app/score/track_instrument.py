@@ -120,7 +120,9 @@ def _named(channel: TrackChannel) -> tuple[Instrument | None, Instrument | None]
 
 
 def called(channel: TrackChannel, instrument: Instrument) -> str:
-    """Return the usual name of a track's instrument; for a collective instrument the name in the score ("和太鼓")."""
+    """Return the name under which a track's instrument is shown; for a collective instrument it is the name in the
+    score ("和太鼓").
+    """
     own = (
         text for text in (channel.name, channel.instrument_name) if text and vocabulary().by_name(text) == instrument
     )
@@ -138,13 +140,13 @@ def is_no_name(text: str) -> bool:
 
 
 def _names_kit(pitches: Sequence[int]) -> bool:
-    """Return whether most notes are bass drums, snare drums, toms, hi-hats and cymbals in General MIDI."""
+    """Return whether most pitches are those of bass drums, snare drums, toms, hi-hats and cymbals in General MIDI."""
     return 2 * sum(map(_KIT_NOTES.__contains__, pitches)) > len(pitches)
 
 
 def says_nothing(channel: TrackChannel) -> bool:
-    """Return whether a melody has no informative name or program; programs of a whole section do not count, nor does
-    the piano's, a common default.
+    """Return whether neither name nor program of a melody is informative; programs of a whole section do not count, nor
+    does the piano's, a common default.
     """
     if channel.played_on or is_named(channel) or any(_named(channel)):
         return False

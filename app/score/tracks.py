@@ -50,11 +50,15 @@ class TrackEvents(msgspec.Struct):
     name, instrument_name : bytes
         First track name and first instrument name in the track.
     texts : list of (tick, text)
+        Text events.
     tempos : list of (tick, microseconds per quarter)
+        Tempo changes.
     metres : list of (tick, numerator, denominator)
+        Time signatures.
     markers : list of (tick, text)
         Markers and cue points.
     programs : dict of channel to list of (tick, program)
+        Program changes.
     channels : dict of channel to ChannelNotes
         Channels with notes.
     setups : list of Setup

@@ -27,7 +27,9 @@ _History: TypeAlias = "tuple[_History, tuple[int, ...]] | None"
 
 
 class LastPlayed(NamedTuple):
-    """Last note of a player: pitch (-1 before the first note), time the player is free, end of the note."""
+    """Last note of a voice: pitch (-1 before its first note), time from which the voice is free, and end of the note,
+    in seconds.
+    """
 
     pitch: int
     free_s: float

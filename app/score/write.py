@@ -109,7 +109,7 @@ def write_midi(score: Score, path: Path, performers: Mapping[str, PartPlayer] | 
 
 
 def midi_file(score: Score, performers: Mapping[str, PartPlayer] | None = None) -> MidiFile:
-    """A score as the bytes of a MIDI file; parameters and errors as in `write_midi`."""
+    """Convert a score to the bytes of a MIDI file; parameters and errors as of `write_midi`."""
     performing = performers or {}
     warnings: list[Message] = []
     # The charset of the texts: mido's usual one is Latin 1.

@@ -53,7 +53,7 @@ class FaceLayout:
 
 
 def face_layout(naming: FaceNames, morphs: Sequence[str]) -> FaceLayout:
-    """Return the layout for a face with morphs named as in ARKit."""
+    """Create the layout that converts a face's morphs, named as in ARKit, to the shapes of a naming."""
     if naming == "arkit":
         return FaceLayout(tuple(morphs), tuple(morphs))
     if naming == "arkit_capital":

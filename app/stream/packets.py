@@ -72,7 +72,7 @@ class Packets:
         self._bundles.append((bundle.build().dgram, np.array(words, np.intp), slice(first, first + sum(floats))))
 
     def filled(self, values: AnyFloatArray) -> list[bytes]:
-        """Return the datagrams of a frame.
+        """Fill the prebuilt messages with the values of a frame, and return its datagrams.
 
         Parameters
         ----------

@@ -136,7 +136,7 @@ class GeneratedDance:
 
     @property
     def choreography_name(self) -> str:
-        """Return the name in the choreography."""
+        """Name of the choreography, as stored in it."""
         return self.choreographer.model.name
 
     def standing(self, fps: Fraction, first: int, count: int) -> BoolArray:
@@ -209,7 +209,7 @@ class _Made(NamedTuple):
 
 
 def manner_of(dancer: Dancer, sources: int) -> Manner:
-    """Return the style of a dancer, ignoring a source that the choreography lacks."""
+    """Return the style of a dancer for generating; a preferred source that the choreography lacks is ignored."""
     source = dancer.source if 0 <= dancer.source < sources else None
     return Manner(dancer.seed, source, dancer.size, dancer.weight, dancer.mirrored, dancer.melody)
 

@@ -27,7 +27,9 @@ Label: TypeAlias = Callable[[str, str], str]
 
 @cache
 def _japanese() -> tuple[dict[str, str], tuple[tuple[re.Pattern[str], str], ...]]:
-    """Read the Japanese words for errors of the operating system, and for patterns of details."""
+    """Read the table of Japanese words: for errors of the operating system by English text, and for details
+    by pattern.
+    """
     table = tomllib.loads(Path(__file__).with_name("japanese.toml").read_text(encoding="utf-8"))
     reasons = {os.strerror(getattr(errno, name, -1)): words for name, words in table["system"].items()}
     return reasons, tuple((re.compile(pattern), words) for pattern, words in table["patterns"].items())

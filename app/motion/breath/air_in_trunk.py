@@ -85,7 +85,9 @@ def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
 
 
 def air(breaths: Sequence[BreathEvent]) -> Curve:
-    """Return the amount of air, 0..1: rising over each breath, falling through the whole following phrase."""
+    """Return the amount of air in the lungs, 0..1, over time: rising in each breath, falling through the whole
+    following phrase.
+    """
     drawn = sorted((breath for breath in breaths if breath.draws_air), key=lambda breath: breath.start_s)
     rows: list[tuple[float, float, float]] = []
     level = FLAT
@@ -117,7 +119,7 @@ def widened(level: FloatArray, push: FloatArray | float, breath: BreathMotion, a
 
 
 def quiet_breaths(gestures: Sequence[GestureEvent]) -> Curve:
-    """Return the quiet breathing, 0..1, of a player whose instrument is lowered for long: small and slow."""
+    """Return the small and slow breathing, 0..1, of a player who keeps the instrument lowered for a long time."""
     rows: list[tuple[float, float, float]] = []
     free_s = -float("inf")
     for event in sorted(gestures, key=lambda event: event.start_s):

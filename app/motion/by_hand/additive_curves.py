@@ -83,8 +83,9 @@ class Additive:
 
     @property
     def _rows(self) -> FloatArray:
-        """Rows of all Bezier segments of all additive curves: the segment, then channel number, hash of the event id,
-        and bounds of the value."""
+        """Describe all additive curves as rows of numbers for comparison: Bezier segment, channel number, hash of the
+        event id, and bounds of the value.
+        """
         found = [np.zeros((0, COLUMNS + 4))]
         for event, table in zip(self.events, self.tables, strict=True):
             whose = (_NUMBERS[event.channel], float(zlib.crc32(event.id.encode())), event.low, event.high)

@@ -43,7 +43,9 @@ def attitude(pitch_down_rad: FloatArray, yaw_left_rad: FloatArray, roll_left_rad
 
 
 def bell_pitch(carriage: Carriage, bell_rad: FloatArray) -> FloatArray:
-    """Pitch of the bell (down positive), softly limited to the carriage's range."""
+    """Pitch (F,) of the bell in radians (down positive) after it rises by ``bell_rad``, softly limited to the
+    carriage's range.
+    """
     low, usual, high = np.deg2rad(carriage.pitch_down_deg)
     down = -bell_rad
     room = np.where(down >= 0.0, max(high - usual, 1e-3), max(usual - low, 1e-3))
@@ -52,7 +54,9 @@ def bell_pitch(carriage: Carriage, bell_rad: FloatArray) -> FloatArray:
 
 
 def held_angles(carriage: Carriage, motion: BodyMotion) -> tuple[FloatArray, FloatArray | float, FloatArray | float]:
-    """Pitch (down), yaw and roll (left) of the instrument due to melody and animator, within the carriage's ranges."""
+    """Pitch (down), yaw and roll (left) of the instrument in radians, due to the melody and to the animator's poses,
+    within the carriage's ranges.
+    """
     pitch = bell_pitch(carriage, motion.bell_rad)
     yaw, roll = float(np.deg2rad(carriage.yaw_left_deg[1])), float(np.deg2rad(carriage.roll_left_deg[1]))
     held = motion.bell_held_rad
@@ -83,7 +87,7 @@ def tips_freely(carriage: Carriage) -> bool:
 
 
 def going_along(with_head: FloatArray, carriage: Carriage) -> FloatArray:
-    """The head's rotation (F, 4) reduced to the part that the instrument follows.
+    """Reduce the head's rotation (F, 4) to the part that the instrument follows.
 
     A carried instrument follows completely. One on the lap or the floor, without range in its carriage, stays while the
     lips turn on it.

@@ -62,7 +62,7 @@ class Help:
 
     @property
     def moves_trunk(self) -> bool:
-        """True if more than the shoulders contributes."""
+        """True if help by the shoulders is not enough, so that the trunk turns too."""
         return bool(np.any(self.turn_rad) or np.any(self.short_m))
 
 

@@ -47,12 +47,12 @@ class Aside:
 
     @property
     def sign(self) -> float:
-        """1 to the left, -1 to the right."""
+        """1 if the instrument is put aside to the left, -1 to the right."""
         return 1.0 if self.side == "left" else -1.0
 
     @property
     def angle_rad(self) -> float:
-        """Return the angle of the swing, left positive."""
+        """Angle in radians by which the arm swings aside, left positive."""
         return self.sign * (SWING_RAD + NEXT_RAD * min(self.number, FARTHEST))
 
 
@@ -99,7 +99,9 @@ class AsidePlace:
         return replace(bare, rest=InstrumentTransform(lies.position_m + further_m * towards, lies.rotation))
 
     def turned(self, stowed: FloatArray) -> FloatArray:
-        """Return the rotation (F, 4) of the arm, for shares of the swing."""
+        """Rotation (F, 4) of the arm and the instrument about the pivot; ``stowed`` (F,) is 0 while carried, 1 when put
+        aside.
+        """
         return quaternion.from_rotation_vector(stowed[:, None] * self.swing_rad)
 
     def put(self, carried: InstrumentTransform, stowed: FloatArray) -> InstrumentTransform:
@@ -144,7 +146,7 @@ class AsidePlace:
         return result
 
     def watched(self, motion: BodyMotion, stowed: FloatArray) -> BodyMotion:
-        """Body motion with the head turned towards the hand."""
+        """Turn the head in a body's motion towards the hand that puts the instrument aside."""
         turn, forward = dict(motion.turn_rad), dict(motion.forward_rad)
         for joint, angle_rad in LOOKS_RAD.items():
             turn[joint] = turn[joint] + self.aside.sign * angle_rad * stowed

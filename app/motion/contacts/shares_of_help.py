@@ -90,14 +90,14 @@ def with_room(help_rad: FloatArray, most_rad: FloatArray) -> FloatArray:
 
 
 def _held_back(parts: list[FloatArray], half: int) -> FloatArray:
-    """Return a smooth upper limit (F,) below all parts: the minimum within ``half`` frames, then a smoothing as
-    wide."""
+    """Smooth lower envelope (F,) of the joined ``parts``: the minimum within ``half`` frames, then a
+    smoothing as wide.
+    """
     return np.pi - _eased(np.pi - np.concatenate(parts), half)
 
 
 def _eased(needed: FloatArray, half: int) -> FloatArray:
-    """Return a smooth curve (F,) that is never below ``needed`` (F,): the maximum within ``half`` frames, then a
-    smoothing as wide.
+    """Smooth upper envelope (F,) of ``needed`` (F,): the maximum within ``half`` frames, then a smoothing as wide.
 
     The outer ``2 * half`` frames are not valid.
     """

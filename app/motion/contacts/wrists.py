@@ -78,8 +78,8 @@ class Wrist:
         return swing
 
     def beyond_rad(self, aside_rad: FloatArray) -> FloatArray:
-        """Amount by which sideways angles (F,) should be reduced; 0 well within range and where the elbow cannot
-        help.
+        """Angle (F,) in radians by which the sideways bend of the wrist should be reduced; 0 well within its range, and
+        where turning the elbow cannot help.
         """
         over = softly_over(aside_rad - self.high_rad[1], EASE_RAD)
         beyond = over - softly_over(self.low_rad[1] - aside_rad, EASE_RAD)
@@ -135,8 +135,9 @@ class BellRoom:
 
     @classmethod
     def within(cls, down_rad: FloatArray, fits: BoolArray) -> BellRoom:
-        """Return the range around the middle of T ascending angles (T,), the playing position, within which the wrists
-        can follow (``fits``)."""
+        """Find the range of tilt around the playing position, which is the middle of T ascending angles (T,); ``fits``
+        (T,) marks the angles that both wrists can follow.
+        """
         usual, misses = len(down_rad) // 2, np.flatnonzero(~fits)
         low, high = misses[misses < usual], misses[misses > usual]
         return cls(

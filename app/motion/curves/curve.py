@@ -129,7 +129,9 @@ class Curve:
         return np.stack((bounds[:-1][differ], bounds[1:][differ]), axis=1)
 
     def _described(self, times_s: FloatArray) -> FloatArray:
-        """Data (F, 4) that determines the value at each time; equal rows give equal values."""
+        """Data (F, 4) that determine the value at each time (start and end of the segment, values), for comparing
+        curves.
+        """
         if len(self.start_s) == 0:
             return np.tile([0.0, 0.0, 0.0, self.initial], (len(times_s), 1))
         segment = np.searchsorted(self.start_s, times_s, side="right") - 1
@@ -216,7 +218,7 @@ def moves_to(start_s: FloatArray, end_s: FloatArray, values: FloatArray, initial
 
 
 def through(times_s: FloatArray, values: FloatArray) -> Curve:
-    """A curve that passes through ``values`` at ascending ``times_s`` and stops at each."""
+    """Create a curve that passes through ``values`` at ascending ``times_s`` and stops at each."""
     if len(times_s) == 0:
         return moves(())
     return Curve(times_s[:-1], times_s[1:], values[:-1], values[1:], float(values[0]))
@@ -296,6 +298,7 @@ class Noise:
     Attributes
     ----------
     frequency_hz, phase_rad, weight : (K,) float64
+        Frequency, phase and amplitude of each sinusoid.
     """
 
     frequency_hz: FloatArray

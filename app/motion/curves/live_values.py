@@ -20,8 +20,8 @@ long as it takes."""
 
 @dataclass(frozen=True)
 class Reach:
-    """A move to ``target`` that ends at ``end_s``; ``value``, ``speed`` and ``push`` (second derivative) apply at
-    ``start_s``.
+    """A move of a value to ``target`` that ends at ``end_s``; it begins at ``start_s`` with the given ``value``,
+    ``speed`` and ``push`` (second derivative).
     """
 
     start_s: float
@@ -83,7 +83,7 @@ class Spring:
         self._rate = SETTLED / settles_s
 
     def follow(self, target: float, elapsed_s: float) -> float:
-        """Advance towards a target that is constant during ``elapsed_s``."""
+        """Advance the value by ``elapsed_s`` seconds towards ``target``, and return it."""
         off = self.value - target
         drive = self.speed + self._rate * off
         left = math.exp(-self._rate * elapsed_s)

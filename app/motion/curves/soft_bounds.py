@@ -8,7 +8,7 @@ from app.arrays import FloatArray
 
 
 def softly_over(x: FloatArray, ease: FloatArray | float) -> FloatArray:
-    """``max(x, 0)`` with a parabola between -ease and ease; exactly 0 below."""
+    """Return ``max(x, 0)`` with its corner rounded by a parabola between -ease and ease; exactly 0 below."""
     result: FloatArray = np.where(x >= ease, x, np.square(np.maximum(x + ease, 0.0)) / (4.0 * ease))
     return result
 

@@ -27,6 +27,7 @@ class Spline:
     first : int
         Point k is at ``(first + k) * step_s``.
     step_s : float
+        Distance of the points in seconds.
     values : (C, K) float64, or whole numbers
         A row for each value, at least one point. Small integers save memory in long pieces.
     one : float

@@ -111,8 +111,7 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
 
 
 def _load(face: FaceMotion, tension: FloatArray, air: FloatArray, effort: FloatArray, sounds: BoolArray) -> Whole:
-    """Return the effort of the notes, 0..1 on the grid of the face's steps, from embouchure tension, air and effort
-    (N,); 0 where nothing sounds."""
+    """Combine tension, air and effort (N,) on the time grid to the load of the notes, 0..1; 0 where nothing sounds."""
     share = face.load
     cost = share.tension * tension + share.air * air + share.effort * effort - share.easy
     return _whole(np.clip(np.where(sounds, cost, 0.0), 0.0, 1.0))

@@ -63,8 +63,9 @@ def directions_to(
     Parameters
     ----------
     target_m, head_m : (F, 3) float64
+        Positions of the target and of the head, in the same space.
     head : (F, 4) float64
-        Rotation of the head in the target's space; ``head_m`` is its position.
+        Rotation of the head in that space.
     eyes_m : mapping of str to (3,) float64
         Eye positions, from `eyes_from_head_m`.
     """

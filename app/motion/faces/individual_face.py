@@ -78,7 +78,7 @@ class OwnFace:
     noises: dict[str, Noise]
 
     def wandering(self, times_s: FloatArray) -> Wandering:
-        """Sample the wandering of the face at ascending times."""
+        """Sample the slow random variation of the face at ascending times."""
         if len(times_s) == 0:
             return Wandering(**dict.fromkeys(self.noises, times_s))
         first = int(np.floor(times_s[0] / GRID_S)) - 1

@@ -48,7 +48,9 @@ def _notes(plan: PlayerPlan) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 
 def firmness(plan: PlayerPlan) -> Curve:
-    """Firmness of the lips: rising before each attack, less before a slur, and falling soon after."""
+    """Return the firmness of the lips over time: rising before each attack, less before a slur, and falling
+    soon after.
+    """
     if not plan.embouchures:
         return moves(())
     starts_s, ends_s, air = _notes(plan)

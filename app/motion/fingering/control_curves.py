@@ -140,7 +140,7 @@ def control_curves(
     felt_beats: FeltBeats,
     farthest: Mapping[str, float] = MappingProxyType({}),
 ) -> dict[str, Curve]:
-    """Curves 0..1 of all controls of an instrument by name; values are limited to ``farthest`` (by name).
+    """Compute the curves 0..1 of all controls of an instrument by name; values are limited to ``farthest`` (by name).
 
     Fingerings are in order, each from onset to end of its note; controls they do not name are at rest.
     """
@@ -155,11 +155,13 @@ class _Notes:
     Attributes
     ----------
     fingerings : sequence of FingeringEvent
+        The fingerings in order.
     kinds : (N,) int
         Index in ``places`` for each note.
     places : list of mapping of str to float
         Distinct combinations of control values.
     start_s, end_s : (N,) float
+        Start and end of each note in seconds.
     rests : (N,) bool
         True if the rest before the note is long enough for controls to return to rest.
     """

@@ -220,7 +220,7 @@ class _Moves(NamedTuple):
 
 
 def _ways(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
-    """Moves (start_s, end_s, station) of a finger between visits."""
+    """Moves (start_s, end_s, station) of a finger between its visits to stations."""
     ways: list[tuple[float, float, float]] = []
     here = 0
 

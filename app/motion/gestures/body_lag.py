@@ -25,7 +25,7 @@ class Overlapped(NamedTuple):
 
 
 class Sampled(Protocol):
-    """Protocol of values that can be sampled at times."""
+    """Protocol of curves that can be sampled at times."""
 
     def sample(self, times_s: FloatArray) -> FloatArray: ...
 
@@ -44,7 +44,9 @@ class Leads(NamedTuple):
         return cls(overlap.chest_s + overlap.head_s, overlap.head_s, 0.0, overlap.head_s - overlap.elbows_s)
 
     def at(self, times_s: FloatArray) -> Overlapped:
-        """Times to sample a curve at for each part, for ascending times."""
+        """Shift ascending times for each part of the body by its lead, giving the times at which to sample a curve for
+        the part.
+        """
         return Overlapped(*(times_s + lead_s for lead_s in self))
 
     def sample(self, curve: Sampled, times_s: FloatArray) -> Overlapped:

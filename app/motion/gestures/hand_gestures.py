@@ -83,8 +83,8 @@ def _add(reached: ReachingHands, gesture: Gesture, phase: FloatArray, here: slic
 def limited_hand_gestures(
     reaches: Reaches, amplitude: float, amount: float
 ) -> tuple[dict[str, FloatArray], FloatArray | None]:
-    """Hand gestures at a player's amplitude and amount, and the share (F,) by which the instrument is raised (None:
-    never).
+    """Scale hand gestures to a player's amplitude and amount; also return the share (F,) by which the instrument is
+    raised (None: never).
 
     A hand either goes all the way or stays. Keys are as in `ReachingHands`; offsets are ``"left.m"`` and ``"right.m"``,
     (F, 3).

@@ -38,7 +38,7 @@ L = TypeVar("L", bound="DataclassInstance")
 
 
 def held_still(levels: L, holds: Envelopes, times_s: FloatArray, at: Callable[[FloatArray], L]) -> L:
-    """Layers at ascending times, frozen while a hold has full effect.
+    """Freeze layers of motion during each hold, at the values they have when the hold takes full effect.
 
     Parameters
     ----------

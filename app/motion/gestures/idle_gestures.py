@@ -41,8 +41,9 @@ NOTHING_BESIDE: Final = ConcertSamples()
 
 @dataclass(frozen=True)
 class Beside:
-    """Offsets of the body from gestures while not playing, each (F,): hips, trunk and neck forward, hips back,
-    shoulders up, elbows out, and the share by which the lowered instrument is raised."""
+    """Offsets (F,) that gestures while not playing add to the body: hips, trunk and neck forward, hips back, shoulders
+    up, elbows out; and the share by which the lowered instrument is raised.
+    """
 
     hips_rad: FloatArray | float
     back_m: FloatArray | float

@@ -110,8 +110,7 @@ class Layers:
         return held_still(self._moving(times_s), self.still, times_s, self._moving)
 
     def _moving(self, times_s: FloatArray) -> LayerSamples:
-        """Return the values of all layers of motion at ascending times, regardless of spans in which the body holds
-        still."""
+        """Sample all layers of motion at ascending times as if the body were never held still."""
         dip, lift = self.nods.sample(times_s)
         before, after, share = self.weight.between(self.leads.at(times_s).hips)
         values: dict[str, Any] = {name: getattr(self, name).sample(times_s) for name in ALIKE}

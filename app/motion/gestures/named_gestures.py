@@ -88,7 +88,7 @@ class KeyedGestures:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent]) -> Self:
-        """Return the named gestures among a plan's gesture events."""
+        """Collect the keyed gestures among a plan's gesture events, as far as this class handles them."""
         gestures: list[Gesture] = []
         rows = []
         for event in events:
@@ -123,7 +123,7 @@ class KeyedGestures:
 
 
 class Gestured(KeyedGestures):
-    """All keyed gestures of a player, as offsets."""
+    """All gestures of a player whose keys move bell, head, elbows or trunk, as offsets of their angles."""
 
     def sample(self, times_s: FloatArray) -> Sums:
         """Sum of the gestures at ascending times, before scaling by the player's amplitude."""
@@ -168,7 +168,9 @@ def with_gestures(
 
 
 def _limits_rad(target: PoseTarget) -> tuple[tuple[float, float] | None, ...]:
-    """Return the range that hands can follow for each angle; None: limited earlier by the instrument."""
+    """Range in radians of each angle of a target that the hands can follow; None for angles that the instrument's
+    carriage limits already.
+    """
     if target in ("left_elbow", "right_elbow"):
         low, high = np.deg2rad(ELBOW_DEG).tolist()
         return (low, high), None, None

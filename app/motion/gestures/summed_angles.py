@@ -66,7 +66,9 @@ class Sizes:
 
     @property
     def aslant(self) -> float:
-        """1 for a player who moves forward with the weight on the left foot, -1 for backward."""
+        """Direction of the player's diagonal weight shifts: 1 if the hips move forward with the weight on the left
+        foot, -1 if backward.
+        """
         return 1.0 if _own(self.player_id, self.parameters.seed, "aslant") < 0.5 else -1.0
 
     @property
@@ -98,7 +100,7 @@ def _own(player_id: str, seed: int, what: str) -> float:
 
 @dataclass
 class Sum:
-    """Angles of trunk and neck by joint: forward, lean to the left, turn to the left."""
+    """Running sums of the angles of trunk and neck, by joint: bend forward, lean to the left, turn to the left."""
 
     frames: int
     angles: tuple[dict[str, FloatArray], dict[str, FloatArray], dict[str, FloatArray]] = field(
@@ -144,6 +146,7 @@ class Angles:
     roll : Overlapped
         Roll of the hips to the left with the weight.
     seated : bool
+        Whether the player is seated.
     """
 
     side: Overlapped

@@ -118,7 +118,9 @@ class _Silences(NamedTuple):
 
 
 class _Report(NamedTuple):
-    """Data for the reasons of breaths and preparations: note, length in beats, and thresholds."""
+    """Values for the messages that explain breaths and preparations: note, length of the rest in beats, and
+    thresholds.
+    """
 
     breath: Callable[[int, float, bool, bool], Message]
     preparation: Callable[[int, float], Message]

@@ -35,7 +35,7 @@ HASTY_SHARE = 0.4
 
 
 def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelope | None = None) -> FloatArray:
-    """Air (N + 1,) used by all notes before each note, and by all, in seconds of playing at mezzoforte.
+    """Cumulative use of air (N + 1,) by N notes: before each note, and in total, in seconds of playing at mezzoforte.
 
     Parameters
     ----------
@@ -113,7 +113,8 @@ def short_catches(used: FloatArray, lung_s: float, refill: FloatArray, filled: F
 
 
 def with_circular_breathing(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
-    """Air used (N + 1,) as from `air_used_s`, less the air inhaled through the nose during circular breathing.
+    """Cumulative use of air (N + 1,) as from `air_used_s`, minus the air inhaled through the nose during circular
+    breathing.
 
     After each breath in ``refill`` (`levels`) the lungs empty to the share `CIRCULAR_SHARE` and stay at it.
     """

@@ -239,7 +239,7 @@ def _are_dotted(long: IntArray, short: IntArray) -> BoolArray:
 
 
 def slur_costs(line: ComparedLine, at: IntArray) -> FloatArray:
-    """Return the cost (K,) of a breath before each of the K notes ``at`` due to a slur that leads to the note."""
+    """Cost (K,) that slurs add to a breath before each of the K notes with indices ``at``."""
     heard = -SLURRED * (1.0 - _legato(line)) * line.times.slurs_next[at - 1]
     written = np.where(line.rests[at] > 0, -SLURRED, -WRITTEN_SLUR)
     return np.asarray(np.where(line.written.joined[at - 1], written, heard), dtype=np.float64)

@@ -67,6 +67,7 @@ class Decided(NamedTuple):
     Attributes
     ----------
     breathed : bool
+        Whether the player breathes in the rest.
     played_s : float64
         Seconds that sounded since the last breath in a rest.
     spent : float64

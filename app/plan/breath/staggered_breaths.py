@@ -194,7 +194,7 @@ def compared_with_others(line: SharedLine, breathed: tuple[Breathed, ...], befor
 def shared_with(
     line: SharedLine, others: tuple[SharedLine, ...], met: Met, after_hold: frozenset[int]
 ) -> BreathConstraints:
-    """Return the restrictions of a player's breaths.
+    """Combine the breaths of other players to restrictions for one player's breaths.
 
     Parameters
     ----------

@@ -132,7 +132,9 @@ def least_s(channel: str, change: float) -> float:
 
 
 def segments(curve: AdditiveCurve, clock: TempoMap) -> tuple[CurveSegment, ...]:
-    """Weighted segments of a curve, from the start of fading in to the end of fading out, without gaps."""
+    """Convert a curve to segments in seconds, multiplied by its weight, without gaps from the start of fading in to the
+    end of fading out.
+    """
     keys, weight = curve.keys, curve.weight
     times_s = [clock.seconds(float(key.tick)) for key in keys]
     slopes = automatic_slopes(times_s, [key.value for key in keys])

@@ -125,7 +125,7 @@ def _corrected_spans(
 
 
 def _changed(event: Span, change: ChangeGesture | ChangeExpression | None, clock: TempoMap) -> Span:
-    """The event with all values of a change that are not None."""
+    """Apply a correction to an event: values of the correction that are not None replace those of the event."""
     if change is None:
         return event
     start = event.start_tick if change.start_tick is None else change.start_tick

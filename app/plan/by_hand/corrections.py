@@ -205,6 +205,7 @@ class PoseCorrection(Own, frozen=True, tag="pose"):
     Attributes
     ----------
     target : {"bell", "head", "left_elbow", "right_elbow", "torso"}
+        Part of the body, or the instrument's bell, that is posed.
     up_deg : float
         Bell: raised. Head: the face up. Torso: leaning back. Elbow: outwards and up, about the line from shoulder to
         wrist.

@@ -43,7 +43,7 @@ SMALLEST, LARGEST = 0.4, 1.2
 def leader_of(
     entry: Entry, parts: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...], piece: Piece
 ) -> tuple[int | None, str]:
-    """Index of the part whose player cues an entry, and the reason ("chosen" or "melody").
+    """Choose the player who cues an entry: index of the player's part, and the reason ("chosen" or "melody").
 
     A player with ``cue_leader`` set cues every entry of all players; of several, one who comes in here, then the first.
     An entry while others play is cued by one of those playing. Otherwise the leader is the first part of the section

@@ -18,7 +18,7 @@ _GROWN = frozenset({"loudness", "height", "depth", "effort"})
 
 
 def live_rules(rules: tuple[Rule, ...], expressions: Collection[str]) -> tuple[Rule, ...]:
-    """The rules that work live and whose expression exists."""
+    """Select the rules that can be applied in live playing and whose expression exists."""
     never = When()
 
     def follows(rule: Rule) -> bool:

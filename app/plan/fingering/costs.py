@@ -142,7 +142,7 @@ class FingeringProblem:
 
     @cached_property
     def has_slide(self) -> bool:
-        """True if a slide is among the controls of pitch."""
+        """True if the instrument has a slide that determines the pitch."""
         return any(control.kind == "slide" for control in self.controls)
 
     @cached_property
@@ -270,7 +270,7 @@ class FingeringProblem:
 
     @cached_property
     def _pace(self) -> FloatArray:
-        """Hurry (N-1,) of every step, 0 to 1."""
+        """Pace (N-1,) of every step from a note to the next: 0 for slow steps to 1 for quick ones."""
         step = np.diff(self.times.onset_s)
         return np.asarray(np.clip((EASY_STEP_S - step) / (EASY_STEP_S - HURRIED_STEP_S), 0.0, 1.0))
 

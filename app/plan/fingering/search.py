@@ -146,8 +146,8 @@ def even_trills(problem: FingeringProblem, path: IntArray) -> IntArray:
 
 
 def never_worse(problem: FingeringProblem, path: IntArray) -> IntArray:
-    """Return to first choices where the path travels further or faster than they do, compared for each run of
-    alternates and each phrase. Fingerings pinned by corrections stay.
+    """Replace the fingerings of a run of alternates, or of a phrase, by the first choices where ``path`` travels
+    further or faster than they do. Fingerings fixed by corrections stay.
     """
     first_path = np.argmin(problem.local_cost, axis=1)
     different = np.flatnonzero(path != first_path)
@@ -171,7 +171,7 @@ def never_worse(problem: FingeringProblem, path: IntArray) -> IntArray:
 
 
 def _with_first_choices(path: IntArray, first_path: IntArray, starts: IntArray, ends: IntArray) -> IntArray:
-    """The path with the first choices in the spans of notes ``starts[i]``..``ends[i]``."""
+    """Return ``path`` with the first choices (``first_path``) in the spans of notes ``starts[i]``..``ends[i]``."""
     edges = np.zeros(len(path) + 1, dtype=np.int64)
     edges[starts] += 1
     edges[ends + 1] -= 1

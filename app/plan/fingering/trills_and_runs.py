@@ -27,7 +27,7 @@ TOLERANCE = 1e-9
 
 
 def _runs(steps: BoolArray, least: int) -> BoolArray:
-    """Mask of the marked steps that are in runs of at least ``least``."""
+    """Mask of the steps marked in ``steps`` that are in runs of at least ``least`` marked steps."""
     result = np.zeros(len(steps), dtype=bool)
     if len(steps) < least:
         return result

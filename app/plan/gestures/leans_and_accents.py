@@ -216,7 +216,7 @@ def _nearest(places: IntArray, ticks: IntArray, back: int = 0) -> IntArray:
 
 
 def _nodded(at_s: FloatArray, cues: Sequence[CueEvent]) -> BoolArray:
-    """Return a mask (N,) of the times close to a cue, at which the head nods already."""
+    """Mask (N,) of the times so close to a cue that the head nods there anyway."""
     cued_s = np.sort([-np.inf, *(cue.end_s for cue in cues), np.inf])
     following = np.searchsorted(cued_s, at_s).clip(1)
     near: BoolArray = np.minimum(at_s - cued_s[following - 1], cued_s[following] - at_s) < CUED_S

@@ -104,7 +104,7 @@ def _before_first(
 
 
 class _Busy:
-    """Spans (start, end) in which a player is busy, ordered by start."""
+    """Spans (start, end) in seconds in which a player is busy with breaths and cues, ordered by start."""
 
     def __init__(self, spans_s: list[tuple[float, float]]) -> None:
         self._starts_s = [start_s for start_s, _ in spans_s]

@@ -108,7 +108,7 @@ def fitted(gesture: Gesture, length_s: float, limits: Mapping[str, Mapping[str, 
 
 
 def _in_hand(gesture: Gesture, instrument: InstrumentMap) -> Gesture:
-    """Return the gesture with the hand that can leave this instrument."""
+    """Return the gesture for an instrument: the hand that moves is the one that can leave the instrument."""
     if gesture.hand is None:
         return gesture
     return msgspec.structs.replace(gesture, hand=HandTrack(gesture.hand.keys, instrument.hold.leaving_hand or "free"))

@@ -56,7 +56,7 @@ def may_start(gesture: Gesture, start_s: float, end_s: float, times: LineTimes, 
 
 
 def comes_up(start_s: float, end_s: float, lowered: LoweredSpans) -> bool:
-    """Return whether the instrument, lowered at ``start_s``, is being raised by ``end_s``."""
+    """Return whether the raising of the instrument, which is lowered at ``start_s``, begins before ``end_s``."""
     return lowered.end_between(start_s, end_s + RAISE_S)
 
 

@@ -24,7 +24,7 @@ LONG_S = 6.0
 
 
 def tension_of(pitch: FloatArray, instrument: InstrumentMap) -> FloatArray:
-    """Lip tension 0..1 by pitch alone: piecewise linear over the map's usual range."""
+    """Lip tension (N,) 0..1 by pitch alone: piecewise linear over the instrument's usual range."""
     limits = instrument.range
     low, high = limits.usual
     knots = np.array([low, limits.easy_low, limits.easy_high, high], dtype=np.float64)

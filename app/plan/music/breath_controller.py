@@ -64,7 +64,9 @@ class BreathEnvelope:
         return np.asarray(self.mean(times.onset_s, ends_s) > STOPS_AT)
 
     def has_breath_gaps(self, times: LineTimes) -> bool:
-        """Return whether the gaps of the recorded breath curve are breaths."""
+        """Return whether the gaps of the curve are inhalations of a player, not silences of a curve drawn
+        for dynamics.
+        """
         gaps_s = self.gaps_s[np.isfinite(self.gaps_s).all(axis=1)]
         gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= GASP_S]
         played = self.plays(times)

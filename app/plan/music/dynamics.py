@@ -84,7 +84,9 @@ Size = TypeVar("Size", float, FloatArray)
 
 
 def amount_at_vigour(amount: Size, vigour: Size) -> Size:
-    """Scale an amount -1..1 by a vigour: proportionally below 1; above 1 small amounts grow most, and 1 stays 1."""
+    """Scale an amount -1..1 of a motion by a vigour: in proportion if it is below 1; above 1 small amounts grow most,
+    and an amount of 1 stays 1.
+    """
     return amount * vigour / (1.0 + abs(amount) * (vigour - 1.0) * (vigour > 1.0))
 
 
@@ -98,6 +100,7 @@ def mean_around(
     starts_s, lasts_s, loudness : (N,) float64
         Notes in order, or parts of them.
     at_s : (K,) float64
+        Times in seconds.
     """
     knots_s = np.stack((starts_s, starts_s + lasts_s), axis=1).ravel()
     sums = []

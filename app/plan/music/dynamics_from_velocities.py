@@ -87,7 +87,7 @@ class VelocityReading(msgspec.Struct, frozen=True):
 
 
 def read_velocities(parts: Iterable[Velocities]) -> VelocityReading:
-    """Return the reading of the velocities of all parts of a piece together."""
+    """Interpret the velocities of all parts of a piece together: as written by a notation program, or as played."""
     given = [part for part in parts if len(part.velocities)]
     reading = _reading(tuple((_array(part.velocities).astype(np.uint8).tobytes(), part.program) for part in given))
     if not reading.ladder or not reading.marked:
@@ -158,14 +158,15 @@ def is_level(velocity: FloatArray) -> bool:
 
 
 def _smoothed(velocity: IntArray | FloatArray) -> FloatArray:
-    """Return the medians (M,) of several neighbouring velocities, or the M velocities of a short line unchanged."""
+    """Running medians (M,) of the velocities; a short part is returned unchanged."""
     if len(velocity) < 4 * STROKES:
         return velocity.astype(np.float64)
     return running_medians(velocity, STROKES)
 
 
 def read_dynamics(part: Velocities, reading: VelocityReading | None = None) -> tuple[FloatArray, IntArray]:
-    """Return the loudness 0..1 of every note from velocities alone, and the row in `DYNAMICS` of the dynamic in force.
+    """Derive the dynamics of a part from its velocities alone: the loudness (N,) 0..1 of every note, and the row (N,)
+    in `DYNAMICS` of the dynamic in force.
 
     On a ladder each note has the loudness of its dynamic, slightly more with an accent, or a value between two in a
     hairpin. Without a ladder, small differences between strokes are ignored: level and deviation count as far as the

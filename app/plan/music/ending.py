@@ -17,14 +17,16 @@ THIRD_SHARE = 1.5
 
 
 class Ending(msgspec.Struct, frozen=True):
-    """Ending of a piece: ``bright`` is in major, lively and not soft; ``bpm`` are beats a minute before the end."""
+    """Character of a piece's ending: ``bright`` if it is in major, lively and not soft; ``bpm`` is the tempo before the
+    end in beats per minute.
+    """
 
     bright: bool
     bpm: float
 
 
 def ending_of(all_times: tuple[LineTimes, ...], piece: Piece) -> Ending:
-    """Ending of a piece, from the parts of all players."""
+    """Judge the ending of a piece from the parts of all players."""
     lines = [times for times in all_times if len(times.onset_tick)]
     if not lines:
         return Ending(False, 0.0)

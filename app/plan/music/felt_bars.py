@@ -43,7 +43,7 @@ def lowest(lines: Sequence[LineTimes]) -> tuple[bool, ...]:
 
 
 def with_felt_bars(piece: Piece, lines: tuple[NoteTimes, ...], low: tuple[bool, ...]) -> Piece:
-    """Return the piece with bars where they are felt to begin; unchanged without clear evidence.
+    """Move the bars of a piece to where they are felt to begin; unchanged without clear evidence.
 
     Pieces with a change of metre or a pickup are not changed.
 

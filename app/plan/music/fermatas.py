@@ -151,7 +151,7 @@ def _rows(gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[list[tup
 
 
 def _uneven(slowness: FloatArray) -> list[int]:
-    """Gaps after which the tempo changes within the length of a row of fermatas."""
+    """Indices of the gaps near which, within the length of a row of fermatas, the tempo changes."""
     found = np.ones(len(slowness), dtype=bool)
     if len(slowness) > MOST_IN_A_ROW:
         rows = rows_of(slowness, MOST_IN_A_ROW + 1)
@@ -215,8 +215,9 @@ def _moves(place: int, gaps: _Gaps) -> bool:
 
 
 def _is_live(beats: FloatArray) -> bool:
-    """Return whether the lengths of beats (seconds per tick) vary as if they had been played, or change as in a
-    ritardando."""
+    """Return whether the tempo, given as seconds per tick of successive beats, varies as in live playing or changes as
+    in a ritardando.
+    """
     quick, slow = np.quantile(beats, (0.25, 0.75))
     return bool(slow > LIVE_SPREAD * quick * (1.0 + ROUNDING))
 

@@ -48,7 +48,7 @@ _PASSED: Final = 0.1
 
 
 def is_written(velocity: IntArray) -> bool:
-    """Return whether velocities are written levels and hairpins instead of played strokes."""
+    """Return whether velocities (N,) were written by a notation program (levels and hairpins) instead of played."""
     steps = np.sign(np.diff(velocity))
     edges = np.flatnonzero(np.append(True, steps[1:] != steps[:-1])) if len(steps) else steps
     lengths = np.diff(np.append(edges, len(steps))) + 1
@@ -77,8 +77,8 @@ def _levels(velocity: IntArray) -> dict[int, int]:
 
 
 def recognised(written: Sequence[tuple[IntArray, int | None]]) -> tuple[str, bool]:
-    """Name of the velocity ladder that best explains all parts, and whether in LilyPond's whole range; empty if no
-    ladder is clearly better.
+    """Find the notation program whose velocity ladder best explains all parts: its name (empty if none is clearly
+    better), and whether LilyPond wrote its whole range.
     """
     levels = [(_levels(velocities), program) for velocities, program in written]
     best, name, whole = 0.0, "", False
@@ -244,7 +244,7 @@ class LadderMarks(NamedTuple):
     accents: FloatArray
 
     def read(self, unmarked: IntArray | None = None) -> tuple[FloatArray, IntArray]:
-        """Loudness 0..1 and dynamic of every note.
+        """Return the loudness (N,) 0..1 of every note, and the row (N,) in `DYNAMICS` of its dynamic.
 
         Parameters
         ----------
@@ -262,7 +262,7 @@ class LadderMarks(NamedTuple):
 
 
 def ladder_marks(velocity: IntArray, name: str, program: int | None, whole_range: bool) -> LadderMarks:
-    """Return the dynamics of a part from its velocities (N,) on a ladder."""
+    """Read the dynamics of a part from velocities (N,) that the notation program ``name`` wrote."""
     return _along(velocity.astype(np.uint8).tobytes(), name, program, whole_range)
 
 

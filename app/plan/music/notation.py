@@ -92,7 +92,7 @@ def _rarer_division(quarters: FloatArray) -> int:
 
 
 def bar_starts(ticks: IntArray, bars: IntArray) -> IntArray:
-    """Start tick (N,) of the bar of each time; the first bar extends backwards; 0 without bars."""
+    """Start tick (N,) of the bar that contains each tick; ticks before the first bar count to it; 0 without bars."""
     if not len(bars):
         return np.zeros_like(ticks)
     return np.asarray(bars[np.maximum(np.searchsorted(bars, ticks, side="right") - 1, 0)])

@@ -17,7 +17,7 @@ LEGATO_OVERLAP_S = 0.030
 
 
 class Single(NamedTuple):
-    """A monophonic part, and a problem for every note left out or overlapping the next."""
+    """A part reduced to one note at a time, with a problem for every note that was left out or overlaps the next."""
 
     part: MonophonicPart
     problems: tuple[Problem, ...]

@@ -29,7 +29,7 @@ EPSILON = 1e-6
 
 
 def marked_loudness(loudness: FloatArray) -> FloatArray:
-    """Loudness (N,) of the dynamic nearest to each value; mezzoforte is exact."""
+    """Round loudness values (N,) to the dynamic nearest to each; mezzoforte stays exact."""
     return np.asarray(LEVELS[np.searchsorted((LEVELS[1:] + LEVELS[:-1]) / 2.0, loudness)])
 
 
@@ -149,8 +149,9 @@ class Piece(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True, eq=False)
 class NoteTimes:
-    """Times of notes: arrays (N,), in ticks and seconds. ``played_end`` is a note's end, at most the next onset. Equal
-    for players in rhythmic unison."""
+    """Times of N notes as arrays (N,), in ticks and in seconds. ``played_end`` is the end of a note, not later than the
+    next onset. Equal for players in rhythmic unison.
+    """
 
     onset_tick: IntArray
     played_end_tick: IntArray

@@ -100,7 +100,7 @@ def are_audible(times: LineTimes, released: float = 0.0) -> BoolArray:
 
 
 def _detached(times: LineTimes, silence_s: FloatArray) -> BoolArray:
-    """Mask (N-1,) of silences after notes that are articulation."""
+    """Mask (N-1,) of the silences between notes that are due to detached articulation and so are not rests."""
     steps = np.maximum(np.diff(times.onset_tick), 1).astype(np.float64)
     gates = 1.0 - times.silence_tick[1:] / steps
     silent = times.silence_tick[1:] > 0
@@ -112,7 +112,9 @@ def _detached(times: LineTimes, silence_s: FloatArray) -> BoolArray:
 
 
 def _in_a_run(steps: FloatArray, gates: FloatArray, notes: int) -> BoolArray:
-    """Mask (N-1,) of notes within a run of at least ``notes`` equal steps with equal gates."""
+    """Mask (N-1,) of notes in a run of at least ``notes`` notes with equal time to the next onset and equal share of
+    sound in it.
+    """
     result = np.zeros(len(steps), dtype=bool)
     count = len(steps) - notes + 1
     if count > 0:

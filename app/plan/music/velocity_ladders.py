@@ -122,7 +122,9 @@ SHARES: Final = {
 
 
 def ladder_of(name: str, program: int | None) -> Ladder:
-    """The ladder of a program for an instrument, given as General MIDI program (from 0) or one of `SET_RANGES`."""
+    """Return the ladder of the notation program ``name`` for an instrument, given as General MIDI program (from 0) or
+    one of `SET_RANGES`.
+    """
     return _lilypond(program) if name == LILYPOND else _BY_NAME[name]
 
 

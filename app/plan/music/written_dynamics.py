@@ -122,7 +122,7 @@ def loudness_of_rows(rows: FloatArray) -> FloatArray:
 
 
 def rows_of_loudness(loudness: FloatArray) -> FloatArray:
-    """Rows (N,) of `DYNAMICS`, fractional, for a loudness 0..1."""
+    """Convert loudness (N,) 0..1 to rows of `DYNAMICS`, fractional between two dynamics."""
     return np.asarray(np.interp(loudness, LEVELS, np.arange(len(LEVELS), dtype=np.float64)))
 
 

@@ -100,7 +100,7 @@ class WrittenMarks:
 
     @property
     def is_score(self) -> bool:
-        """True if the absence of marks is information."""
+        """True if the marks are those of a score, so that a missing mark means that there is none."""
         return self.source == "score"
 
     def __eq__(self, other: object) -> bool:
@@ -179,8 +179,8 @@ def written_marks(
 
 
 def _divided(joined: BoolArray, stroke: list[str]) -> tuple[BoolArray, BoolArray]:
-    """Return masks of notes slurred to the next, and of notes under a slur that are separated from the previous note by
-    a stroke.
+    """Masks (N,) of notes slurred to the next, and of notes under a slur that their strokes separate from the note
+    before.
     """
     count = len(stroke)
     under = joined | np.concatenate(([False], joined[:-1]))[:count]
