@@ -29,7 +29,7 @@ _FACE_GROUPS: Final = {
 
 
 def part_name(part: str) -> str:
-    """The name of a part of the body."""
+    """Return the translated name of a part of the body."""
     return tr(_PARTS[part])
 
 
@@ -56,7 +56,7 @@ def body_groups() -> Iterator[tuple[str, tuple[str, ...]]]:
 
 
 def face_groups() -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield the names of parts of the face, each with its channels."""
+    """Yield the translated name of each part of the face with its channels."""
     for stem, text_id in _FACE_GROUPS.items():
         yield tr(text_id), tuple(f"{FACE}{name}" for name in ARKIT_MORPHS if name.startswith(stem))
 

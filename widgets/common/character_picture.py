@@ -41,10 +41,11 @@ class Seen:
     Attributes
     ----------
     positions_m, normals : (V, 3) float64
-        Of all meshes.
+        Positions and normals of the V vertices of all meshes.
     triangles : (T, 3) int
+        Vertex indices.
     colours : (T, 3) float64
-        Linear.
+        Linear colours of the triangles.
     morphs : mapping of str to ((n,) int, (n, 3) float64)
         Vertices moved by each morph, and their displacements.
     head_m : (float, float, float)
@@ -104,7 +105,7 @@ def picture(
     crop : Crop
         Whole body or head.
     weights : mapping of str to float, optional
-        Of morphs.
+        Weights of morphs; by default none.
     """
     positions = shown.positions_m
     for name, weight in (weights or {}).items():
@@ -133,7 +134,7 @@ def picture(
 
 
 def _colours(mesh: Mesh) -> FloatArray:
-    """Return the colours (T, 3) of T triangles, those of textures taken in the triangle's middle."""
+    """Return the linear colours (T, 3) of a mesh's T triangles; textures are read at the middle of each triangle."""
     base = np.array([material.base_color[:3] for material in mesh.materials], np.float64)
     result: FloatArray = base[mesh.triangle_materials]
     for number, material in enumerate(mesh.materials):
@@ -146,7 +147,7 @@ def _colours(mesh: Mesh) -> FloatArray:
 
 
 def _frame(shown: Seen, positions: FloatArray, crop: Crop) -> tuple[float, float, float]:
-    """Return the lowest and the highest y, and half the width, of the part of the figure to draw."""
+    """Return the lowest and the highest y, and half the width, of the part of the character to draw, in metres."""
     if crop == "body":
         return float(positions[:, 1].min()), float(positions[:, 1].max()), float(np.abs(positions[:, 0]).max())
     joint, crown = shown.head_m
@@ -166,7 +167,7 @@ def _unit(vectors: FloatArray) -> FloatArray:
 
 
 def _across(triangles: IndexArray, positions: FloatArray) -> FloatArray:
-    """Return the normals (T, 3) of T triangles, as long as twice their areas."""
+    """Return the normals (T, 3) of T triangles, with twice the triangle's area as length."""
     corners = positions[triangles]
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
@@ -189,7 +190,7 @@ def _in_front(points: FloatArray, triangles: IndexArray, width: int, height: int
     """Return for each pixel (height, width) the index of the visible triangle, -1 for none; ``points`` are x, y in
     pixels and depth.
 
-    Each triangle is drawn as closely spaced points, nearer ones over farther ones.
+    Each triangle is drawn as closely spaced points; nearer points replace farther ones.
     """
     placed = points[triangles]
     inside = (placed[:, :, 0].max(1) > 0.0) & (placed[:, :, 0].min(1) < width)
@@ -218,8 +219,9 @@ def _in_front(points: FloatArray, triangles: IndexArray, width: int, height: int
 def _painted(
     front: IntArray, points: FloatArray, positions: FloatArray, normals: FloatArray, shown: Seen, size: tuple[int, int]
 ) -> npt.NDArray[np.uint8]:
-    """Return colours (pixels, 4), RGBA, with smooth shading from the vertex normals; ``front`` is the visible triangle
-    in each pixel."""
+    """Return the RGBA colours (pixels, 4) of an image, shaded smoothly by the vertex normals; ``front`` is the visible
+    triangle in each pixel.
+    """
     width, height = size
     hit = np.flatnonzero(front >= 0)
     owners = front[hit]
@@ -237,7 +239,9 @@ def _painted(
 
 
 def _shares(corners: FloatArray, pixels: IndexArray, width: int) -> FloatArray:
-    """Return the barycentric coordinates (P, 3) of the centres of P pixels in their triangles (P, 3, 2)."""
+    """Return the barycentric coordinates (P, 3) of the centres of P pixels, each in a triangle with ``corners`` (P, 3,
+    2).
+    """
     middle = np.stack([pixels % width, pixels // width], axis=1) + 0.5
     one, two, at = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], middle - corners[:, 0]
     area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
@@ -251,8 +255,9 @@ def _shares(corners: FloatArray, pixels: IndexArray, width: int) -> FloatArray:
 
 
 def _by_edges(placed: FloatArray) -> tuple[FloatArray, IndexArray]:
-    """Return triangles (T, 3, 3) starting at the corner between the two shorter edges, and the powers of two (T, 2)
-    into which these are divided so that no pixel is missed.
+    """Return triangles (T, 3, 3) with the corner opposite the longest edge first, and exponents (T, 2) of two.
+
+    Dividing the two shorter edges into these powers of two gives points so close that no pixel is missed.
     """
     edges = np.linalg.norm((placed - np.roll(placed, -1, axis=1))[:, :, :2], axis=2)
     # Opposite the longest edge, from corner k to k + 1, lies k + 2.
@@ -263,7 +268,7 @@ def _by_edges(placed: FloatArray) -> tuple[FloatArray, IndexArray]:
 
 
 def portrait_of(character_id: str, size_px: int) -> QImage:
-    """The portrait of a character; drawn once. May be drawn in any thread."""
+    """Return the portrait of a character, drawn at the first call; can be called in any thread."""
     return _portrait(character_named(character_id), size_px)
 
 

@@ -42,7 +42,7 @@ class Chip(QAbstractButton):
         return self._outlined
 
     def show_state(self, checked: bool, by_hand: bool, outlined: bool) -> None:
-        """Display whether the choice is made, whether by the user, and whether the generator made it."""
+        """Set whether the choice is checked, whether the user made it, and whether the generator made it."""
         self.setChecked(checked)
         if (by_hand, outlined) != (self._by_hand, self._outlined):
             self._by_hand, self._outlined = by_hand, outlined
@@ -65,12 +65,12 @@ class Chip(QAbstractButton):
         return font
 
     def face_px(self) -> QSizeF:
-        """Return the size of the text, drawn before the note, in pixels."""
+        """Return the size in pixels of the chip's text without the note."""
         metrics = QFontMetricsF(self.font())
         return QSizeF(metrics.horizontalAdvance(self.text()), metrics.height())
 
     def draw_face(self, painter: QPainter, box: QRectF, colour: QColor) -> None:
-        """Draw the text into a box as large as `face_px`."""
+        """Draw the chip's text without the note into a box of the size `face_px`."""
         painter.drawText(box.adjusted(-1, -2, 1, 2), Qt.AlignmentFlag.AlignCenter, self.text())
 
     # Qt's own names

@@ -22,6 +22,6 @@ def on_click(source: QAction | QAbstractButton, run: Callable[[*Arguments], obje
 
 
 def on_switch(source: QAction | QAbstractButton, switch: Callable[[bool], object]) -> None:
-    """Call ``switch`` with the new state whenever a checkable button or menu entry is clicked."""
+    """Call ``switch`` with the new state whenever the user clicks a checkable button or menu entry."""
     clicked = source.triggered if isinstance(source, QAction) else source.clicked
     clicked.connect(lambda checked: switch(checked))

@@ -16,7 +16,7 @@ from widgets.common.plain import ComboBox
 
 @dataclass(frozen=True)
 class Option:
-    """An option: id, text and optional picture; an option with a reason against it cannot be chosen."""
+    """An option: id, text and optional icon, and the reason why it cannot be chosen (empty if it can)."""
 
     id: str
     text: str

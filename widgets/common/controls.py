@@ -69,7 +69,7 @@ def sized(label: AnyLabel, size_pt: float) -> AnyLabel:
 
 
 def small(button: AnyWidget) -> AnyWidget:
-    """The button, just large enough to be hit."""
+    """Return a button after setting it to the least size that is easy to click."""
     button.setFixedSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
     return button
 
@@ -140,11 +140,11 @@ class Retranslated(_Mixin):
             This widget, or a part of it with the same lifetime.
         **wordings : str, callable, sequence or mapping of them
             Text ids, or functions that return a text without a reference to this widget (`said`), by kind: ``text``,
-            ``short`` (of an action on a button), ``tip``, ``name`` (the accessible name), ``explained`` (both),
-            ``placeholder``, ``title`` (of a window), ``heading`` (of a group), ``suffix``, ``words`` (label, unit and
-            tip of a number, or the title of a section); lists: ``columns`` (headings of a table or tree), ``items`` (of
-            a box or list), ``tabs``; by id: ``options`` of a box. Texts that are no ids, such as ``"%"``, are used
-            unchanged.
+            ``short`` (a short text for a button), ``tip``, ``name`` (the accessible name), ``explained`` (tip and
+            name), ``placeholder``, ``title`` (of a window), ``heading`` (of a group), ``suffix``, ``words`` (label,
+            unit and tip of a number, or the title of a section); lists: ``columns`` (headings of a table or tree),
+            ``items`` (of a box or list), ``tabs``; by id: ``options`` of a box. Texts that are no ids, such as ``"%"``,
+            are used unchanged.
         """
         for what, wording in wordings.items():
             self._bound += ((None if widget is self else widget, what, wording),)
@@ -152,10 +152,10 @@ class Retranslated(_Mixin):
         return widget
 
     def retranslate(self) -> None:
-        """Update all texts that are not bound by `texted`."""
+        """Update all texts that are not bound by `texted`; widgets with such texts override this."""
 
     def word(self) -> None:
-        """Set all texts of the widget again, in the present language."""
+        """Set all texts of the widget again after a change of language."""
         for widget, what, wording in self._bound:
             _set(self if widget is None else widget, what, wording)
         self.retranslate()
@@ -236,7 +236,7 @@ class PictureButton(Button):
     picture : str
         See `icon`.
     text_id, run, name, tip_id
-        As of `Button`.
+        See `Button`.
     """
 
     def __init__(
@@ -296,6 +296,7 @@ class OkCancel(Retranslated, QDialogButtonBox):
     Attributes
     ----------
     ok : QPushButton
+        The accepting button.
     """
 
     def __init__(self, ok_id: str, cancel_id: str) -> None:
@@ -307,7 +308,7 @@ class OkCancel(Retranslated, QDialogButtonBox):
 
 
 class Check(Retranslated, QCheckBox):
-    """A box to tick with the text of an id."""
+    """A check box with a text by id."""
 
     def __init__(self, text_id: str) -> None:
         super().__init__()

@@ -9,7 +9,7 @@ from widgets.common.instrument_name import language
 
 
 def kind_name(kind: str) -> str:
-    """The name of a kind of event (`app.plan.event_id.EventId`)."""
+    """Return the translated name of a kind of event (`app.plan.event_id.EventId`)."""
     return _named("event", kind)
 
 
@@ -19,12 +19,12 @@ def expression_name(name: str) -> str:
 
 
 def mark_name(kind: str) -> str:
-    """The name of a kind of mark (`app.score.marks`)."""
+    """Return the translated name of a kind of mark (`app.score.marks`)."""
     return _named(MARK, kind)
 
 
 def pose_name(target: str) -> str:
-    """Return the name of the part that a pose correction holds differently."""
+    """Return the translated name of the part of body or instrument that a pose correction moves."""
     return _named("pose_name", target)
 
 
@@ -47,6 +47,6 @@ def habit_name(name: str) -> str:
 
 
 def _named(room: str, name: str) -> str:
-    """Return the text of a name; the name itself if there is no text."""
+    """Return the translated text for a name in a group of texts; the name itself if there is no text."""
     text = tr(f"{room}.{name}")
     return name if text == f"{room}.{name}" else text

@@ -26,7 +26,7 @@ class FingeringChip(Chip):
     Parameters
     ----------
     note : str
-        Text beside the fingering: cents, tags.
+        Text next to the fingering: deviation in cents, tags.
     """
 
     def __init__(

@@ -43,20 +43,20 @@ NAMES_GAP_PX = 8.0
 
 @dataclass(frozen=True)
 class Slot:
-    """A position of a slide: name and place, 0..1."""
+    """A named position of a slide, with its place 0..1."""
 
     name: str
     place: float
 
 
 def hand_text(hand: str) -> str:
-    """Return the abbreviation of a hand, ``"left"`` or ``"right"``."""
+    """Return the translated abbreviation of a hand, ``"left"`` or ``"right"``."""
     hands = {"left": tr("fingering_name.l"), "right": tr("fingering_name.r")}
     return hands.get(hand, hand)
 
 
 def part_text(part: str) -> str:
-    """A finger, or the hand as a whole."""
+    """Return the translated name of a finger, or of the hand as a whole."""
     parts = {
         "thumb": tr("fingering_name.thumb"),
         "index": tr("fingering_name.index"),
@@ -75,9 +75,9 @@ def finger_text(mover: str) -> str:
 
 
 def slide_slots(instrument: InstrumentMap, control: Control) -> tuple[Slot, ...]:
-    """Return the named positions of a slide: the mean place of every label that moves only this control.
+    """Return the named positions of a slide: the mean place of each fingering label that moves only this control.
 
-    A label is played slightly shorter or longer for some notes.
+    A mean is used because a position is slightly shorter or longer for some notes.
     """
     places: dict[str, list[float]] = {}
     for fingering in instrument.fingerings:
@@ -95,9 +95,9 @@ class FingeringDiagram(QWidget):
     Signals
     -------
     pressed(str)
-        A key, valve or hole of this name was clicked, where the diagram was set to listen (`set_editable`).
+        A key, valve or hole of this name was clicked; emitted only if the diagram is editable (`set_editable`).
     placed()
-        It has another place or size.
+        Position or size of the diagram has changed.
     """
 
     pressed = Signal(str)

@@ -18,14 +18,14 @@ LEAST_SIGN_PX = 9.0
 
 @dataclass(frozen=True)
 class ChartPlace:
-    """Place of a chart in a picture.
+    """Position and scale of a fingering chart in a drawing.
 
     Attributes
     ----------
     middle_px, top_px : float
-        The column's middle, and the height of a key at 0.
+        x of the middle of the column of holes, and y of the position 0 of the chart.
     hole_px : float
-        Distance of holes in pixels.
+        Distance between neighbouring holes in pixels.
     squeeze : float
         Width of the parts beside the column relative to the scale of the height; 0 for ticks.
     """
@@ -55,7 +55,7 @@ class ChartPlace:
 
 @dataclass(frozen=True)
 class ChartColours:
-    """Colours of closed parts, of outlines and background of open ones, and of signs on both."""
+    """Colours of a fingering chart: closed parts, outlines and background of open ones, and signs on both."""
 
     closed: QColor
     line: QColor
@@ -71,8 +71,8 @@ def chart_size(chart: KeyChart, hole_px: float) -> QSizeF:
 
 
 def chart_sides(chart: KeyChart, place: ChartPlace, values: Mapping[str, float] | None = None) -> tuple[float, float]:
-    """Return the extents to the left and right of the column's middle; with ``values``, of the parts drawn if only
-    pressed keys are shown.
+    """Return the extents of a chart to the left and right of the middle of its column, in pixels. With ``values``,
+    those of the parts that are drawn if only pressed keys are shown.
     """
     boxes = [place.box(key) for key in chart.keys if values is None or _is_drawn(key, values)]
     return (

@@ -37,7 +37,9 @@ def words_of_tags(tags: Iterable[str]) -> list[str]:
 
 
 def tags_of_text(text: str) -> list[str]:
-    """Return the tags in a text with commas, typed as words, as in maps, or freely."""
+    """Return the tags in a text separated by commas; translated words are converted to the tags in maps, others are
+    unchanged.
+    """
     known = {word.casefold(): tag for tag, word in tag_words().items()}
     typed = [word.strip() for word in _BETWEEN.split(text)]
     return [known.get(word.casefold(), word) for word in typed if word]

@@ -12,7 +12,7 @@ class FlowLayout(QLayout):
     Parameters
     ----------
     gap_px : int
-        Between neighbours and between lines.
+        Space between neighbours and between lines.
     """
 
     def __init__(self, parent: QWidget | None = None, gap_px: int = 4) -> None:
@@ -32,7 +32,7 @@ class FlowLayout(QLayout):
                 widget.deleteLater()
 
     def _arrange(self, room: QRect, place: bool) -> int:
-        """Return the height of the lines; also move the widgets there if ``place`` is true."""
+        """Return the total height of the lines for a width; with ``place``, also move the widgets there."""
         margins = self.contentsMargins()
         area = room.marginsRemoved(margins)
         y = area.y()
@@ -47,7 +47,7 @@ class FlowLayout(QLayout):
         return max(y - self.spacing(), area.y()) - room.y() + margins.bottom()
 
     def _lines(self, width_px: int) -> list[list[tuple[QLayoutItem, QSize]]]:
-        """Divide the visible items into lines of at most ``width_px``; returns each item with its size."""
+        """Divide the visible items into lines of at most ``width_px``; return each item with its size."""
         lines: list[list[tuple[QLayoutItem, QSize]]] = []
         used_px = 0
         for item in self._items:

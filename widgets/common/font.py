@@ -1,4 +1,4 @@
-"""The font of the window and of pictures: the system's with Japanese characters."""
+"""The font of the window and of images: the system's font, followed by one with Japanese characters."""
 
 from __future__ import annotations
 

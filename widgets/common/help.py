@@ -1,4 +1,4 @@
-"""Requests for help: a dialog's button and F1 ask the window for the section of the guide."""
+"""Requests for help: a dialog's button and F1 show the section of the guide about a widget."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class ShowsHelp(Protocol):
 
 
 def ask_for_help(about: QWidget) -> None:
-    """Show the guide's section for a widget in its window."""
+    """Show the guide's section about a widget, by the window that contains it."""
     owner: QWidget | None = about
     while owner is not None and not isinstance(owner, ShowsHelp):
         owner = owner.parentWidget()

@@ -1,7 +1,7 @@
 """Icons: line drawings in the colours of the theme.
 
-A drawing is ``resources/icons/<name>.svg`` with a view box of 24 and lines of ``currentColor``. It is rendered for each
-size, so that it is sharp at every scale of the screen.
+Each is a file ``resources/icons/<name>.svg`` with a view box of 24 and lines of ``currentColor``. It is rendered for
+each size, so that it is sharp at every scale of the screen.
 """
 
 from __future__ import annotations
@@ -28,18 +28,20 @@ def icon(name: str, tokens: Tokens, colour: str | None = None) -> QIcon:
     name : str
         File name in ``resources/icons`` without suffix.
     colour : str, optional
-        ``#rrggbb`` instead of the theme's.
+        Colour ``#rrggbb`` instead of the theme's.
 
     Raises
     ------
     FileNotFoundError
-        There is no such drawing.
+        There is no icon of that name.
     """
     return _icon(name, colour or tokens.text, colour or tokens.accent)
 
 
 def pixmap(name: str, size_px: int, colour: str, ratio: float = 1.0) -> QPixmap:
-    """Return a drawing as a picture of ``size_px`` device-independent pixels."""
+    """Return the icon of a name as an image of ``size_px`` device-independent pixels; ``ratio`` is the number of screen
+    pixels per pixel.
+    """
     result = _draw(source(name, colour), round(size_px * ratio), 1.0)
     result.setDevicePixelRatio(ratio)
     return result
@@ -68,7 +70,7 @@ def source(name: str, colour: str) -> bytes:
 
 
 def draw_grip(painter: QPainter, box: QRect, colour: str) -> None:
-    """Draw the grip in the middle of a level splitter."""
+    """Draw the grip in the middle of a horizontal splitter."""
     renderer = QSvgRenderer(QByteArray(source("grip_level", colour)))
     place = QRectF(QPointF(), QSizeF(renderer.defaultSize()))
     place.moveCenter(QRectF(box).center())

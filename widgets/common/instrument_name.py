@@ -11,7 +11,7 @@ from instrument_maps.model import InstrumentMap
 
 
 def language() -> str:
-    """The language the editor speaks now: ``"en"`` or ``"ja"``."""
+    """Return the language of the editor: ``"en"`` or ``"ja"``."""
     # The translation of this word is the language's own tag, so that it always agrees with the texts around.
     return tr("language.tag")
 
@@ -22,7 +22,9 @@ def instrument_name(instrument: InstrumentMap) -> str:
 
 
 def family_name(family: str) -> str:
-    """Return the name of a family of instruments, as for a section of players; the empty family has a name too."""
+    """Return the name of a family of instruments, as for a section of players; there is also a name for the empty
+    family.
+    """
     name = vocabulary().family_names.get(family)
     if name is None:
         return tr("instrument_family.others")

@@ -40,7 +40,7 @@ def in_row(
     ----------
     *items : Item
     of : QWidget, optional
-        Widget whose contents the items are.
+        Widget that gets the layout.
     margins : int or tuple of int, optional
         Margins in pixels: left, top, right and bottom, or a single value; None for the style's default.
     spacing : int, optional
@@ -52,13 +52,13 @@ def in_row(
 def in_column(
     *items: Item, of: QWidget | None = None, margins: Margins | None = None, spacing: int | None = None
 ) -> QVBoxLayout:
-    """Items from top to bottom; parameters as of `in_row`."""
+    """Return a layout with items from top to bottom; parameters as in `in_row`."""
     return _filled(QVBoxLayout(), items, of, margins, spacing)
 
 
 def in_form(rows: Mapping[str, Part], of: QWidget | None = None) -> QFormLayout:
-    """Return a layout of fields below one another with captions by text id; the caption of a nested layout belongs to
-    its first field.
+    """Return a form with captions (by text id) and fields; the caption of a nested layout belongs to its
+    first field.
     """
     layout = QFormLayout()
     layout.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
@@ -80,7 +80,7 @@ def room_for(dialog: QDialog) -> QSize:
 
 
 class _Shrinking(QWidget):
-    """Contents whose wrapped texts have room of their own."""
+    """Widget whose height follows from its layout, so that wrapped texts are not cut off."""
 
     # Qt's own names
 
@@ -90,7 +90,7 @@ class _Shrinking(QWidget):
 
 
 class Scrolled(QScrollArea):
-    """A vertically scrolling area as large as its contents request.
+    """A vertically scrolling area that is as large as its contents need.
 
     Parameters
     ----------

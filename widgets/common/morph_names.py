@@ -9,7 +9,7 @@ _WHOLE = frozenset({"jawLeft", "jawRight", "mouthLeft", "mouthRight"})
 
 
 def morph_name(morph: str) -> str:
-    """Return the name of a morph target in words; unknown ones are unchanged."""
+    """Return the name of a morph target in words; an unknown name is returned unchanged."""
     stem, side = morph, ""
     if morph not in _WHOLE:
         for ending, sign in (("Left", tr("morph.left_side")), ("Right", tr("morph.right_side"))):

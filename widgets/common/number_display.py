@@ -23,8 +23,8 @@ _PAD_PX = 7.0
 
 
 class NumberDisplay(QWidget):
-    """Display of a number by a filled share of its range, or of several different values; `NumberSlider` makes it
-    editable.
+    """Display of a number as a bar filled by its share of a range; can also stand for several different values.
+    `NumberSlider` makes it editable.
 
     Parameters
     ----------
@@ -35,11 +35,11 @@ class NumberDisplay(QWidget):
     default : float
         Value that is not marked as changed by the user.
     decimals : int
-        Decimals shown.
+        Number of decimals shown.
     slides : bool
-        Whether the range is short enough to be filled like a slider.
+        Whether the bar is filled, for a range short enough to be used as a slider.
     resets : bool
-        Whether there is a default.
+        Whether there is a default to which the number can be reset.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class NumberDisplay(QWidget):
 
     @property
     def mixed(self) -> bool:
-        """True if it represents several different values."""
+        """True if it stands for several different values."""
         return self._mixed
 
     @property
@@ -103,11 +103,11 @@ class NumberDisplay(QWidget):
         Parameters
         ----------
         mixed : bool
-            Whether it represents several different values; a drag starts from ``value``.
+            Whether it stands for several different values; a drag then starts from ``value``.
         default : float, optional
-            Another value to reset to.
+            New default.
         by_hand : bool, optional
-            Whether it is marked as changed by the user; None if it differs from the default.
+            Whether it is marked as changed by the user; None to mark it if it differs from the default.
         """
         if default is not None:
             self._default = default
@@ -126,7 +126,7 @@ class NumberDisplay(QWidget):
         return self._value, self.value_text(), self.by_hand
 
     def set_texts(self, label: str, unit: str = "", tool_tip: str = "") -> None:
-        """The words around the number, in the language of the editor."""
+        """Set the label, the unit and the tool tip of the number, in the language of the editor."""
         self._label, self._unit = label, unit
         self.setAccessibleName(label)
         self.setToolTip(tool_tip)
@@ -134,12 +134,12 @@ class NumberDisplay(QWidget):
         self.update()
 
     def set_wording(self, words: Callable[[float], str], reads: Callable[[str], float | None]) -> None:
-        """Set functions that write and read the value in another form than a number, such as pitch names."""
+        """Set functions that write and read the value in a form other than a number, such as pitch names."""
         self._words, self._reads = words, reads
         self.update()
 
     def show_as_place(self) -> None:
-        """Write and read the value, ticks of the score, as bar, beat and ticks."""
+        """Show and read the value, in ticks of the score, as bar, beat and ticks."""
 
         def tick(text: str) -> float | None:
             found = self._session.project.score.metre_map.tick_of_label(text)

@@ -63,7 +63,7 @@ class NumberSlider(NumberDisplay):
     default : float
         Value after a reset.
     step : float
-        Of keys and wheel, and of a drag without ``slides``.
+        Step of keys and wheel, and of a drag without ``slides``.
     slides : bool
         Whether the range is short enough for a filled slider; else a drag changes the value by steps.
     resets : bool
@@ -75,12 +75,12 @@ class NumberSlider(NumberDisplay):
     Signals
     -------
     changed(float, object)
-        The user set a value. The object is a token shared by all values of one drag, None for a single change.
+        The user set a value. The object is a token shared by all values of one drag; None for a single change.
     reset(float)
         The user resets to the default; emitted instead of `changed` if a slot is connected that removes the stored
         value.
     released()
-        A drag or turn of the wheel is over: end the gesture.
+        A drag or a turn of the wheel has ended.
     """
 
     changed = Signal(float, object)
@@ -194,7 +194,7 @@ class NumberSlider(NumberDisplay):
         self._request(self._value + count * max(self._step * fine, 10.0**-self._decimals), self._token)
 
     def _kept(self, value: float) -> float:
-        """Within the range, and no finer than is shown."""
+        """Return a value limited to the range and rounded to the displayed decimals."""
         return min(max(round(value, self._decimals), self._minimum), self._maximum) + 0.0
 
     def _end(self) -> None:

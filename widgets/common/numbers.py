@@ -1,4 +1,4 @@
-"""Reads and writes numbers in the user's number format."""
+"""Reading and writing of numbers in the user's number format."""
 
 from __future__ import annotations
 
@@ -52,6 +52,6 @@ def _worked_out(node: ast.expr) -> float:
 
 
 def number_text(value: float, decimals: int) -> str:
-    """A number with some decimals, a true minus sign and no negative zero."""
+    """Return a number with some decimals, with a true minus sign and without negative zero."""
     rounded = round(value, decimals) + 0.0
     return f"{rounded:.{decimals}f}".replace("-", "−")

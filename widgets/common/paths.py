@@ -51,8 +51,8 @@ def dropped_paths(event: QDropEvent) -> list[Path]:
 
 
 def ask_for_file(parent: QWidget | None, title: str, start: Path | None, filters: str) -> Path | None:
-    """Return an existing file chosen by the user; None if cancelled. The dialog starts in a folder, at a file, or at
-    home.
+    """Return an existing file chosen by the user; None if cancelled. The dialog starts at the folder or file ``start``,
+    or in the home folder.
     """
     url, _ = QFileDialog.getOpenFileUrl(
         parent, title, url_of(_reachable(start)), filters, options=_options(), supportedSchemes=_SCHEMES
@@ -85,7 +85,9 @@ def ask_for_folder(parent: QWidget | None, title: str, start: Path | None) -> Pa
 
 
 def _options() -> QFileDialog.Option:
-    """Return the options for the system's dialog if it has the editor's language, else for Qt's."""
+    """Return the option of a file dialog that selects the system's dialog if it has the editor's language,
+    else Qt's.
+    """
     return QFileDialog.Option(0) if speaks_as_system() else QFileDialog.Option.DontUseNativeDialog
 
 
@@ -95,7 +97,7 @@ def show_folder(folder: Path) -> None:
 
 
 def _reachable(path: Path | None) -> Path:
-    """Return the path or the nearest parent that Qt can open; home for a path without permission."""
+    """Return the path or the nearest parent that Qt can open; the home folder for a path without permission."""
     path = path if path is not None and may_touch(path) else Path.home()
     return next(place for place in (path, *path.parents, Path()) if is_text(place))
 
@@ -113,7 +115,7 @@ class PathEdit(QLineEdit):
 
     @property
     def path(self) -> Path | None:
-        """The path; None if the field is empty."""
+        """The path in the field; None if the field is empty."""
         if self._set is not None and self.text() == stored(self._set):
             return self._set  # also one that ends with a blank
         text = self.text().strip()

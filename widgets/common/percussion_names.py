@@ -6,7 +6,7 @@ from app.editor.translated import tr
 
 
 def percussion_names() -> tuple[str, ...]:
-    """Names of the percussion sounds of `app.choreography.rhythm.SYMBOLS`, from note 35 on."""
+    """Return the names of the percussion sounds in `app.choreography.rhythm.SYMBOLS`, from MIDI note 35 on."""
     return (
         tr("percussion.acoustic_bass_drum"),
         tr("percussion.bass_drum_1"),

@@ -26,14 +26,14 @@ _GERMAN: Final = {
 
 
 def pitch_names(display: PitchDisplay) -> tuple[str, ...]:
-    """Return the names of the twelve pitch classes from C on, by the user's settings."""
+    """Return the names of the twelve pitch classes from C on in the user's notation."""
     if display.names == "german":
         return GERMAN
     return spelled(_syllables()) if display.names == "syllables" else LETTERS
 
 
 def _syllables() -> tuple[str, ...]:
-    """Syllables (do, re, ...) for the notes C to B, in the editor's language."""
+    """Return the syllables (do, re, ...) for the notes C to B, in the editor's language."""
     return tuple(tr("pitch.do_re_mi_fa_so").split())
 
 
@@ -50,10 +50,10 @@ def pitch_text(display: PitchDisplay, concert_pitch: int, transposition_semitone
 
 
 def pitch_from(display: PitchDisplay, text: str, transposition_semitones: int = 0) -> int | None:
-    """Return the sounding MIDI pitch of a text in the user's notation; None if it is invalid.
+    """Return the sounding MIDI pitch for a text in the user's notation; None if it is invalid.
 
-    ``"B♭3"``, ``"bb3"``, ``"シ♭3"``, ``"Es3"`` or a MIDI number (always sounding). ``"B3"`` is a semitone lower in
-    German notation.
+    Examples are ``"B♭3"``, ``"bb3"``, ``"シ♭3"``, ``"Es3"``, or a MIDI number (always sounding). ``"B3"`` is a semitone
+    lower in German notation.
     """
     plain = unicodedata.normalize("NFKC", text).strip()
     if plain.isascii() and plain.isdigit():

@@ -1,8 +1,8 @@
 """Widgets that show text literally.
 
-Qt interprets text that looks like HTML as HTML, and opens files named in it. Texts of the program come from files and
-are never HTML. The program's labels and message boxes are plain by default; Qt's own (tips, file dialogs) by the
-theme's style sheet. A test ensures that no other classes and methods show HTML.
+Qt interprets text that looks like HTML as HTML, and opens files named in it. Texts in the program come from files and
+must never be shown as HTML. The program's labels and message boxes are plain by default; Qt's own widgets (tips, file
+dialogs) are made plain by the theme's style sheet. A test ensures that no other classes and methods show HTML.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class MessageBox(QMessageBox):
         self.setTextFormat(Qt.TextFormat.PlainText)
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Make the texts selectable; Qt creates the label of the explanation late."""
+        """Make the texts selectable; Qt creates the label for the longer text only when the box is shown."""
         for label in self.findChildren(QLabel):
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         super().showEvent(event)
@@ -76,7 +76,7 @@ def ask(
 
 
 class ComboBox(QComboBox):
-    """A combo box with a plain tool tip, whose open list receives all keys.
+    """A combo box with a plain-text tool tip, whose open list receives all keys.
 
     Qt does not apply style sheets to frames within a combo box, such as tips. While the list is open, Qt still runs the
     panel's shortcuts: arrow keys would move notes. The current item has the accent colour, since the style would give
@@ -99,7 +99,7 @@ class ComboBox(QComboBox):
         return super().eventFilter(watched, event)
 
     def event(self, event: QEvent) -> bool:
-        """Show the tool tip as one of the parent."""
+        """Show the tool tip as if it were the parent's, so that it has plain text."""
         if not isinstance(event, QHelpEvent) or event.type() != QEvent.Type.ToolTip:
             return super().event(event)
         QToolTip.showText(event.globalPos(), self.toolTip(), self.parentWidget())

@@ -1,4 +1,4 @@
-"""Sections of a panel that can be folded."""
+"""Sections of a panel that can be folded, each with a header."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class SectionHeader(QWidget):
             self.toggled.emit(is_open)
 
     def set_texts(self, title: str, note: str = "", warns: bool = False) -> None:
-        """Set the title and a short note at its right."""
+        """Set the title and a short note at the right of it; ``warns`` shows the note as a warning."""
         if (title, note, warns) != (self._title, self._note, self._warns):
             self._title, self._note, self._warns = title, note, warns
             self.setAccessibleName(f"{title} {note}".strip())
@@ -125,6 +125,7 @@ class Section(QWidget):
     Attributes
     ----------
     header : SectionHeader
+        Title line.
     body : QVBoxLayout
         Layout for the contents.
     """

@@ -26,7 +26,7 @@ class ColourSwatch(QPushButton):
     Signals
     -------
     chosen(str)
-        ``#rrggbb``; empty: back to the automatic colour.
+        The user chose ``#rrggbb``; empty for the automatic colour.
     """
 
     chosen = Signal(str)
@@ -43,13 +43,13 @@ class ColourSwatch(QPushButton):
         session.theme_changed.connect(self.update)
 
     def show_colours(self, colours: tuple[str, ...]) -> None:
-        """Set the colours shown side by side."""
+        """Set the colours shown side by side on the button."""
         if colours != self._colours:
             self._colours = colours
             self.update()
 
     def offer(self) -> None:
-        """Open the list of colours."""
+        """Open the menu of colours."""
         menu = named(QMenu(self), "colour_menu")
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         on_click(menu.addAction(self.tr("colour_swatch.automatic")), self.chosen.emit, "")

@@ -56,7 +56,7 @@ def sentence(message: Message, session: Session | None = None, player_id: str | 
 
 
 def note_text(session: Session, note: Note, player: Player | None) -> str:
-    """Return a note's pitch, bar and beat as text."""
+    """Return a note's pitch, bar and beat as text; ``player`` gives the instrument for written pitches."""
     place = note_place(session.project.score, note)
     return tr(place.id).format(**{**place.arguments, "pitch": player_pitch(session, note.pitch, player)})
 
@@ -103,7 +103,7 @@ def player_pitch(session: Session, pitch: float, player: Player | None) -> str:
 
 
 def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -> str:
-    """Return the text for an anchor: a note for a note id, kind and place for an event id, other names unchanged."""
+    """Return an anchor as text: a note id as a note, an event id as kind and place, other names unchanged."""
     note = note_of(session.project.score, id, player.part_id if player is not None else None)
     if note is not None:
         return note_text(session, note, player)
@@ -122,7 +122,7 @@ def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -
 
 
 def _gesture(name: str) -> str:
-    """Return the name of a gesture kind as in its command, or the title of a gesture from a table."""
+    """Return the translated name of a gesture kind, or the title of a gesture from a table."""
     return tr(f"action.gesture.{name}") if name in GESTURE_KINDS else gesture_name(name)
 
 
@@ -138,7 +138,7 @@ _NOTE_ID = re.compile(r"\d+:\d+")
 
 
 def _label(kind: str, name: str) -> str:
-    """Return the user's name for a correction of a kind."""
+    """Return the translated name of a correction of a kind; ``name`` is the user's name for it."""
     if kind == "additive":
         return channel_name(name)
     if kind == "pose":
@@ -153,7 +153,7 @@ def _targets() -> dict[str, str]:
 
 
 def _touches() -> dict[str, str]:
-    """Return the names of parts of a hand, without the touching side of fingers."""
+    """Return the translated names of the parts of a hand, in which the side of a finger that touches is left out."""
     templates = {
         "thumb": tr("word.thumb"),
         "index": tr("word.index_finger"),

@@ -58,7 +58,7 @@ class AutomaticNumber(QWidget):
         self._range = least, most
 
     def show_value(self, value: float | None, found: float | None) -> None:
-        """Show a value, or the automatic one if it is None, without a signal."""
+        """Display a value, or the automatic one ``found`` if it is None, without emitting a signal."""
         self.number.blockSignals(True)
         self.check.setChecked(value is None)
         self.number.setEnabled(value is not None)

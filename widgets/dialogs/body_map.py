@@ -64,7 +64,9 @@ _FINGERS: Final[Mapping[str, tuple[tuple[float, float], float, tuple[float, floa
 
 @cache
 def places() -> Mapping[str, tuple[float, float]]:
-    """Position of each joint on the drawing of a body: from the middle and from the top, in heights of the drawing."""
+    """Return the position of each joint in the drawing of a body: x from the middle and y from the top, in heights of
+    the drawing.
+    """
     found = dict(_BODY)
     for finger, (first, degrees, along) in _FINGERS.items():
         way = (-math.sin(math.radians(degrees)), -math.cos(math.radians(degrees)))
@@ -92,7 +94,7 @@ class BodyMap(QWidget):
     chosen(str)
         The user chose a joint.
     opened(str)
-        The user wants to choose another bone for the joint.
+        The user opened the joint, to choose another bone for it.
     """
 
     chosen = Signal(str)
@@ -272,7 +274,7 @@ class BodyMap(QWidget):
 
 
 def joints() -> tuple[str, ...]:
-    """Names of the joints that can be selected on the picture, in the skeleton's order."""
+    """Return the names of the joints that can be selected in the drawing, in the skeleton's order."""
     return tuple(joint.name for joint in load_skeleton().joints if joint.name != "root")
 
 

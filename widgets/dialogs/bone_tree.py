@@ -25,7 +25,7 @@ class BoneTree(QWidget):
     Signals
     -------
     chosen(str)
-        The user selects this bone.
+        The user chose the bone of this name.
     """
 
     chosen = Signal(str)
@@ -58,7 +58,7 @@ class BoneTree(QWidget):
         in_column(self.search, (self.tree, 1), of=self, margins=0, spacing=4)
 
     def show_used(self, used: Mapping[int, str]) -> None:
-        """Show the joint of each used bone beside it."""
+        """Show next to each used bone the joint that uses it, by index of the bone."""
         dim = QColor(self._session.tokens.text_dim)
         for bone, item in enumerate(self._items):
             text = used.get(bone, "")
@@ -123,7 +123,7 @@ class BoneTree(QWidget):
 
 
 def _depth(figure: Figure) -> int:
-    """Return the greatest number of ancestors of a bone."""
+    """Return the greatest number of ancestors that a bone of the figure has."""
     depths = list[int]()
     for parent in figure.parents:
         depths.append(0 if parent < 0 else depths[parent] + 1)
@@ -131,7 +131,7 @@ def _depth(figure: Figure) -> int:
 
 
 class _Tree(QTreeWidget):
-    """Enter activates, wherever the style would not."""
+    """Tree that emits ``itemActivated`` on Enter regardless of the desktop's style."""
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         item = self.currentItem()

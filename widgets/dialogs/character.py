@@ -53,21 +53,21 @@ _SOON_MS: Final = 60
 
 
 class CharacterDialog(Retranslated, QDialog):
-    """Dialog about the character in a file.
+    """Dialog that maps the bones and morphs of a character's file, and adds the character.
 
     Parameters
     ----------
     path : Path
         Path of the file, for its name.
     draft : CharacterDraft
-        Known settings.
+        Initial settings.
     offered : str
         Name of the player or players that may get the character; empty for none.
 
     Signals
     -------
     agreed(object, bool)
-        The user accepts the character of a `CharacterDraft`, and whether the selected players get it.
+        The user accepted a `CharacterDraft`; True if the selected players get the character.
     """
 
     agreed = Signal(object, bool)
@@ -125,7 +125,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._choose_first()
 
     def _untouched(self) -> CharacterDraft:
-        """Return a draft with the same title and automatic settings."""
+        """Return a draft with the present title and otherwise automatic settings."""
         return found_by_itself(self._figure, self.draft.title)
 
     # Building
@@ -301,7 +301,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._ask_picture()
 
     def _show_reported(self) -> None:
-        """Show what will not be animated, and the result of holding an instrument."""
+        """Show what will not be animated, and whether the character can hold an instrument."""
         reported = [sentence(note) for note in self._figure.notes if note.id != ODD_HEIGHT]
         reported += not_played(self._figure, self._made)
         if self._seen is not None:
@@ -391,7 +391,7 @@ class CharacterDialog(Retranslated, QDialog):
     # Qt's own names
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Undo and redo, wherever the keyboard is."""
+        """Handle the shortcuts of undo and redo, regardless of the field with the keyboard focus."""
         if event.matches(QKeySequence.StandardKey.Undo):
             self.undo()
         elif event.matches(QKeySequence.StandardKey.Redo):

@@ -1,4 +1,4 @@
-"""State of a character while the user assigns joints and face shapes, and its consequences."""
+"""Settings of a character while the user assigns joints and face shapes, and the resulting mapping."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class CharacterDraft:
     morphs : mapping of str to mapping of str to float
         Corrected morph weights by ARKit shape.
     height_m : float
-        0: as tall as in the file.
+        Height of the character; 0 for the height in the file.
     hidden : tuple of str
         Hidden meshes of the file.
     """
@@ -51,18 +51,20 @@ class CharacterDraft:
     hidden: tuple[str, ...] = ()
 
     def with_joint(self, joint: str, bone: str | None) -> CharacterDraft:
-        """Return the draft with another bone for a joint; empty for none, None for the automatic one."""
+        """Return the draft with another bone for a joint; an empty name for no bone, None for the automatic one."""
         joints = {name: own for name, own in self.joints.items() if name != joint}
         return replace(self, joints=joints if bone is None else {**joints, joint: bone})
 
     def with_face(self, face: str, parts: Mapping[str, float] | None) -> CharacterDraft:
-        """Return the draft with other morphs for a face shape; empty for none, None for the automatic ones."""
+        """Return the draft with other morphs for a face shape; an empty mapping for none, None for the
+        automatic ones.
+        """
         morphs = {name: own for name, own in self.morphs.items() if name != face}
         return replace(self, morphs=morphs if parts is None else {**morphs, face: dict(parts)})
 
 
 def found_by_itself(figure: Figure, title: str) -> CharacterDraft:
-    """The draft without any entry of the user's: props in the hands are left out."""
+    """Return the draft without any setting by the user; props in the hands are hidden."""
     return CharacterDraft(title, hidden=props_in_hands(figure, map_joints(figure).bones))
 
 
@@ -81,14 +83,15 @@ class Mapped:
         return tuple(joint for joint in REQUIRED_JOINTS if joint not in self.joints.bones)
 
     def state(self, joint: str) -> State:
-        """Return the reliability of a joint's bone."""
+        """Return the reliability of the bone found for a joint."""
         if joint not in self.joints.bones:
             return "missing"
         return "doubtful" if joint in self.joints.doubtful else "mapped"
 
 
 def mapped(figure: Figure, draft: CharacterDraft, before: Mapped | None = None) -> Mapped:
-    """Return the mapping of a figure by a draft, reusing unchanged results of the previous mapping.
+    """Return the joints and face shapes of a figure with a draft's corrections; unchanged results of ``before`` are
+    reused.
 
     Raises FileError if the draft refers to bones or morphs that the figure lacks.
     """
@@ -101,13 +104,13 @@ def mapped(figure: Figure, draft: CharacterDraft, before: Mapped | None = None) 
 
 
 def character_of(figure: Figure, made: Mapped) -> Character:
-    """Return the character of a draft. Raises FileError if it cannot play."""
+    """Return the character that results from a mapping. Raises FileError if it cannot play."""
     figure = figure.without(made.draft.hidden)
     return figure_character(figure, made.draft.title, made.joints.bones, made.faces.morphs, made.draft.height_m)
 
 
 def nothing_shown(figure: Figure, draft: CharacterDraft) -> bool:
-    """Return whether every mesh of a figure is off."""
+    """Return whether a draft hides every mesh of a figure."""
     return all(mesh.name in draft.hidden for mesh in figure.meshes)
 
 
@@ -208,7 +211,7 @@ def not_played(figure: Figure, made: Mapped) -> tuple[str, ...]:
 
 
 def notes_beside_joints(made: Mapped, notes: Sequence[Message]) -> tuple[Message, ...]:
-    """Return notes about a body that `not_played` does not include: sizes, and skin that follows no bone."""
+    """Return those notes about a body that `not_played` does not repeat: about sizes, and skin that follows no bone."""
     bones = made.joints.bones
     fingers = all(any(bone.startswith(side + finger) for bone in bones) for side in _SIDES for finger in _FINGERS)
     said = {"character.lips_still"} | (set() if fingers else {"character.no_fingers", "character.some_fingers"})
@@ -216,7 +219,7 @@ def notes_beside_joints(made: Mapped, notes: Sequence[Message]) -> tuple[Message
 
 
 def _props(figure: Figure, made: Mapped) -> list[str]:
-    """Return sentences about props in the hands, hidden or shown."""
+    """Return sentences about props in the hands, whether hidden or shown."""
     props = props_in_hands(figure, made.joints.bones)
     sentences = []
     for id, hidden in (("character_words.props_left_out", True), ("character_words.props_shown", False)):

@@ -32,10 +32,11 @@ class CharactersDialog(Retranslated, QDialog):
     Signals
     -------
     add_asked(), make_asked()
+        The user wants to add a character from a file, or to make a person.
     edit_asked(str), remove_asked(str)
-        Of the character of this id.
+        The user wants to change or remove the character with this id.
     dropped(object)
-        A character's file was dropped here: its `Path`.
+        The user dropped a character's file with this `Path`.
     """
 
     add_asked = Signal()
@@ -102,7 +103,7 @@ class CharactersDialog(Retranslated, QDialog):
             button.setEnabled(bool(self.chosen))
 
     def _draw(self) -> None:
-        """Load every character in the background, and draw it in what most players wear."""
+        """Load all characters in the background, and draw each in the outfit that most players wear."""
         ids, ratio = tuple(character_library().own), self.devicePixelRatioF()
         worn = common_outfit(self._session.project)
         if not ids and not character_library().problems:

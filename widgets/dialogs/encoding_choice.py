@@ -29,12 +29,12 @@ _TITLES: Final = {
 
 
 class EncodingChoice(Retranslated, ComboBox):
-    """Combo box of common encodings after "automatic".
+    """Combo box with "automatic", then common encodings.
 
     Signals
     -------
     chosen(str or None)
-        By the user; None: automatic.
+        The user chose an encoding; None for automatic.
     """
 
     chosen = Signal(object)

@@ -12,7 +12,7 @@ from widgets.common.plain import ComboBox
 
 
 def bone_name_profiles(dialog: Retranslated) -> ComboBox:
-    """Return a combo box of tables of bone names by id, after an entry for the skeleton's own names."""
+    """Return a combo box with the skeleton's own bone names and with tables of bone names, by id."""
     box = named(ComboBox(), "export_bvh_names")
     # As wide as there is room, not as the longest title.
     box.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
@@ -23,7 +23,7 @@ def bone_name_profiles(dialog: Retranslated) -> ComboBox:
 
 
 def texture_sizes(dialog: Retranslated, chosen: TextureSize) -> ComboBox:
-    """Return the choice of the largest texture size in an export, from `TEXTURE_SIZES`, with ``chosen`` selected."""
+    """Return a combo box for the largest texture size in an export, from `TEXTURE_SIZES`, with ``chosen`` selected."""
     box = dialog.texted(named(ComboBox(), "export_textures"), tip="export_dialog.textures_tip")
     dialog.texted(box, options={str(px): _size_text(px) for px in TEXTURE_SIZES})
     box.setCurrentIndex(TEXTURE_SIZES.index(chosen))
@@ -31,8 +31,9 @@ def texture_sizes(dialog: Retranslated, chosen: TextureSize) -> ComboBox:
 
 
 def levels_of_detail(dialog: Retranslated, chosen: LevelChoice) -> ComboBox:
-    """Return the choice of the number of levels of detail in an export, from `LEVEL_CHOICES`, with ``chosen``
-    selected."""
+    """Return a combo box for the number of levels of detail in an export, from `LEVEL_CHOICES`, with ``chosen``
+    selected.
+    """
     box = dialog.texted(named(ComboBox(), "export_levels"), tip="export_dialog.levels_tip")
     dialog.texted(box, options={str(count): _level_text(count) for count in LEVEL_CHOICES})
     box.setCurrentIndex(LEVEL_CHOICES.index(chosen))

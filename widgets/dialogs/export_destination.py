@@ -21,8 +21,9 @@ Destination = Literal["folder", "unreal"]
 
 @dataclass(frozen=True)
 class Done:
-    """Result of an export: number of files, folder to show, excluded players, warnings; whether the Unreal project now
-    has a plug-in that the Unreal editor loads at its start.
+    """Result of an export: number of files, folder, excluded players, warnings, and the Unreal project if it is one.
+
+    ``new_plugin`` is True if the project got a plug-in that the Unreal editor loads only when it starts.
     """
 
     count: int
@@ -39,7 +40,7 @@ def write(
     stop_requested: Callable[[], bool],
     progress: Callable[[float, str], None],
 ) -> Done:
-    """Write an export to the request's folder. Texts in files are English as on the command line; the result is in the
+    """Write an export to its destination. Texts in files are English as on the command line; the result is in the
     editor's language.
     """
     if destination == "unreal":
@@ -67,7 +68,7 @@ def _left_out(report: Report) -> tuple[Message, ...]:
 
 
 class Written:
-    """Progress of an export, set by its thread.
+    """Progress of an export, set by the exporting thread and read by the dialog.
 
     Parameters
     ----------
@@ -94,7 +95,7 @@ class Written:
 
     @property
     def number(self) -> int | None:
-        """Return the number of the current performer in the order of starting, from 1; None for a file of all
-        performers.
+        """Return the number of the current performer in the order of starting, from 1; None while a file of several
+        performers is written.
         """
         return self._begun.get(self.label)

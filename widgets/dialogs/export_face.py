@@ -12,8 +12,9 @@ _COLUMNS = 3
 
 
 class FaceChooser(Retranslated, QWidget):
-    """A list of names for the curves, and a box for every part of a face; initially all curves are written under
-    ARKit's names."""
+    """Choice of the naming convention of face curves, and a check box for every part of a face; initially all parts
+    under ARKit's names.
+    """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -38,7 +39,7 @@ class FaceChooser(Retranslated, QWidget):
             layout.addWidget(box, 1 + row, column)
 
     def set_names_shown(self, shown: bool) -> None:
-        """Show or hide the choice of names, hidden if only ARKit's are possible."""
+        """Show or hide the choice of names, which is useless if only ARKit's are possible."""
         self._names.setVisible(shown)
 
     @property

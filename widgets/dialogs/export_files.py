@@ -52,11 +52,12 @@ def _some(names: tuple[str, ...]) -> str:
 
 
 class ExportDialog(WorkingDialog):
-    """Writes the players' files while the editor stays usable, and shows the result.
+    """Dialog that exports players' files in the background, and shows the result.
 
     Parameters
     ----------
     session : Session
+        Session with the piece.
     folder : Path
         Folder of the last export, or that of the project.
     unreal : Path, optional
@@ -69,7 +70,8 @@ class ExportDialog(WorkingDialog):
         Last choice of `TEXTURE_SIZES`.
     levels : int
         Last choice of `LEVEL_CHOICES`.
-    before : ExportedBars, of the piece's last export
+    before : ExportedBars
+        Bars of the piece's last export.
     source, creator : str
         Name of the piece's file; program and version, for the report.
     parent : QWidget, optional
@@ -207,7 +209,7 @@ class ExportDialog(WorkingDialog):
 
     @property
     def keys(self) -> KeyChoice:
-        """The chosen rule for the frames that get keys in the export."""
+        """Choice of the frames that get keys in the exported files."""
         return KEY_CHOICES[self._keys.currentIndex()]
 
     @property
@@ -217,12 +219,12 @@ class ExportDialog(WorkingDialog):
 
     @property
     def levels(self) -> LevelChoice:
-        """The chosen number of levels of detail; 0: the usual."""
+        """The chosen number of levels of detail; 0 for the usual number."""
         return LEVEL_CHOICES[self._levels.currentIndex()]
 
     @property
     def chosen_bars(self) -> ExportedBars:
-        """The range of bars to export, and the lead-in before it."""
+        """Bars to export, with the number of beats before them that are exported too."""
         return ExportedBars(self._range.bars, self._lead_in.value())
 
     def _request(self) -> ExportRequest:
@@ -365,7 +367,7 @@ class ExportDialog(WorkingDialog):
         self._files.setText(text)
 
     def _foreseen(self) -> str:
-        """Return a text about the files that will be written, replaced and removed."""
+        """Return a text about the files that the export will write, replace and remove."""
         performance, ids, bars = Performance(self._project), self.player_ids, self._range.bars
         place, made, source = self._place.path, self._formats, self._source
         if self._place.destination == "unreal":

@@ -16,7 +16,7 @@ _COLUMNS = 2
 
 
 def _missing() -> dict[Format, Message]:
-    """Return by format why it is not available on this computer; available ones are missing."""
+    """Return the reason why a format is not available on this computer, by format; available ones are left out."""
     missing: dict[Format, Message] = {}
     for name, kind in FILE_FORMATS.items():
         try:
@@ -71,12 +71,12 @@ class FormatChooser(Retranslated, QWidget):
 
     @property
     def sound(self) -> bool:
-        """True if the sound is written too."""
+        """True if the sound is written as well."""
         return self._sound.isChecked()
 
     @property
     def stage(self) -> bool:
-        """True if the whole stage is also written to one file; False if no chosen format supports this."""
+        """True if the whole stage is also written as one file; False if no chosen format supports this."""
         return self._stage.isChecked() and self._stage.isEnabledTo(self)
 
     @property
@@ -86,7 +86,7 @@ class FormatChooser(Retranslated, QWidget):
 
     @property
     def props(self) -> bool:
-        """True if straps and chairs are written too; it is off where no ticked kind of file can hold them."""
+        """True if straps and chairs are written as well; False if no chosen format can hold them."""
         return self._props.isChecked() and self._props.isEnabledTo(self)
 
     def _change(self) -> None:

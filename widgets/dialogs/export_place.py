@@ -23,10 +23,11 @@ class PlaceChooser(Retranslated, QWidget):
     Parameters
     ----------
     folder : Path
+        Last folder.
     unreal : Path or None
         Last Unreal project; None if there was none.
     destination : str
-        ``"folder"`` or ``"unreal"``.
+        Last kind of destination, ``"folder"`` or ``"unreal"``.
     parent : QWidget, optional
     """
 
@@ -52,12 +53,12 @@ class PlaceChooser(Retranslated, QWidget):
 
     @property
     def destination(self) -> Destination:
-        """A folder of files, or an Unreal project."""
+        """The chosen kind of destination: a folder or an Unreal project."""
         return "unreal" if self._box.currentData() == "unreal" else "folder"
 
     @property
     def path(self) -> Path:
-        """The folder, or the project's file or folder."""
+        """The chosen folder, or the Unreal project's file or folder."""
         return self._path.path or Path()
 
     @property

@@ -18,7 +18,7 @@ TEXT_MARGIN_PX = 6
 
 
 class BeatsBox(QDoubleSpinBox):
-    """A number of felt beats before something."""
+    """Field for a number of felt beats before something."""
 
     def __init__(self, name: str) -> None:
         super().__init__()
@@ -30,7 +30,7 @@ class BeatsBox(QDoubleSpinBox):
 
 
 class RangeChooser(Retranslated, QWidget):
-    """A choice, and the first and last bar.
+    """Choice of a range, with fields for the first and last bar.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class RangeChooser(Retranslated, QWidget):
     prefix : str
         Prefix of the fields' object names.
     otherwise_id : str
-        Text id of the choice without bars.
+        Text id of the choice that means no range of bars.
     """
 
     changed = Signal()

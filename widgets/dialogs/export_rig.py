@@ -13,7 +13,7 @@ from widgets.common.plain import ComboBox
 
 
 class RigChooser(Retranslated, QWidget):
-    """A box for each option of the exported rig; the first choice of each is the default."""
+    """Combo or check boxes for the options of exported skeletons; the first choice of each is the default."""
 
     changed = Signal()
 

@@ -49,6 +49,7 @@ class SkeletonChooser(Retranslated, QWidget):
     Parameters
     ----------
     session : Session
+        Session with the piece.
     players : callable
         Function that returns the players to export.
     parent : QWidget, optional
@@ -92,7 +93,7 @@ class SkeletonChooser(Retranslated, QWidget):
         return CHOICES[self._box.currentIndex()]
 
     def set_destination(self, destination: Destination) -> None:
-        """Choose the usual skeleton of a destination, the mannequin for Unreal, unless another was chosen."""
+        """Choose the usual skeleton of a destination (the mannequin for Unreal), unless the user has chosen one."""
         if destination != self._destination and not self._chosen:
             self._box.setCurrentIndex(CHOICES.index("ue5" if destination == "unreal" else "own"))
         self._destination = destination
@@ -157,7 +158,7 @@ class SkeletonChooser(Retranslated, QWidget):
         self.changed.emit()
 
     def _fit(self) -> None:
-        """Set the height of wrapped lines so that a low window does not squeeze them."""
+        """Set the height of the wrapped text, so that a low window does not squeeze it."""
         self._reported.setMinimumHeight(max(self._reported.heightForWidth(self.width()), 0))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -199,8 +200,9 @@ def _fits(checked: CheckedTarget) -> bool:
 def _comparison(
     requested: Requested, players: tuple[Player, ...], choice: SkeletonChoice, asset: Path
 ) -> Callable[[Progress, StopRequested], Found]:
-    """Return the function that a thread runs to compare the players' skeletons with one of the user's file; it uses no
-    Qt."""
+    """Return a function for a background thread that compares the players' skeletons with that of the asset file; it
+    does not use Qt.
+    """
 
     def work(progress: Progress, stop_requested: StopRequested) -> Found:
         try:

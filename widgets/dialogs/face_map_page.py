@@ -32,11 +32,11 @@ class FaceMapPage(Retranslated, QWidget):
     Signals
     -------
     chosen(str)
-        The user looks at a face: an ARKit name.
+        The user selected the face shape with this ARKit name.
     changed(str, object, object)
         The morphs of a face shape were changed (a mapping of weights; None for automatic); token of the gesture.
     released()
-        A gesture is over.
+        A drag of a slider ended.
     """
 
     chosen = Signal(str)
@@ -80,7 +80,7 @@ class FaceMapPage(Retranslated, QWidget):
         return self._face
 
     def choose(self, face: str) -> None:
-        """Select a facial expression in the list."""
+        """Select a face shape in the list."""
         self.list.setCurrentItem(self._items[face])
 
     def show_parts(self, parts: Mapping[str, Mapping[str, float]], own: frozenset[str]) -> None:
@@ -149,7 +149,7 @@ class FaceMapPage(Retranslated, QWidget):
 
 
 class _Part(QWidget):
-    """A morph with its weight in a face shape."""
+    """A morph with its weight in a face shape, as a row of controls."""
 
     def __init__(self, session: Session, morph: str, remove: Callable[[], object]) -> None:
         super().__init__()
@@ -161,5 +161,5 @@ class _Part(QWidget):
 
 
 def made_of(parts: Mapping[str, float]) -> str:
-    """Return a face shape as a sum of morphs on one line."""
+    """Return a face shape as text: a sum of morphs with weights on one line."""
     return " + ".join(morph if factor == 1.0 else f"{morph} × {factor:g}" for morph, factor in parts.items())

@@ -17,10 +17,11 @@ class FingeringDraft:
     Attributes
     ----------
     instrument : InstrumentMap
-        Instrument as in the library.
+        Instrument in its saved state.
     base : tuple of Fingering
         Fingerings of the map that it extends.
     states : list of tuple of Fingering
+        All states of the table since it was opened.
     at : int
         Index of the displayed state.
     """

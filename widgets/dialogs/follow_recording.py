@@ -23,11 +23,12 @@ _SIZE = QSize(560, 380)
 
 
 class FollowRecordingDialog(Retranslated, QDialog):
-    """Choice of properties, with useful defaults.
+    """Dialog to choose which properties to take from the recording, with useful defaults.
 
     Signals
     -------
     requested(FollowOptions)
+        The user accepted these options.
     """
 
     requested = Signal(object)
@@ -90,7 +91,7 @@ class FollowRecordingDialog(Retranslated, QDialog):
         return FollowOptions(notes=self._notes.isChecked(), dynamics=dynamics, stems=stems)
 
     def set_stem(self, player_id: str, path: Path | None) -> None:
-        """Set the recording of a single player; None for none."""
+        """Set the recording of a single player; None removes it."""
         if path is None:
             self._stems.pop(player_id, None)
         else:

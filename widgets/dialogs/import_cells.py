@@ -14,14 +14,14 @@ from widgets.common.plain import ComboBox, Label
 
 
 class InstrumentCell(QWidget):
-    """The instrument of a row, and of each player if several share it.
+    """Cell with the instrument of a row, or with one for each player if several share the row.
 
     Attributes
     ----------
     whole : ComboBox
         Combo box for all players.
     boxes : list of ComboBox
-        Combo boxes by voice.
+        Combo boxes of the single players, by voice.
     """
 
     def __init__(self, whole: ComboBox) -> None:
@@ -32,7 +32,7 @@ class InstrumentCell(QWidget):
         self._column = in_column(whole, of=self, margins=0, spacing=2)
 
     def show_players(self, boxes: Sequence[tuple[str, ComboBox]]) -> None:
-        """Replace the boxes that choose the instruments of further players, each with a caption."""
+        """Replace the combo boxes for the instruments of single players, each with a caption."""
         for row in self._rows:
             self._column.removeWidget(row)
             row.hide()
@@ -60,7 +60,7 @@ class Tick(QCheckBox):
 
 
 def option_box(name: str, options: Iterable[tuple[str, object]], chosen: object) -> ComboBox:
-    """Return a combo box of options, with the first selected if the chosen one is missing."""
+    """Return a combo box of options as (text, value), with the chosen one selected, or the first if it is missing."""
     box = named(ComboBox(), name)
     for text, value in options:
         box.addItem(text, value)

@@ -56,7 +56,7 @@ _BY_PIECE = "\0by_piece"
 
 
 class _ReadAgain(NamedTuple):
-    """A MIDI file read with another text encoding, with the import rows that follow from it."""
+    """A MIDI file read again with another text encoding, and the resulting rows of the import."""
 
     encoding: str | None
     contents: PieceContents
@@ -233,7 +233,7 @@ class ImportDialog(Retranslated, QDialog):
         self.retranslate()
 
     def _work_out(self, rows: tuple[ImportRow, ...] | None) -> None:
-        """Compute the consequences of rows, or of the default ones."""
+        """Compute the resulting players of the given rows, or of the default ones, in the background."""
         contents, maps, before, closing = self._table.contents, self._maps, self._table.outcome, self._closing
 
         def work(progress: Progress, stop_requested: StopRequested) -> tuple[tuple[ImportRow, ...], ImportPreview]:
@@ -272,7 +272,7 @@ class ImportDialog(Retranslated, QDialog):
         self._separate.setEnabled(any(len(self._table.rows[place].assignment.channels) > 1 for place in places))
 
     def _show_outcome(self) -> None:
-        """Show the consequences: the players, and the reader's warnings if nothing was changed."""
+        """Show the resulting players, and the reader's warnings if the user has changed nothing."""
         outcome = self._table.outcome
         asking = [row for row in self._table.rows if row.requested and self._table.asks(row)]
         self._buttons.ok.setEnabled(outcome is not None and not asking)
@@ -298,7 +298,7 @@ class ImportDialog(Retranslated, QDialog):
         self._warnings.setVisible(self._warnings.count() > 0)
 
     def _unplayed(self, part: UnplayedPart) -> str:
-        """Return the reason why a part is not played, or that it is for dancers."""
+        """Return the reason why a part is not played, or a text that only dancers use it."""
         reason = message_text(part.reason)
         if part.is_of_played_part:
             return self.tr("import_dialog.excluded_part").format(name=part.name, reason=reason)

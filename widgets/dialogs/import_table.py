@@ -99,7 +99,7 @@ class ImportTable(Retranslated, QTableWidget):
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
 
     def read(self, contents: PieceContents) -> None:
-        """Read a file, and find its channels with percussion or sound effects by default."""
+        """Show another file; channels with percussion or sound effects are marked by default."""
         self.contents = contents
         self.end_tick = max((max(channel.end_ticks) for channel in contents.channels), default=1)
         uses = [use_of(channel) for channel in contents.channels]
@@ -108,7 +108,7 @@ class ImportTable(Retranslated, QTableWidget):
         )
 
     def fill(self) -> None:
-        """Rebuild the table's rows from the import rows."""
+        """Build the table's rows from the import rows."""
         self.setRowCount(0)
         self.setRowCount(len(self.rows))
         self._filled = 0
@@ -128,7 +128,7 @@ class ImportTable(Retranslated, QTableWidget):
         return sorted({index.row() for index in self.selectionModel().selectedRows()})
 
     def asks(self, row: ImportRow) -> bool:
-        """Return whether the instrument of a row is unknown."""
+        """Return whether the instrument of a row is unknown, so that the user must choose one."""
         return self.outcome is not None and row.assignment.map_id is None and not self._played_on(row.assignment)
 
     def is_percussion(self, row: ImportRow) -> bool:
@@ -140,7 +140,7 @@ class ImportTable(Retranslated, QTableWidget):
         return " + ".join(name if count == 1 else f"{name} ×{count}" for name, count in names.items())
 
     def _fill_more(self, count: int) -> None:
-        """Make the widgets of some more rows, and of the others later."""
+        """Make the widgets of the next ``count`` rows, and later those of the remaining rows."""
         end = min(self._filled + count, len(self.rows))
         for place in range(self._filled, end):
             self._fill_row(place, self.rows[place])
@@ -215,7 +215,7 @@ class ImportTable(Retranslated, QTableWidget):
         self._show_instruments(place)
 
     def _take_reason(self, row: ImportRow) -> TakeReason:
-        """Return the reason why a row's tracks look like takes; empty if one of them does not."""
+        """Return the reason why all tracks of a row look like recorded takes; empty if one does not."""
         own = (self.contents.channels[channel] for channel in row.assignment.channels)
         reasons = [take_reason(channel, self.contents.tempo_map) for channel in own]
         return reasons[0] if all(reasons) else ""
@@ -223,7 +223,7 @@ class ImportTable(Retranslated, QTableWidget):
     def _choice(
         self, place: int, column: int, name: str, options: Iterable[tuple[str, object]], chosen: object
     ) -> ComboBox:
-        """Return a cell with options, with the first selected if the chosen one is missing."""
+        """Return a combo box as a table cell, with the chosen option selected, or the first if it is missing."""
         box = option_box(f"{name}_{place}", options, chosen)
         self.setCellWidget(place, column, box)
         return box
@@ -233,11 +233,11 @@ class ImportTable(Retranslated, QTableWidget):
         return [] if self.outcome is None else [self._maps[id_] for id_ in self.outcome.instruments_of(assignment)]
 
     def _can_choose(self, row: ImportRow) -> bool:
-        """Return whether a row that is not played has an instrument to choose."""
+        """Return whether the user can choose an instrument for a row that is not played."""
         return row.assignment.map_id == PERCUSSION or self.asks(row)
 
     def _show_instruments(self, place: int) -> None:
-        """Show the instruments chosen by a row's name, program and range, and whether its pitches can be written
+        """Show the instruments that name, program and range suggest for a row, and whether its pitches may be written
         ones.
         """
         row = self.rows[place]
@@ -303,7 +303,7 @@ class ImportTable(Retranslated, QTableWidget):
         self._assignment(place, voice_maps=tuple(chosen))
 
     def _tip(self, place: int) -> str:
-        """The tip of a row; empty for most."""
+        """Return the tool tip of a row; empty for most rows."""
         row = self.rows[place]
         if self.is_percussion(row):
             return self.tr("import_dialog.percussion_track_no_player_plays")
@@ -312,7 +312,7 @@ class ImportTable(Retranslated, QTableWidget):
         return ""
 
     def _choose(self, place: int, map_id: str | None) -> None:
-        """Set the instrument of a row, which plays the row if it had none; percussion is not played."""
+        """Set the instrument of a row, so that the row is played; None for percussion, which is not played."""
         row = self.rows[place]
         asked, was_percussion = self.asks(row), row.assignment.map_id == PERCUSSION
         self._assignment(place, map_id=map_id)
@@ -326,7 +326,7 @@ class ImportTable(Retranslated, QTableWidget):
             box.setChecked(True)
 
     def _request(self, place: int, requested: bool) -> None:
-        """Set whether a row is played; playing it undoes a choice of percussion."""
+        """Set whether a row is played; a row marked as percussion is then no longer so marked."""
         self._set(place, requested=requested)
         cell = self.cellWidget(place, _INSTRUMENT)
         if requested and self.rows[place].assignment.map_id == PERCUSSION and isinstance(cell, InstrumentCell):

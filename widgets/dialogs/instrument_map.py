@@ -1,6 +1,6 @@
 """Dialog with the instruments and their fingerings: an editable table beside the diagram.
 
-Bundled maps stay unchanged: a change creates a map of the user's that extends one.
+Bundled maps stay unchanged: a change creates a map of the user that extends the bundled one.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ _SIZE = QSize(1180, 740)
 
 
 class InstrumentsDialog(Retranslated, QDialog):
-    """Shows every instrument's facts and fingerings, and edits the fingerings."""
+    """Shows facts and fingerings of all instruments, and edits the fingerings."""
 
     saved = Signal(str)
 
@@ -189,7 +189,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         return self._drafts[id]
 
     def _library_changed(self) -> None:
-        """Read changed files again, except for a table that is being edited."""
+        """Display changed files of the library, except for tables that are being edited."""
         now, shown = library(), self.draft
         for id, draft in list(self._drafts.items()):
             instrument = now.maps.get(id)
@@ -219,7 +219,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._show_state()
 
     def _show_wrong(self) -> None:
-        """Show why files of the user's cannot be used, apart from the list, in which they may lack a row."""
+        """Show the errors in files of the user that cannot be used, which may have no row in the list."""
         reported = [problem for problems in library().problems.values() for problem in problems]
         lines = [self.tr("instruments_dialog.files_with_errors")]
         lines += [message_text(problem, self._session) for problem in reported[:MOST_WRONG]]
@@ -307,7 +307,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         header.setSectionResizeMode(LABEL, QHeaderView.ResizeMode.Stretch)
 
     def _chosen(self) -> tuple[int, int] | None:
-        """Written pitch and rank of the fingering selected in the table; None if no row is."""
+        """Return written pitch and rank of the fingering selected in the table; None if no row is selected."""
         item = self._table.item(self._table.currentRow(), LABEL)
         return None if item is None else tuple(item.data(_PLACE))
 
@@ -359,7 +359,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._problem.setText(text)
 
     def _choices(self, column: int) -> list[str]:
-        """Completions offered for a cell of a column."""
+        """Return the completions offered for a cell of a column."""
         draft = self.draft
         if draft is None:
             return []
@@ -370,7 +370,9 @@ class InstrumentsDialog(Retranslated, QDialog):
     # Editing
 
     def _do(self, change: Callable[[FingeringDraft], edit.Table], chosen: tuple[int, int] | None = None) -> bool:
-        """Apply a change to the table as one step; report an invalid one beside it."""
+        """Apply a change to the table as one undo step, and return whether it is valid; errors are shown next to the
+        table.
+        """
         draft = self.draft
         if draft is None:
             return False
@@ -441,7 +443,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._do(lambda draft: draft.base)
 
     def _toggle(self, name: str) -> None:
-        """Change a key clicked in the diagram: up, down, or half down if possible."""
+        """Change the state of a key clicked in the diagram: up, down, or half down if possible."""
         draft, one = self.draft, self._fingering()
         if draft is None or one is None:
             return
@@ -551,7 +553,7 @@ class _Completing(QStyledItemDelegate):
 
 
 def _named(path: str, table: edit.Table, name: Callable[[int], str]) -> str:
-    """Return the place of a problem by note instead of row number."""
+    """Return the key path of a problem with the note's name instead of a row number."""
     head, bracket, rest = path.partition("[")
     row, _, key = rest.partition("]")
     if head == "fingerings" and bracket and row.isdigit() and int(row) < len(table):
@@ -561,7 +563,9 @@ def _named(path: str, table: edit.Table, name: Callable[[int], str]) -> str:
 
 
 def _split(left: QWidget, right: QWidget, sizes_px: tuple[int, int], stretches: int) -> QSplitter:
-    """Return two widgets side by side, one of which takes the remaining width."""
+    """Return a splitter with two widgets side by side; ``stretches`` is the index of the one that takes the remaining
+    width.
+    """
     splitter = QSplitter()
     splitter.addWidget(left)
     splitter.addWidget(right)

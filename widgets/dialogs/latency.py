@@ -35,14 +35,14 @@ CLICKS_S: Final = tuple(PERIOD_S * (1 + index) for index in range(LEAD + COUNTED
 
 
 class LatencyDialog(Retranslated, QDialog):
-    """Measures the latency, or takes a typed one; a button applies it. Not modal.
+    """Dialog that measures the latency of a device, or in which it is typed; a button applies it. Not modal.
 
     Parameters
     ----------
     playback : Playback
-        Playback of the clicks on the same device and clock as that of takes; becomes the dialog's.
+        Playback of the clicks, on the same audio device and clock as for takes; becomes a child of the dialog.
     now_ns : callable
-        The clock of the events.
+        Returns the time of the clock by which MIDI events are stamped, in nanoseconds.
 
     Signals
     -------
@@ -116,11 +116,11 @@ class LatencyDialog(Retranslated, QDialog):
         return self._running
 
     def sounding_s(self) -> float:
-        """Return the position of the audible sound in the clicks in seconds."""
+        """Return the position in seconds of the sound that is audible now, within the clicks."""
         return self._playback.position_s()
 
     def toggle(self) -> None:
-        """Begin to click, or stop."""
+        """Start or stop the clicks."""
         if self._running:
             self._stop()
         else:
@@ -159,7 +159,7 @@ class LatencyDialog(Retranslated, QDialog):
             ]
 
     def _look(self) -> None:
-        """Record the position of the audible sound, and show the input."""
+        """Store the position of the audible sound for comparison with notes, and show the input."""
         ns, position_s = self._now_ns(), self._playback.position_s()
         # The device plays nothing for a while at first: the clock does not run yet.
         if not self._positions or position_s > self._positions[-1][1]:
@@ -258,7 +258,7 @@ class LatencyDialog(Retranslated, QDialog):
 
 
 class HitChart(Retranslated, QWidget):
-    """Chart of the delay of every note, click by click, with a light."""
+    """Chart of the delay of each played note after its click, with a light that flashes."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -269,7 +269,7 @@ class HitChart(Retranslated, QWidget):
         self.texted(self, name="hit_chart.title")
 
     def show_click(self, number: int, flashes: bool) -> None:
-        """Show the number of the last counted click, and the light."""
+        """Show the number of the last click, and whether the light is on."""
         if (number, flashes) != (self._click, self._flashes):
             self._click, self._flashes = number, flashes
             self.update()

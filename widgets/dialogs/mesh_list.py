@@ -15,12 +15,12 @@ from widgets.common.plain import Label, verbatim
 
 
 class MeshList(Retranslated, QWidget):
-    """Meshes by name; meshes of the same name are one row.
+    """List of meshes by name; meshes of the same name are one row.
 
     Signals
     -------
     changed(object)
-        The user switched one on or off: a tuple of the names that are off.
+        The user hid or showed a mesh; the object is a tuple of the names of hidden ones.
     """
 
     changed = Signal(object)

@@ -36,19 +36,20 @@ _SIDE_PX = 300
 
 
 class MidiDevicesDialog(Retranslated, QDialog):
-    """Devices, the kind of the chosen one, and a monitor. Not modal, so that the user can play meanwhile.
+    """Dialog with the devices, the kind of the chosen one, and a monitor; not modal, so that the user can play
+    meanwhile.
 
     Parameters
     ----------
     playback : Playback
-        For a beep; becomes the dialog's.
+        Playback of a beep; becomes a child of the dialog.
 
     Signals
     -------
     chosen(str)
-        Record from this device; empty for none.
+        The user chose the device of this name; empty for none.
     controller_chosen(str)
-        The kind of the device was chosen.
+        The user chose the kind of the device.
     mapping_chosen(object)
         The messages for breath and bite were recognised: an `app.score.take.ControllerMapping`.
     latency_asked()
@@ -156,7 +157,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self.mapping_chosen.emit(mapping)
 
     def beep(self) -> None:
-        """Play a short tone, or show why there is none."""
+        """Play a short tone, or show the reason if there is no sound."""
         volume, playback = self._session.listening.volume, self._playback
         playback.stop()
         playback.set_volume(volume)
@@ -215,7 +216,9 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._start_learning()
 
     def _learn_bite(self, breath: Learned, bite: BiteSource | None) -> None:
-        """Show the recognised controllers; without a bite, its known calibration stays."""
+        """Store the recognised controllers for breath and bite; without a recognised bite, its known
+        calibration stays.
+        """
         if bite is not None:
             self._wire(bite=bite)
             text = self.tr("midi_devices_dialog.found_breath_bite_channel")

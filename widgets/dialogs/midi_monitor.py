@@ -124,7 +124,7 @@ class MidiMonitor(Retranslated, QWidget):
                 item.setText(text)
 
     def _pitch(self, pitch: int) -> str:
-        """Return the name of a pitch, written for the recorded player's instrument if so set."""
+        """Return the name of a pitch; written for the recorded player's instrument if pitches are shown as written."""
         recording, players = self._session.recording, self._session.project.players
         player = next((player for player in players if player.id == recording.armed), self._session.player)
         instrument = all_maps().get(player.instrument_id) if player is not None else None
@@ -154,7 +154,7 @@ class MidiMonitor(Retranslated, QWidget):
 
 
 def source_name(source: str) -> str:
-    """Return the name of the kind of message for a source."""
+    """Return the translated name of a kind of MIDI message that controls breath or bite."""
     named = {
         "none": tr("midi_source.nothing"),
         "cc1": tr("midi_source.cc_1_modulation"),

@@ -41,7 +41,7 @@ class NotesPreview(QWidget):
             painter.fillRect(QRectF(area.left() + begin, top, end - begin, max(height, 1.5)), colour)
 
     def _runs(self, width_px: float) -> list[tuple[int, int, int]]:
-        """Return the pitches with the first and the past-the-end column of pixels of their notes."""
+        """Return horizontal runs for drawing: pitch, first column of pixels, and column after the last one."""
         columns = max(int(width_px), 1)
         begins = np.clip((self._onsets * columns / self._end_tick).astype(np.intp), 0, columns - 1)
         ends = np.clip(np.ceil(self._ends * columns / self._end_tick).astype(np.intp), begins + 1, columns)

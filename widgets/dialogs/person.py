@@ -1,4 +1,4 @@
-"""Dialog for a person of the user's own, made from a bundled one with another height, age and build."""
+"""Dialog for making a person for the user from a bundled one, with another height, age and build."""
 
 from __future__ import annotations
 
@@ -35,19 +35,19 @@ LATER_MS: Final = 500
 
 
 class PersonDialog(Retranslated, QDialog):
-    """Sliders and a picture of a person.
+    """Dialog with sliders and a picture of a person.
 
     Parameters
     ----------
     title : str
         Name of the person.
     person : Person or None
-        An existing person of the user's to change; None for a new one.
+        An existing person of the user to change; None for a new one.
 
     Signals
     -------
     agreed(str, object)
-        The user accepts the `Person` under a title.
+        The user accepted a title and a `Person`.
     """
 
     agreed = Signal(str, object)
@@ -127,7 +127,7 @@ class PersonDialog(Retranslated, QDialog):
         self._change()
 
     def _show(self) -> None:
-        """Show the person's numbers, and draw the person."""
+        """Show the person's numbers, and redraw the person."""
         phenotype = self.person.phenotype
         heights_m, years = ranges([self.person.original])
         self.sliders["height_m"].set_range(*heights_m)
@@ -139,7 +139,7 @@ class PersonDialog(Retranslated, QDialog):
         self._change()
 
     def _change(self) -> None:
-        """Draw the person soon, and say later what it does not play."""
+        """Redraw the person after a short delay, and later show which instruments it does not play."""
         self._strained_on = None
         self._say_strained()
         self._soon.start()

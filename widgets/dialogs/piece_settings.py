@@ -43,7 +43,7 @@ Value = TypeVar("Value", str, float)
 
 
 class PieceSettingsDialog(Retranslated, QDialog):
-    """Changes the settings of the piece in a single edit."""
+    """Dialog that changes the settings of the piece in a single edit."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -150,7 +150,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         return ConductorPlace(x_m, z_m, on_stage)
 
     def _kept(self, name: str, value: Value) -> Value:
-        """Return the original value if the user did not change the displayed one, since that may be rounded."""
+        """Return the setting's original value if the displayed one, which may be rounded, is unchanged."""
         shown, held = self._shown[name]
         return cast(Value, held) if value == shown else value
 
@@ -260,7 +260,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
 
 
 class _Beats(QDoubleSpinBox):
-    """A field for a number, which it shows without trailing zeros."""
+    """Field for a number of beats, shown without trailing zeros."""
 
     def textFromValue(self, value: float) -> str:
         return self.locale().toString(value, "g", 6)

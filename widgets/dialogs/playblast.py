@@ -48,12 +48,12 @@ _AHEAD = 8
 
 
 class PlayblastDialog(WorkingDialog):
-    """Makes a film of the viewport.
+    """Dialog that makes a film of the viewport.
 
     Parameters
     ----------
     film : Film
-        Function that, like its result, is called in the window's thread.
+        Returns a function that draws the pictures; both are called in the window's thread.
     path : Path
         Proposed file.
     """
@@ -173,7 +173,7 @@ class PlayblastDialog(WorkingDialog):
         )
 
     def _draw(self) -> None:
-        """Draw the next picture, if the encoder has room for it."""
+        """Draw the next picture, unless too many pictures wait for the encoder."""
         span = self._span
         if span is None or not self._running or self._drawn >= span.count:
             self._timer.stop()
@@ -221,7 +221,7 @@ class PlayblastDialog(WorkingDialog):
             self._failed(self._trouble)
 
     def _offer_ranges(self) -> None:
-        """Offer the loop and the selected range if there are any, and select the one that was made last."""
+        """Offer the loop and the selected range if they exist, and select the range of the last film."""
         selected, clock = self._session.selection.span, self._session.project.score.tempo_map
         before, rows = self._offered, self._range.model()
         self._offered = {

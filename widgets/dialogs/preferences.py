@@ -39,11 +39,11 @@ class Choice:
     Attributes
     ----------
     options : tuple of (value, word)
-        Label and words are English, translated in the context ``Setting``.
+        Possible values with their names. The words are English and translated in the context ``Setting``.
     chosen : callable
         Returns the present value.
     choose : callable
-        Given another value.
+        Sets another value.
     changed : signal or None
         Emitted when the value changes.
     is_list : bool
@@ -60,12 +60,12 @@ class Choice:
 
 
 class PreferencesDialog(Retranslated, QDialog):
-    """The preferences.
+    """Dialog with the preferences.
 
     Parameters
     ----------
     choices : sequence of Choice
-        In their order.
+        Settings of the general page, in order.
     shortcuts, conflicts, menu_of : callable
         See `ShortcutsPage`.
 
@@ -141,7 +141,7 @@ class PreferencesDialog(Retranslated, QDialog):
         return field
 
     def _instruments_page(self) -> QWidget:
-        """Return the page of the user's own instrument maps with their folder and faults."""
+        """Return the page with the user's own instrument maps, their folder and their errors."""
         page = QWidget()
         self._own, self._found = Caption("preferences_dialog.your_own_instruments_map_toml"), Label()
         self._folder = named(QLineEdit(shown(own_folder())), "preferences_instruments")

@@ -23,8 +23,8 @@ _LEAST_SHARE, _LEAST_S = 0.02, 0.5
 
 
 def stopping(stop: threading.Event, stop_requested: StopRequested) -> StopRequested:
-    """Return a function for the working thread that tells whether work was cancelled, in the dialog or in the status
-    line.
+    """Return a function that the working thread calls to find out whether work was cancelled, in the dialog or in the
+    status line.
     """
 
     def asked() -> bool:
@@ -36,7 +36,7 @@ def stopping(stop: threading.Event, stop_requested: StopRequested) -> StopReques
 
 
 class WorkingDialog(Retranslated, QDialog):
-    """Starts work with one button; the other cancels it, or closes the dialog if none is running.
+    """Dialog in which one button starts work, and the other cancels it, or closes the dialog if no work is running.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ class WorkingDialog(Retranslated, QDialog):
         on_click(self._close, self.reject)
 
     def _box(self, start_id: str, start: Callable[[], object], show_folder: Callable[[], object]) -> QLayout:
-        """Return the buttons that start, open the output folder, and cancel or close."""
+        """Return a row of buttons that start the work, open the output folder, and cancel or close."""
         box = QDialogButtonBox()
         self._start = Button(start_id, start, f"{self._prefix}_start")
         self._start.setDefault(True)
@@ -99,7 +99,7 @@ class WorkingDialog(Retranslated, QDialog):
         self.retranslate()
 
     def _show_share(self, share: float, doing: str = "") -> None:
-        """Show the completed share, the current work, and the remaining time once it can be estimated."""
+        """Show the completed share, a text about the current work, and the remaining time once it can be estimated."""
         self._progress.setValue(round(_PARTS * share))
         elapsed_s = time.monotonic() - self._began_s
         left = self.tr("working_dialog.finishing" if share >= 1.0 else "working_dialog.estimating")

@@ -54,7 +54,7 @@ class ReimportChanges(Retranslated, QWidget):
     Signals
     -------
     chosen()
-        A player was checked or unchecked.
+        The user checked or unchecked a player.
     """
 
     chosen = Signal()
@@ -144,7 +144,7 @@ class ReimportChanges(Retranslated, QWidget):
 
     @property
     def kept(self) -> frozenset[str]:
-        """Ids of the parts that keep their present notes."""
+        """Return the ids of the parts of unchecked players, which keep their present notes."""
         return frozenset(
             row.part_id for row in self._rows if row.changes and row.item.checkState(0) == Qt.CheckState.Unchecked
         )
@@ -182,7 +182,9 @@ class ReimportChanges(Retranslated, QWidget):
         return self._rows[self._tree.indexOfTopLevelItem(item.parent() or item)]
 
     def _place_of(self, item: QTreeWidgetItem) -> tuple[_Row, int]:
-        """Return the player's row of an item, and the index of the change; -1 for the player's item."""
+        """Return the row of the player to which a tree item belongs, and the index of the change; -1 for the player's
+        own item.
+        """
         parent = item.parent()
         return self._row_of(item), -1 if parent is None else parent.indexOfChild(item)
 
@@ -241,7 +243,7 @@ class ReimportChanges(Retranslated, QWidget):
             row.item.setCheckState(0, Qt.CheckState.Unchecked if checked else Qt.CheckState.Checked)
 
     def _show(self, item: QTreeWidgetItem | None) -> None:
-        """Show a change in the window: its player, its note, and the playhead at it."""
+        """Show a change in the main window: make its player active, select its note, and move the playhead there."""
         row, place = (None, -1) if item is None else self._place_of(item)
         if row is None or place < 0:
             return
@@ -295,7 +297,7 @@ class ReimportChanges(Retranslated, QWidget):
         return place, self._note_text(before, after, pitch, pitch_now)
 
     def _note_text(self, before: Note, now: Note, pitch: str, pitch_now: str) -> str:
-        """Return a note's changes: of pitch, or else of length and velocity."""
+        """Return the change of a note as text: of pitch, or else of length and velocity."""
         length = max(round(before.duration_tick * self._scale), 1)
         parts = [pitch if before.pitch == now.pitch else f"{pitch} → {pitch_now}"]
         if length != now.duration_tick:
@@ -344,7 +346,9 @@ def _distance(change: PartChange, former: MetreMap, now: MetreMap, scale: Fracti
 
 
 def _value(ticks: int, whole: int) -> str:
-    """Return ticks as a fraction of a whole note, or as ticks if the fraction is complicated."""
+    """Return a length in ticks as text: a fraction of a whole note (``whole`` ticks), or ticks if that is
+    complicated.
+    """
     value = Fraction(ticks, whole)
     if value.denominator > 64:
         return tr("reimport_dialog.ticks").format(count=ticks)

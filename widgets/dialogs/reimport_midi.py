@@ -28,7 +28,7 @@ from widgets.dialogs.reimport_changes import ReimportChanges
 
 
 class ReimportDialog(Retranslated, QDialog):
-    """Shows the changes of a re-import, and asks whether to apply them.
+    """Dialog that shows the changes of a re-import, and asks whether to apply them.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ class ReimportDialog(Retranslated, QDialog):
     file : str
         Name of the MIDI file.
     title : callable
-        Names a correction.
+        Returns the title of a correction.
     changes : PartChanges
         Changes by part (`app.project.part_changes.changes_by_part`), computed beforehand since that takes time.
     """
@@ -138,8 +138,8 @@ class ReimportDialog(Retranslated, QDialog):
         return _shown(bool(ids), label)
 
     def _lost_and_contradicted(self) -> tuple[QWidget, ...]:
-        """Return the widgets about notes changed both in the project and in the file, and corrections whose notes are
-        gone.
+        """Return the widgets about notes changed both in the project and in the file, and about corrections whose notes
+        no longer exist.
         """
         outcome, title, session = self._outcome, self._title, self._session
         names = {part.id: part.name for part in self._before.score.parts}
@@ -186,11 +186,11 @@ class ReimportDialog(Retranslated, QDialog):
 
     @property
     def taken(self) -> Reimport:
-        """The result of the re-import with the players that the user keeps unchanged left out."""
+        """The re-import with the parts of unchecked players kept unchanged."""
         return self._outcome.keeping(self.kept) if self.kept else self._outcome
 
     def _chosen(self) -> None:
-        """Show only conflicts of the selected players."""
+        """Show only the conflicts of checked players."""
         kept, below = self.kept, self._conflicts[1]
         for row, conflict in enumerate(self._outcome.conflicts):
             below.item(row).setHidden(conflict.part_id in kept)
@@ -201,13 +201,13 @@ class ReimportDialog(Retranslated, QDialog):
         self._enable()
 
     def _enable(self) -> None:
-        """Enable the button if the re-import changes anything."""
+        """Enable the button that applies the re-import if this changes anything."""
         some = bool(self._changes.changed - self._changes.kept)
         self._buttons.ok.setEnabled(some or bool(self.removed) or self.taken.project is not self._before)
 
 
 def _shown(shown: bool, *widgets: QWidget) -> tuple[QWidget, ...]:
-    """Return the widgets, hidden if there is nothing to show in them."""
+    """Return the widgets, hidden unless ``shown``."""
     for widget in widgets:
         if not shown:
             widget.hide()
@@ -219,7 +219,7 @@ def _said_of(text_id: str, part: str, reason: Message) -> str:
 
 
 def _conflict(session: Session, name: str, conflict: Conflict, player: Player | None) -> str:
-    """Return a note's conflict as text: the user's version → the file's version."""
+    """Return a conflict about a note as text: the user's version, an arrow, the file's version."""
     mine, file = conflict.by_hand, conflict.file
     here = tr("reimport_dialog.erased") if mine is None else note_text(session, mine, player)
     there = tr("reimport_dialog.no_longer_in_file") if file is None else note_text(session, file, player)

@@ -60,7 +60,7 @@ ANCHORS: Final[Mapping[str, str]] = {"onset": "rules_dialog.anchor_onset", "end"
 
 
 def kept(value: float, before: float) -> float:
-    """Return the original number if the displayed, rounded one is unchanged."""
+    """Return the original number ``before`` if the displayed, rounded one is unchanged, else the displayed one."""
     return before if abs(value - before) < 5e-4 else value
 
 
@@ -106,7 +106,9 @@ class OptionalNumberField:
         return self.number.value() if self.check.isChecked() else None
 
     def kept(self, of: object) -> float | None:
-        """Return the number; that of ``of`` if the field is unchanged, since the displayed one may be rounded."""
+        """Return the number; if the field is unchanged, the number that ``of`` has in the field's key, since the
+        displayed one may be rounded.
+        """
         value, before = self.value, getattr(of, self.field.name)
         return value if value is None or before is None else kept(value, before)
 
@@ -124,7 +126,7 @@ class Several(QPushButton):
     Signals
     -------
     changed()
-        The user chose or left one.
+        The user selected or deselected an item.
     """
 
     changed = Signal()
@@ -143,12 +145,12 @@ class Several(QPushButton):
 
     @property
     def chosen(self) -> tuple[str, ...]:
-        """The names chosen in the list, in its order."""
+        """Names of the selected items, in the order of the list."""
         return self._chosen
 
     def show_choice(self, names: Mapping[str, str], chosen: Sequence[str], none: str) -> None:
         """Set the items by id; ``none`` is the text for an empty selection. Selected ids that do not exist are listed
-        too.
+        as well.
         """
         self._names = {**{id: id for id in chosen}, **names}
         self._chosen, self._none = tuple(chosen), none

@@ -39,12 +39,12 @@ _FADE_OUT = Field("fade_out_s", "rules_dialog.fade_out", 0.01, 60.0, 0.05, SECON
 
 
 class RuleForm(Retranslated, QWidget):
-    """Shows and changes a rule.
+    """Form that shows and changes a rule.
 
     Signals
     -------
     changed(Rule)
-        The user made this of it.
+        The user changed the rule to this one.
     """
 
     changed = Signal(object)
@@ -188,7 +188,7 @@ class RuleForm(Retranslated, QWidget):
         _choose(self._does, {**does, **({} if now in does else {now: now.split(":", 1)[1]})}, now)
 
     def _enable(self) -> None:
-        """Disable fields that have no effect in combination with others."""
+        """Disable fields that have no effect because of the values of others."""
         rule = self._rule
         if rule is None:
             return

@@ -140,7 +140,7 @@ class RulesDialog(Retranslated, QDialog):
         self._show_current()
 
     def _word(self, index: int) -> None:
-        """Set the text of a rule in the list."""
+        """Set text, check box and tool tip of a rule in the list."""
         one, item = self._draft[index], self._list.item(index)
         blocked = self._list.blockSignals(True)
         item.setText(f"{rule_title(one.rule)} *" if one.file else rule_title(one.rule))
@@ -221,7 +221,7 @@ class RulesDialog(Retranslated, QDialog):
         return f"{rule_title(self._draft[index].rule)}: {text}"
 
     def _play(self) -> None:
-        """Make all players act by the edited rules, or by the saved ones."""
+        """Make all players act by the edited rules if the preview is on, else by the saved ones."""
         RULES.put_back(self._shelf)
         if self._preview.isChecked() and not self.faults() and self._draft != self._saved:
             made = sets_of(self._draft, self._shelf.items, self._shelf.files)

@@ -93,7 +93,7 @@ class ShortcutsPage(Retranslated, QWidget):
         self.retranslate()
 
     def retranslate(self) -> None:
-        """Set the texts and rows again, in another language."""
+        """Set texts and rows again after a change of language."""
         self._fill()
 
     def _fill(self) -> None:
@@ -130,7 +130,7 @@ class ShortcutsPage(Retranslated, QWidget):
                 item.setHidden(not all(word in words for word in requested))
 
     def choose(self, action_id: str) -> None:
-        """Go to the row of an action."""
+        """Select the row of an action."""
         for place in range(self.list.topLevelItemCount()):
             item = self.list.topLevelItem(place)
             if item is not None and item.data(_TEXT, Qt.ItemDataRole.UserRole) == action_id:

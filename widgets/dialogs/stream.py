@@ -25,7 +25,7 @@ _LIST_PX = 130
 
 
 class StreamDialog(Retranslated, QDialog):
-    """The live stream. Not modal, so that the user can play and watch the other program."""
+    """Dialog of the live stream; not modal, so that the user can play and watch the other program."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -127,7 +127,7 @@ class StreamDialog(Retranslated, QDialog):
         self._reported.setStyleSheet(f"color: {colour};")
 
     def _show_lines(self) -> None:
-        """List the players with their ports."""
+        """List the players with the ports to which they are sent."""
         state, project = self._state, self._session.project
         lines = state.lines or state.planned(project, self._session.in_front)
         names, unseen = {one.id: one.name for one in project.performers}, self._session.performance.unseen
@@ -157,7 +157,7 @@ class StreamDialog(Retranslated, QDialog):
         self._show()
 
     def _state_text(self) -> tuple[str, str]:
-        """Return the text that describes the state of the stream, and its colour."""
+        """Return a text about the state of the stream, and its colour."""
         state, tokens = self._state, self._session.tokens
         if state.trouble is not None:
             return sentence(state.trouble, self._session), tokens.error

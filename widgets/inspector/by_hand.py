@@ -20,7 +20,7 @@ class ByHandLine(QWidget):
     Signals
     -------
     reverted()
-        The user reverts to the generated value.
+        The user requests the generated value.
     """
 
     reverted = Signal()
@@ -40,13 +40,13 @@ class ByHandLine(QWidget):
         self.hide()
 
     def show_values(self, generated: str | None, yours: str) -> None:
-        """Show both values; the generated one is None while it is computed, empty if there was none."""
+        """Show both values. ``generated`` is None while it is computed, and empty if there is no generated value."""
         self._generated, self._yours = generated, yours
         self._retranslate()
         self.show()
 
     def text(self) -> str:
-        """The displayed text."""
+        """Return the displayed text."""
         return self._text.text()
 
     def _retranslate(self) -> None:

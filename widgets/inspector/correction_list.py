@@ -1,4 +1,4 @@
-"""List of all manual changes of the selected players with position, generated value, and a button to revert."""
+"""List of all manual changes of the selected players, each with position, generated value, and a button to revert."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class CorrectionRow:
 
 
 class CorrectionList(Retranslated, QWidget):
-    """Corrections of the selected players; those that lost their note first."""
+    """List of the corrections of the selected players; those whose note no longer exists come first."""
 
     def __init__(self, session: Session, generated: Generated, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -163,13 +163,13 @@ class CorrectionList(Retranslated, QWidget):
         return self.tr("correction_list.added_as" if text else "correction_list.added").format(yours=text)
 
     def _stretch(self, item: Correction) -> str:
-        """Return the description of a correction's end and the number of its keys."""
+        """Return a text about a correction's span: its end, and the number of its keys if it is a curve."""
         end = self._session.project.metre_map.label(getattr(item, "end_tick", LATE_TICK))
         detail = self.tr(_STRETCHES[item.tag]).format(end=end, count=len(getattr(item, "keys", ())))
         return detail if getattr(item, "enabled", True) else self.tr("correction_list.curve_off").format(detail=detail)
 
     def _change(self, place: CorrectionRow) -> str:
-        """Return the description of the present and the generated event."""
+        """Return a text about a correction's present and generated event."""
         score = self._session.project.score
         instrument_id, events = (
             self._session.project.player(place.player_id).instrument_id,

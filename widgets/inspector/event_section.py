@@ -1,4 +1,4 @@
-"""Section with the selected events: time, amount and reason, editable as numbers."""
+"""Section with the selected events: time, amount and reason, which can be edited as numbers."""
 
 from __future__ import annotations
 
@@ -250,7 +250,7 @@ class EventSection(Retranslated, QWidget):
         self._by_hand.show_values(before, event_text(score, first, ""))
 
     def _generated_event(self, event: Placed) -> Placed | None:
-        """Return the event that the generator plans in place of a corrected one; None if there is none."""
+        """Return the event that the generator makes without the correction of an event; None if there is none."""
         if self._plan is None:
             return None
         player_id = self._plan.player_id

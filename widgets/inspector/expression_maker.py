@@ -49,7 +49,7 @@ _TOOLS = (
 
 
 def mirrored(morph: str) -> str:
-    """Return the morph target of the other side; the same for one in the middle."""
+    """Return the name of the corresponding morph target of the other side; the same name for one in the middle."""
     if morph in ("jawLeft", "jawRight", "mouthLeft", "mouthRight"):
         # These move the middle to a side: they are opposites, not a pair.
         return morph
@@ -59,12 +59,12 @@ def mirrored(morph: str) -> str:
 
 
 class ExpressionMaker(Retranslated, QWidget):
-    """Shows an expression as sliders, and previews it on the active player.
+    """Section that shows an expression as sliders, and previews it on the active player.
 
     Signals
     -------
     folded()
-        It was folded or unfolded.
+        The section was folded or unfolded.
     """
 
     folded = Signal()

@@ -1,5 +1,4 @@
-"""Computes the generated values of events without a player's corrections, which the inspector shows beside the
-corrected ones."""
+"""Computation of the events without a player's corrections, which the inspector shows next to the corrected ones."""
 
 from __future__ import annotations
 
@@ -20,12 +19,12 @@ AT_ONCE_S = 0.1
 
 
 class Generated(QObject):
-    """Plans of single players without manual changes.
+    """Computes plans of single players without their manual changes.
 
     Signals
     -------
     changed()
-        A plan that was asked for is there.
+        A requested plan is available.
     """
 
     changed = Signal()

@@ -42,7 +42,7 @@ class SelectedNotes:
 
     @cached_property
     def own_ids(self) -> tuple[str, ...]:
-        """Ids of the selected notes that belong to the inspected player."""
+        """Ids of the selected notes that belong to the displayed player."""
         return tuple(note.id for note in self.notes)
 
 
@@ -85,7 +85,9 @@ def selected_notes(session: Session, finder: NoteFinder) -> SelectedNotes | None
 
 
 def selected_events(session: Session) -> tuple[PlayerPlan, tuple[Placed, ...]] | None:
-    """Return the selected events of one player and one kind (those of the first in time), with the player's plan."""
+    """Return the selected events of the player and kind of the earliest one, with the player's plan; None if there are
+    none.
+    """
     keys = session.selection.events
     if not keys:
         return None
@@ -107,10 +109,10 @@ def selected_events(session: Session) -> tuple[PlayerPlan, tuple[Placed, ...]] |
 
 
 def fingering_of(plan: PlayerPlan, note_id: str) -> FingeringEvent | None:
-    """Return the fingering event of a note; None for one that cannot sound (a lower note of a chord)."""
+    """Return the fingering event of a note; None for a note that is not played (a lower note of a chord)."""
     return next((event for event in plan.fingerings if event.note_id == note_id), None)
 
 
 def embouchure_of(plan: PlayerPlan, note_id: str) -> EmbouchureEvent | None:
-    """Return the embouchure event of a note; None for one that cannot sound."""
+    """Return the embouchure event of a note; None for a note that is not played."""
     return next((event for event in plan.embouchures if event.note_id == note_id), None)

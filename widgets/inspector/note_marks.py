@@ -39,7 +39,7 @@ class _Alike(NamedTuple):
     Attributes
     ----------
     is_everywhere : bool
-        Whether all of the notes have it.
+        Whether all selected notes have it.
     """
 
     marks: tuple[Mark, ...]
@@ -93,7 +93,9 @@ class NoteMarks(Retranslated, QWidget):
         self._tongued.setText(self.tr("note_marks.tongue").format(reason=told))
 
     def _chip(self, key: tuple[str, str]) -> Chip:
-        """Return the chip of a kind and text; hidden chips are kept for the keyboard focus."""
+        """Return the chip for a kind and text of marks; unused chips are hidden and reused, so that the keyboard focus
+        stays.
+        """
         chip = self._chip_of.get(key)
         if chip is None:
             chip = self._chip_of[key] = named(Chip(self._session, ""), f"mark_{key[0]}")
@@ -115,7 +117,7 @@ class NoteMarks(Retranslated, QWidget):
         offer_actions(self._session, MENU, self, "marks_menu", at)
 
     def _toggle(self, key: tuple[str, str]) -> None:
-        """Remove a mark if all notes have it; otherwise add it to the others."""
+        """Remove a mark if all selected notes have it; otherwise add it to the others."""
         if self._shown is None:
             return
         (player, notes), alike = self._shown, self._kinds[key]

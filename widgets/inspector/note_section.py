@@ -56,7 +56,7 @@ class NoteSection(Retranslated, QWidget):
     Signals
     -------
     diagram_placed()
-        The diagram of the fingering has another place or size.
+        Position or size of the fingering diagram has changed.
     """
 
     diagram_placed = Signal()
@@ -273,8 +273,10 @@ class NoteSection(Retranslated, QWidget):
         return () if shown.player is None else self._session.project.corrections.get(shown.player.id, ())
 
     def _pin_label(self, shown: SelectedNotes) -> str | None:
-        """Return the label of the fingering pinned to the displayed note (possibly unknown to the instrument), else to
-        another selected one.
+        """Return the label of the fingering that is pinned to the displayed note, or else to another selected one; None
+        if none is.
+
+        The instrument may lack a fingering of that label.
         """
         ids = frozenset(shown.own_ids)
         pins = {
@@ -320,8 +322,8 @@ class NoteSection(Retranslated, QWidget):
     def _edit_own(
         self, name: str, change: Callable[[Project, str, tuple[str, ...]], Project], token: object | None = None
     ) -> None:
-        """Edit the displayed notes of the player with the fingering by a function of the player's id and the notes'
-        ids.
+        """Edit the displayed notes of one player by a function that gets the player's id and the notes' ids; see
+        `_edit`.
         """
         if self._shown is None or self._shown.player is None:
             return
@@ -374,7 +376,7 @@ class NoteSection(Retranslated, QWidget):
         )
 
     def _without(self, kind: type[PinFingering] | type[SetEmbouchure], field: str | None = None) -> None:
-        """Remove corrections of the displayed notes, or only one of their values."""
+        """Remove corrections of a kind from the displayed notes; with ``field`` only one of their values."""
         self._edit_own(
             "edit.give_back",
             lambda project, player_id, ids: edit_events.forget(project, player_id, kind, frozenset(ids), field),
@@ -398,7 +400,7 @@ def _cents_text(cents: float) -> str:
 
 
 def _spaced(label: str, instrument: InstrumentMap) -> str:
-    """Return ``"13"`` as ``"1·3"`` if it names single valves; keys and holes in words."""
+    """Return a fingering's label as text: ``"13"`` as ``"1·3"`` for valves; keys and holes in words."""
     signs = {control.label for control in instrument.controls if control.label}
     if not says_words(instrument.controls) and len(label) > 1 and all(sign in signs for sign in label):
         return "·".join(label)

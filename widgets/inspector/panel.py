@@ -44,7 +44,7 @@ class _State(msgspec.Struct, frozen=True):
 
 
 class InspectorPanel(Retranslated, QWidget):
-    """Selected notes and events above, lists below."""
+    """Panel with the selected notes and events above, and lists of problems, manual changes and history below."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -102,7 +102,7 @@ class InspectorPanel(Retranslated, QWidget):
         in_column(self._splitter, of=self, margins=0)
 
     def divide(self, lists_share: float, tab: int = 0, kept: bool = False) -> None:
-        """Set the lists' share of the height, and the tab in front.
+        """Set the lists' share of the panel's height, and the current tab.
 
         Parameters
         ----------
@@ -110,8 +110,9 @@ class InspectorPanel(Retranslated, QWidget):
             Greatest share of the lists, 0..1; less if all problems fit into less, or if a note's fingering needs the
             space.
         tab : int
+            Index of the tab.
         kept : bool
-            Whether the share is kept for few problems too, as after the user dragged the divider.
+            Whether the lists keep this share even for few problems, as after the user dragged the divider.
         """
         self._lists_share, self._kept = min(max(lists_share, 0.0), 1.0), kept
         self._diagram_px = 0

@@ -57,14 +57,14 @@ class ProblemGroup(NamedTuple):
 
 
 class ProblemList(Retranslated, QWidget):
-    """Problems by player and kind; a click moves to one.
+    """List of problems, grouped by player and kind; a click moves to a problem.
 
     Signals
     -------
     counted(int)
-        So many problems there are in all.
+        The total number of problems has changed.
     listed()
-        Other rows are shown: `height_px` may be another.
+        The displayed rows have changed, and with them possibly `height_px`.
     """
 
     counted = Signal(int)
@@ -185,7 +185,7 @@ class ProblemList(Retranslated, QWidget):
                 self.list.selectionModel().select(self.list.lines.index(row), QItemSelectionModel.SelectionFlag.Select)
 
     def _select_gone_to(self) -> None:
-        """Select the row of the problem that was shown by other means than this list."""
+        """Select the row of the problem to which another part of the editor has moved."""
         gone_to = self._session.problem
         if gone_to is None or self._is_opening:
             return
@@ -204,13 +204,13 @@ class ProblemList(Retranslated, QWidget):
         self.list.scrollTo(index)
 
     def _keys(self) -> list[RowKey]:
-        """Keys of the rows: the player and the problems of each."""
+        """Return the key of each row: the player and the row's problems."""
         return [line.key for line in self.list.lines.lines if isinstance(line.key, tuple)]
 
     def _requested(
         self, by_player: list[tuple[Player | Dancer, tuple[Problem, ...]]], is_ignored: bool
     ) -> list[ProblemGroup]:
-        """Return the groups that pass the filter of players and kinds."""
+        """Return the groups of problems that pass the filter of players and kinds."""
         chosen, selected = self._filter, self._session.players
         return [
             ProblemGroup(player, tuple(problems), is_ignored)
@@ -238,7 +238,7 @@ class ProblemList(Retranslated, QWidget):
             self.show_problems()
 
     def _open(self, key: object) -> None:
-        """Move to a problem of a row; another click moves to the next one."""
+        """Move to the first problem of a row; further clicks move to the next ones."""
         assert isinstance(key, tuple)
         player_id, problems = key
         step = self._gone_to[1] + 1 if self._gone_to is not None and self._gone_to[0] == key else 0
@@ -252,7 +252,7 @@ class ProblemList(Retranslated, QWidget):
     # What is done about them
 
     def _chosen(self) -> list[RowKey]:
-        """The selected rows: the player and the problems of each."""
+        """Return the keys of the selected rows: the player and the row's problems."""
         return [key for key in self.list.selected_keys() if isinstance(key, tuple)]
 
     def _show_buttons(self) -> None:
@@ -302,7 +302,7 @@ class ProblemList(Retranslated, QWidget):
         self._set_ignored(self._chosen())
 
     def _set_ignored(self, rows: list[RowKey]) -> None:
-        """Ignore the problems of rows; if all are ignored already, count them again."""
+        """Ignore the problems of rows; if all of them are ignored already, stop ignoring them."""
         if not rows:
             return
         again = self._are_ignored(rows)
@@ -354,7 +354,7 @@ class ProblemList(Retranslated, QWidget):
 
 
 def _edit_of(project: Project, name: str, rows: Sequence[RowKey]) -> Message:
-    """Return the name of an edit of problem rows: their number, players and range."""
+    """Return the name, for the undo history, of an edit of problems: their number, players and range."""
     problems = [problem for _, of_row in rows for problem in of_row]
     ticks = [round(project.score.tempo_map.ticks(problem.start_s)) for problem in problems]
     return edit_at(project, name, len(problems), {player_id for player_id, _ in rows}, ticks)

@@ -24,7 +24,7 @@ class ListRow:
     Attributes
     ----------
     key : object
-        Object that a click passes on.
+        Object that identifies the line, passed on by a click.
     title, place, detail : str
         Texts: the place at the right, the detail below.
     colour : str
@@ -42,14 +42,14 @@ class ListRow:
 
 
 class LineModel(QAbstractListModel):
-    """Model of the lines that a `LineList` displays."""
+    """Qt model of the lines that a `LineList` displays."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.lines: tuple[ListRow, ...] = ()
 
     def show_lines(self, lines: Sequence[ListRow]) -> None:
-        """Replace the displayed lines; the view is reset only if their keys change."""
+        """Replace the displayed lines; selection and scrolling are reset only if the keys change."""
         new = tuple(lines)
         if new == self.lines:
             return
@@ -208,7 +208,7 @@ class LineList(QListView):
 
 
 def _line_px(font: QFont) -> float:
-    """Return the height of a line in pixels for all scripts, since glyphs of a fallback font may be taller."""
+    """Return the height of a line in pixels that fits all scripts, since glyphs of a fallback font may be taller."""
     metrics = QFontMetricsF(font)
     return max(metrics.height(), metrics.boundingRect("漢あÁgj").height() + 1.0)
 

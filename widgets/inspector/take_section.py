@@ -35,7 +35,9 @@ BUTTONS: Final = ("takes.listen", "takes.listen_alone", "takes.whole", "takes.re
 
 @dataclass(frozen=True)
 class _Number:
-    """Slider of one number of the cleaning: ``scale`` displayed units per unit of the value, with text ids."""
+    """Settings of a slider for one number of the cleaning: ``scale`` is the factor from the value to the displayed
+    number.
+    """
 
     field: str
     scale: float
@@ -214,7 +216,7 @@ class TakeSection(Retranslated, QWidget):
         self._counts.setText(self._counts_text())
 
     def _counts_text(self) -> str:
-        """Return the numbers of omitted notes by fault as text."""
+        """Return a text with the number of omitted notes for each reason."""
         assert self._player is not None
         assert self._take is not None
         clean = take_cleaned(self._session.project, self._player.id, self._take.id)

@@ -22,7 +22,7 @@ from widgets.common.instrument_name import language
 
 
 def amount_field(event: Placed) -> str | None:
-    """Return the name of the field with an event's amount."""
+    """Return the name of the field that holds an event's amount; None if it has none."""
     field, _ = AMOUNTS.get(type(event), (None, 0.0))
     return field
 
@@ -45,7 +45,9 @@ def fingering_text(label: str, instrument_id: str) -> str:
 
 
 def event_text(score: Score, event: Event | None, instrument_id: str, correction: Correction | None = None) -> str:
-    """Return the place and amount of an event, ``"12.3–12.4, 0.80"``; for an embouchure, the corrected values."""
+    """Return the place and amount of an event as text, such as ``"12.3–12.4, 0.80"``; for an embouchure, the corrected
+    values.
+    """
     match event:
         case None:
             return ""
@@ -98,7 +100,7 @@ _TITLES: Final = {
 
 
 def mark_text(score: Score, part: Part, mark: Mark) -> str:
-    """Return the text of a mark and its end: ``"mf"``, ``"to 13.1"``."""
+    """Return the text of a mark and its end, such as ``"mf"`` or ``"to 13.1"``."""
     ends = [note.onset_tick for note in part.notes if note.id == mark.last_note_id] if mark.last_note_id else []
     end_tick = ends[0] if ends else mark.end_tick
     until = tr("inspector.mark_until").format(end=score.metre_map.label(end_tick)) if end_tick else ""

@@ -33,7 +33,7 @@ class ActingRows(Retranslated, QWidget):
     Signals
     -------
     shown(str)
-        What the players' style and habits are in short, for the header of the section; empty where they differ.
+        Short text about the players' style and habits, for the section's header; empty if the players differ.
     """
 
     shown = Signal(str)

@@ -32,7 +32,7 @@ _VARIATION = "dance_variation"
 
 
 class BodyDanceRows(Retranslated, QWidget):
-    """Choice between generated motion and a choreography, with its amount and number of the dance."""
+    """Choice between generated motion and a choreography, with the dance's amount and variation."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -39,14 +39,14 @@ class LayerSwitch(Retranslated, QCheckBox):
         self.texted(self, explained=lambda: tr("layer_switch.show_layer").format(layer=tr(amount.label)))
 
     def show_players(self, players: Sequence[Player]) -> None:
-        """Show the state of one or more players."""
+        """Show whether one or more players show the layer."""
         shown = {self._amount.name not in names_in(player.parameters.layers_off) for player in players}
         states = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
         self.setCheckState(states[shown.pop()] if len(shown) == 1 else Qt.CheckState.PartiallyChecked)
         self._slider.setEnabled(self.checkState() != Qt.CheckState.Unchecked)
 
     def nextCheckState(self) -> None:
-        """Change a partially checked box to checked."""
+        """Check the box on a click if it is partially checked; otherwise toggle it."""
         self.setChecked(self.checkState() != Qt.CheckState.Checked)
 
     def _switch(self) -> None:

@@ -44,7 +44,7 @@ class OrderedList(QListView):
     Signals
     -------
     moved(object, int)
-        These ids (tuple of str) go before the row that had this number.
+        The user moved the rows with these ids (tuple of str) before the row that had this index.
     """
 
     moved = Signal(object, int)
@@ -97,8 +97,8 @@ class OrderedList(QListView):
         return next((number for number in rows if y < self._box(number).center().y()), self._count())
 
     def _edge_px(self, number: int) -> int:
-        """Return the vertical position of the edge above a row; below the last visible row if the row is hidden or past
-        the end.
+        """Return the y position in pixels of the upper edge of a row; the lower edge of the last visible row if the row
+        is hidden or does not exist.
         """
         if number < self._count() and self._box(number).isValid():
             return self._box(number).top()
@@ -186,16 +186,16 @@ class RowDelegate(QStyledItemDelegate):
     def paint_ground(
         self, painter: QPainter, option: QStyleOptionViewItem, colour: str, opacity: float, inset_px: int
     ) -> None:
-        """Paint the background of the texts.
+        """Paint the background of a row.
 
         Parameters
         ----------
         colour : str
-            Of the bar at the left.
+            Colour of the bar at the left.
         opacity : float
             Opacity of the accent colour in selected rows.
         inset_px : int
-            Room above and below the bar.
+            Space above and below the bar.
         """
         tokens, box = self._session.tokens, option.rect
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -226,7 +226,9 @@ class RowDelegate(QStyledItemDelegate):
         return spot.left() - 6
 
     def paint_frame(self, painter: QPainter, box: QRect, is_front: bool) -> None:
-        """Draw the line below, and a frame around the row with keyboard focus."""
+        """Draw the line below a row, and a frame around a row with the keyboard focus; ``is_front`` marks the active
+        one.
+        """
         tokens = self._session.tokens
         painter.setPen(QColor(tokens.line))
         painter.drawLine(box.bottomLeft(), box.bottomRight())

@@ -47,7 +47,7 @@ class OutfitColours(Retranslated, QWidget):
     Signals
     -------
     chosen(str, str)
-        The user chose a colour for a part (`TINTS`); empty: the outfit's own.
+        The user chose a colour for a part (`TINTS`); empty for the outfit's own colour.
     """
 
     chosen = Signal(str, str)
@@ -86,6 +86,6 @@ def _people(performers: Sequence[Player | Dancer]) -> list[Player | Dancer]:
 
 
 def _seen(choice: OutfitChoice, tint: Tint) -> str:
-    """Return the colour of a part of an outfit; empty if there is no such part."""
+    """Return the colour of a part of an outfit as worn; empty if the outfit has no such part."""
     outfit = wardrobe().get(choice.id)
     return "" if outfit is None or tint not in outfit.colours else choice.colour(tint) or outfit.colours[tint]

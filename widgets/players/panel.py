@@ -195,7 +195,9 @@ class PlayersPanel(Retranslated, QWidget):
             self.divide(int(state) if state else None)
 
     def _divide(self) -> None:
-        """Give the list the height that its rows need, up to about half, unless the user has divided the panel."""
+        """Give the list the height that its rows need, up to about half of the panel, unless the user has moved the
+        divider.
+        """
         height = self._splitter.height()
         if self._divided or not height:
             return
@@ -263,7 +265,7 @@ class PlayersPanel(Retranslated, QWidget):
         self._divide()
 
     def _by_section(self, rows: list[PlayerRow]) -> list[Row]:
-        """Put players under headers of their sections, if requested and useful."""
+        """Return the rows with players under the headers of their sections, if this is switched on and useful."""
         session = self._session
         if not (session.groups_players and are_worth_grouping(session.project)):
             return list(rows)
@@ -275,7 +277,7 @@ class PlayersPanel(Retranslated, QWidget):
         return result
 
     def _select_found(self) -> None:
-        """Select all players that the search shows; one of a section mutes or solos the section."""
+        """Select all players that the search shows."""
         if self.list.found:
             self._session.set_players(self.list.found)
 
@@ -295,7 +297,7 @@ class PlayersPanel(Retranslated, QWidget):
         self._variety.header.set_texts(self.tr("players_panel.variety"), whom)
 
     def _scroll_to(self, section: QWidget) -> None:
-        """Scroll to a section after its height has changed."""
+        """Scroll until a section is visible, after its height has changed."""
         QTimer.singleShot(0, self, lambda: self._scroll.verticalScrollBar().setValue(section.y()))
 
     # Editing
@@ -307,7 +309,9 @@ class PlayersPanel(Retranslated, QWidget):
         )
 
     def _toggle(self, field: PlayerMark, player_ids: tuple[str, ...]) -> None:
-        """Mute or solo a section; or one player, together with all selected ones if it is selected."""
+        """Mute or solo the given players: those of a section, or one player together with all selected ones if it is
+        selected.
+        """
         session = self._session
         chosen = session.players if len(player_ids) == 1 and player_ids[0] in session.players else player_ids
         on = not all(getattr(session.project.player(player_id), field) for player_id in player_ids)

@@ -18,7 +18,7 @@ LARGEST = 2**31 - 1
 
 
 def rows_of(section: str, table: Mapping[str, Parameter] = PARAMETERS) -> list[Parameter]:
-    """Return the parameters of a section from the top."""
+    """Return the parameters of a section, in their order from the top."""
     return sorted((one for one in table.values() if one.section == section), key=lambda one: one.row)
 
 

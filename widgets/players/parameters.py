@@ -269,7 +269,7 @@ class ParameterSections(Retranslated, QWidget):
             self._draw_portraits()
 
     def _draw_portraits(self) -> None:
-        """Draw portraits outside the window's thread: every body is looked at closely once."""
+        """Draw the portraits of all characters in the background, since each must be loaded."""
         if self._session.performance.project is not self._session.project:
             # The plans of a piece that was opened come first.
             QTimer.singleShot(PORTRAITS_AFTER_MS, self, self._draw_portraits)
@@ -307,7 +307,7 @@ class ParameterSections(Retranslated, QWidget):
         self.show_players()
 
     def _show_acting(self, note: str) -> None:
-        """Show the style and habits in the header, visible when folded."""
+        """Show a text about style and habits in the header of their section, visible when it is folded."""
         self._sections["acting"].header.set_texts(self.tr("parameter_sections.acting"), note)
 
     def _show_instruments(self) -> None:

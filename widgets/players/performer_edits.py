@@ -1,4 +1,4 @@
-"""Edits of players and dancers with the following selection, shared by commands and the panel."""
+"""Edits of players and dancers that also select the result, shared by commands and the panel."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def randomise_players(session: Session) -> None:
 
 
 def reset_players(session: Session) -> None:
-    """Reset the parameters of the selected players to those of the casting."""
+    """Reset the parameters of the selected players to those of a new player."""
     chosen = session.players
     name = edit_of_players(session.project, "edit.reset_parameters", chosen)
     session.attempt(name, lambda project: players.reset_parameters(project, chosen))

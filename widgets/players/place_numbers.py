@@ -14,7 +14,7 @@ from widgets.players.stage import FARTHEST_M
 
 
 def place_sliders(holder: Retranslated, session: Session, prefix: str) -> dict[str, NumberSlider]:
-    """Return a slider for each field of a place by name; the holder sets their texts."""
+    """Return a slider for each field of a place, by the field's name; ``holder`` sets their texts."""
     sliders = {
         "x_m": NumberSlider(session, -FARTHEST_M, FARTHEST_M, step=0.05, slides=False),
         "z_m": NumberSlider(session, -FARTHEST_M, FARTHEST_M, step=0.05, slides=False),
@@ -29,7 +29,7 @@ def place_sliders(holder: Retranslated, session: Session, prefix: str) -> dict[s
 
 
 def shown_number(place: StagePosition, name: str) -> float:
-    """Return a field of a place in its displayed unit."""
+    """Return a field of a place in its displayed unit: metres or degrees."""
     return round(math.degrees(place.turn_rad)) + 0.0 if name == "turn_rad" else float(getattr(place, name))
 
 

@@ -19,8 +19,8 @@ ARROW_PX = 24
 
 
 class PlayerDelegate(RowDelegate):
-    """Draws a row: colour, name, instrument, leader's crown, problems, record arm, mute and solo; for a section arrow,
-    name and number of players.
+    """Draws a player's row (colour, name, instrument, leader's crown, problems, record arm, mute and solo) or a
+    section's row (arrow, name, number of players).
     """
 
     def buttons(self, row: QRect) -> tuple[QRect, QRect]:

@@ -27,15 +27,15 @@ class PlayerList(OrderedList):
     Signals
     -------
     mute_clicked(object), solo_clicked(object)
-        The button of these players (tuple of str): one, or those of a section.
+        The user clicked the button of these players (tuple of str): one, or all of a section.
     arm_clicked(str)
-        The button of this player.
+        The user clicked the record-arm mark of the player with this id.
     chosen(object)
-        The user selected these ids (tuple of str), the first in front.
+        The user selected the players with these ids (tuple of str); the first becomes active.
     ordered(object)
-        The players of a section (tuple of str) in their new order.
+        The user reordered the players of a section (tuple of str, in the new order).
     folded(object, bool)
-        The user folds these sections (tuple of str, their ids), or unfolds them.
+        The user folded (True) or unfolded the sections with these ids (tuple of str).
     """
 
     mute_clicked = Signal(object)
@@ -61,7 +61,7 @@ class PlayerList(OrderedList):
         session.recording.changed.connect(self.viewport().update)
 
     def height_of_rows(self) -> int:
-        """Height of the list without scrolling, pixels."""
+        """Return the height of the list in pixels at which no row is scrolled out of view."""
         shown = [number for number in range(self.rows.rowCount()) if not self.isRowHidden(number)]
         return sum(max(self.sizeHintForRow(number), 0) for number in shown) + 2 * self.frameWidth()
 
@@ -113,7 +113,7 @@ class PlayerList(OrderedList):
         self.viewport().update()
 
     def rename_current(self) -> None:
-        """Open the field for the name of the player in front, unfolding the section."""
+        """Open the field for the active player's name, unfolding its section."""
         number = self.rows.number(self._session.players[0]) if self._session.players else None
         if number is None:
             return
@@ -158,7 +158,9 @@ class PlayerList(OrderedList):
     # Order
 
     def _carried(self) -> list[int]:
-        """Return the dragged rows: those of the dragged section, or the dragged row with the other selected ones."""
+        """Return the indices of the dragged rows: those of the dragged section, or the dragged row and all other
+        selected ones.
+        """
         header = self.rows.header_of(self._taken_number) if self._taken_number >= 0 else None
         if header is None:
             return self._selected_numbers()
@@ -170,7 +172,7 @@ class PlayerList(OrderedList):
         return next((number for number in range(header + 1, count) if self.rows.section_at(number)), count)
 
     def _places(self) -> list[int]:
-        """Return the rows before which dragged ones may be dropped; a player stays in its instrument's section."""
+        """Return the indices of the rows before which dragged rows may be dropped; a player stays in its section."""
         count = self.rows.rowCount()
         header = self.rows.header_of(self._taken_number) if self._taken_number >= 0 else None
         if header is None:

@@ -1,4 +1,4 @@
-"""Rows of the list of players and their model: players, with section headers in a large piece."""
+"""Rows of the list of players (players, and section headers in a large piece), and their Qt model."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class PlayerRow:
     Attributes
     ----------
     instrument : str
-        In the language of the editor.
+        Name of the instrument in the language of the editor.
     problems : int
         Number of problems in the plan; 0 without a plan.
     leads : bool
@@ -63,8 +63,9 @@ class SectionRow:
     id : str
         Id under which the session stores that it is folded.
     name : str
-        In the language of the editor.
+        Name of the section in the language of the editor.
     players : tuple of PlayerRow
+        Rows of its players.
     """
 
     id: str
@@ -78,7 +79,9 @@ class SectionRow:
         return tuple(row.id for row in self.players)
 
     def marked(self, field: str) -> bool | None:
-        """Return whether all players of the section are ``muted`` or ``soloed``; None if some are."""
+        """Return whether the players of the section are ``muted`` or ``soloed`` (a field's name); None if only some
+        are.
+        """
         marks = {getattr(row.player, field) for row in self.players}
         return None if len(marks) > 1 else marks.pop()
 

@@ -16,7 +16,7 @@ from widgets.common.section import Section
 
 
 class PresetSection(Retranslated, QWidget):
-    """Applies a preset to the selected players, saves and deletes presets."""
+    """Section that applies a preset to the selected players, and saves and deletes presets."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -77,7 +77,7 @@ class PresetSection(Retranslated, QWidget):
             )
 
     def _save(self) -> None:
-        """Keep the parameters of the player in front."""
+        """Save the parameters of the active player as a preset."""
         front = self._session.player
         if front is None or not self._name.text().strip():
             return

@@ -47,17 +47,18 @@ _ARROWS = {
 
 
 class StageView(QWidget):
-    """Players as discs and dancers as rings, with a nose; the audience is below. Drag a player (with all selected ones)
-    or a dancer to move, the nose to turn; arrow keys move, with Ctrl they turn.
+    """Top view: players are discs and dancers are rings, with a nose that shows the direction; the audience is below. A
+    drag moves a player (with all selected ones) or a dancer, a drag of the nose turns; arrow keys move, with Ctrl they
+    turn.
 
     Signals
     -------
     placed(object, object)
         New places (dict of str to StagePosition) and a gesture token.
     released()
-        The drag is over.
+        The drag has ended.
     chosen(object)
-        The user selected these ids (tuple of str), the first in front.
+        The user selected the players with these ids (tuple of str); the first becomes active.
     """
 
     placed = Signal(object, object)
@@ -85,7 +86,9 @@ class StageView(QWidget):
     # Between metres and pixels
 
     def _frame(self) -> tuple[float, float, float]:
-        """Return pixels per metre, and the centre of the view in metres; constant during a drag."""
+        """Return the scale in pixels per metre, and x and z of the centre of the view in metres; constant during a
+        drag.
+        """
         if self._view is not None:
             return self._view
         places = [one.stage for one in self._session.project.performers]
@@ -130,9 +133,7 @@ class StageView(QWidget):
         return dancer is not None and one.id == dancer.id
 
     def _at(self, position: QPointF) -> tuple[Player | Dancer | None, bool]:
-        """Return the performer at a point, and whether the nose was hit. Only selected performers have noses to
-        drag.
-        """
+        """Return the performer at a point, and whether the point hits the nose, which only selected performers have."""
         players = self._session.project.seen
         for player in filter(self._is_selected, players):
             if _distance(self.nose_point(player), position) <= REACH_PX * 0.75:
@@ -368,11 +369,11 @@ def _distance(one: QPointF, other: QPointF) -> float:
 
 
 def _held(metres: float) -> float:
-    """To the millimetre, and never out of sight."""
+    """Return a coordinate rounded to millimetres and limited to the visible stage."""
     return round(min(max(metres, -FARTHEST_M), FARTHEST_M), 3) + 0.0
 
 
 def _wrapped(radians: float) -> float:
-    """In (-pi, pi], to a thousandth of a degree."""
+    """Return an angle wrapped to (-pi, pi] and rounded to a thousandth of a degree."""
     turned = math.remainder(radians, 2.0 * math.pi)
     return round(turned, 5)

@@ -18,7 +18,7 @@ from widgets.players.stage import StageView
 
 
 class StageSection(Retranslated, QWidget):
-    """Top view of the stage with tools for the places of the selected players."""
+    """Section with the top view of the stage, and tools for the places of the selected players."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

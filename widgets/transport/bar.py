@@ -278,8 +278,8 @@ class TransportBar(Retranslated, QWidget):
         self._fit()
 
     def _spare(self) -> dict[QWidget, int]:
-        """Return the fields that exist elsewhere too, with the width in pixels that each needs; the last one is hidden
-        first.
+        """Return the fields that can be hidden because other panels show them, with the width in pixels that each
+        needs; the last one is hidden first.
         """
         return {
             widget: max(widget.minimumWidth(), widget.minimumSizeHint().width()) + _SPACING_PX
@@ -287,7 +287,7 @@ class TransportBar(Retranslated, QWidget):
         }
 
     def _least_px(self) -> int:
-        """Return the width in pixels without these fields."""
+        """Return the least width in pixels of the bar without the fields that can be hidden."""
         layout = self.layout()
         assert layout is not None
         items = [item for index in range(layout.count()) if (item := layout.itemAt(index)) is not None]
@@ -299,7 +299,7 @@ class TransportBar(Retranslated, QWidget):
         return margins.left() + margins.right() + widths + spaces
 
     def _fit(self) -> None:
-        """Hide fields that exist elsewhere too if the space is insufficient, so that every control keeps its name."""
+        """Hide fields that other panels show if the space is insufficient, so that all others keep their captions."""
         room = self.width() - self._least_px()
         for widget, width in self._spare().items():
             if widget is self.silent_text and not self._session.listening.silent:

@@ -17,7 +17,9 @@ _BAR, _BEAT, _OFF = "bar", "beat", "off"
 
 
 class BeatLight(QWidget):
-    """Lights up on every felt beat during playback with metronome or recording; brighter on the first beat of a bar."""
+    """Light that flashes on every felt beat while the metronome or a recording runs; brighter on the first beat of a
+    bar.
+    """
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -29,7 +31,7 @@ class BeatLight(QWidget):
         session.theme_changed.connect(self.update)
 
     def show_time(self, playhead_s: float) -> None:
-        """Light up the beat at the playhead's time in seconds."""
+        """Set the light to the beat at the playhead's time in seconds."""
         state = self._at(playhead_s)
         if state != self.state:
             self.state = state

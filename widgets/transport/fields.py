@@ -38,7 +38,7 @@ def clock_seconds(text: str) -> float | None:
 
 
 class BarsField(NumberSlider):
-    """Bar, beat and ticks of the playhead; a drag steps by the grid."""
+    """Field that shows and sets the playhead's position as bar, beat and ticks; a drag steps by the grid."""
 
     def __init__(self, session: Session) -> None:
         super().__init__(session, -1e7, 1e9, default=0.0, step=1.0, decimals=0, slides=False)
@@ -47,7 +47,7 @@ class BarsField(NumberSlider):
 
 
 class ClockField(NumberSlider):
-    """Minutes and seconds of the playhead."""
+    """Field that shows and sets the playhead's position as minutes and seconds."""
 
     def __init__(self, session: Session) -> None:
         super().__init__(session, -MOST_S, MOST_S, default=0.0, step=0.1, decimals=3, slides=False)

@@ -1,6 +1,6 @@
 """The camera as a value: an orbit about a target; independent of Qt and GL.
 
-World: metres, Y up; the audience is towards +Z, from where a camera of yaw 0 looks.
+World coordinates are metres with Y up; the audience is towards +Z, from where a camera with yaw 0 looks.
 """
 
 from __future__ import annotations
@@ -24,18 +24,20 @@ DOLLY_PER_STEP = 0.88
 
 @dataclass(frozen=True)
 class Camera:
-    """A camera that looks at ``target_m`` from a distance.
+    """A camera that looks at a target from a distance.
 
     Attributes
     ----------
     target_m : (float, float, float)
+        Point in the middle of the picture.
     yaw_rad : float
         Angle from the audience (+Z), increasing towards +X.
     pitch_rad : float
-        0: level; positive: from above.
+        Angle above the horizontal; positive looks from above.
     distance_m : float
+        Distance from the target.
     fov_deg : float
-        Vertical.
+        Vertical angle of view.
     """
 
     target_m: tuple[float, float, float] = (0.0, 1.0, 0.0)
@@ -51,7 +53,7 @@ class Camera:
 
     @property
     def backward(self) -> FloatArray:
-        """Direction from the target to the eye, unit (3,)."""
+        """Unit vector (3,) from the target to the camera."""
         level = math.cos(self.pitch_rad)
         return np.array(
             [math.sin(self.yaw_rad) * level, math.sin(self.pitch_rad), math.cos(self.yaw_rad) * level], np.float64
@@ -59,12 +61,12 @@ class Camera:
 
     @property
     def right(self) -> FloatArray:
-        """To the right of the picture, unit (3,)."""
+        """Unit vector (3,) in the world that points to the right in the picture."""
         return np.array([math.cos(self.yaw_rad), 0.0, -math.sin(self.yaw_rad)], np.float64)
 
     @property
     def up(self) -> FloatArray:
-        """Upwards in the picture, unit (3,)."""
+        """Unit vector (3,) in the world that points upwards in the picture."""
         steepness = math.sin(self.pitch_rad)
         return np.array(
             [-steepness * math.sin(self.yaw_rad), math.cos(self.pitch_rad), -steepness * math.cos(self.yaw_rad)],
@@ -73,16 +75,16 @@ class Camera:
 
     @property
     def near_m(self) -> float:
-        """Distance of the near plane."""
+        """Distance of the near clipping plane in metres."""
         return min(max(0.04 * self.distance_m, 0.01), 0.4)
 
     @property
     def far_m(self) -> float:
-        """Distance of the far plane."""
+        """Distance of the far clipping plane in metres."""
         return self.distance_m + 80.0
 
     def view(self) -> FloatArray:
-        """Return the matrix ``eye_from_world`` (4, 4)."""
+        """Return the view matrix ``eye_from_world`` (4, 4)."""
         rotation = np.stack([self.right, self.up, self.backward])
         matrix = np.eye(4)
         matrix[:3, :3] = rotation
@@ -90,7 +92,7 @@ class Camera:
         return matrix
 
     def projection(self, aspect: float) -> FloatArray:
-        """``clip_from_eye`` (4, 4) for a picture ``aspect`` times as wide as high."""
+        """Return the projection matrix ``clip_from_eye`` (4, 4) for a picture ``aspect`` times as wide as high."""
         f = 1.0 / math.tan(math.radians(self.fov_deg) / 2.0)
         near, far = self.near_m, self.far_m
         return np.array(
@@ -107,7 +109,7 @@ class Camera:
         return self.projection(aspect) @ self.view()
 
     def pixels_per_metre(self, height_px: float, distance_m: float | None = None) -> float:
-        """Return the pixels per metre across the line of sight in a picture of a height."""
+        """Return the pixels per metre at a distance (by default the target's) in a picture of a height in pixels."""
         distance = self.distance_m if distance_m is None else max(distance_m, 1e-3)
         return 0.5 * height_px / (distance * math.tan(math.radians(self.fov_deg) / 2.0))
 
@@ -133,7 +135,7 @@ class Camera:
 
 
 def orbit(camera: Camera, right_px: float, down_px: float) -> Camera:
-    """Return the camera turned about the target by a drag, so that the picture follows the mouse."""
+    """Return the camera turned about the target by a drag, so that objects follow the mouse."""
     pitch = camera.pitch_rad + down_px * ORBIT_RAD_PER_PX
     return replace(
         camera,
@@ -156,15 +158,17 @@ def dolly(camera: Camera, steps: float) -> Camera:
 
 
 def frame(camera: Camera, low_m: npt.ArrayLike, high_m: npt.ArrayLike, aspect: float, margin: float = 1.1) -> Camera:
-    """Return the camera in the same direction with all of a box in the picture."""
+    """Return the camera, in its direction, at the distance at which a whole box (``low_m`` to ``high_m``) is in the
+    picture.
+    """
     low, high = np.asarray(low_m, np.float64), np.asarray(high_m, np.float64)
     corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
     return frame_around(camera, (low + high) / 2.0, corners, aspect, margin)
 
 
 def frame_around(camera: Camera, middle_m: npt.ArrayLike, points_m: FloatArray, aspect: float, margin: float) -> Camera:
-    """Return the camera in the same direction at a point (3,) with points (N, 3) in the picture, of which they take at
-    most 1 / ``margin`` of a side.
+    """Return the camera, in its direction, aimed at a point (3,) with points (N, 3) in the picture, which fill at most
+    1 / ``margin`` of a side.
     """
     middle = np.asarray(middle_m, np.float64)
     away = points_m - middle
@@ -187,7 +191,7 @@ def from_other_side(camera: Camera, front_rad: float) -> Camera:
 
 
 def between(start: Camera, end: Camera, share: float) -> Camera:
-    """Return the camera at a share of the way between two, by the shorter rotation, eased at both ends."""
+    """Return a camera between two at a share 0..1 of the way, by the shorter rotation, eased at both ends."""
     if share >= 1.0:
         return end
     share = max(share, 0.0)
@@ -205,7 +209,8 @@ def between(start: Camera, end: Camera, share: float) -> Camera:
 def followed(
     camera: Camera, target_m: npt.ArrayLike, elapsed_s: float, distance_m: float | None = None, settle_s: float = 0.35
 ) -> Camera:
-    """Return the camera moved towards a moving target and distance like a damped spring without overshoot.
+    """Return the camera moved towards a target and distance for ``elapsed_s`` seconds, like a damped spring without
+    overshoot.
 
     ``settle_s`` is the time constant in seconds, in which 63 % of a jump is covered.
     """

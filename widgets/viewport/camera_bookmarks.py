@@ -19,7 +19,7 @@ from widgets.viewport.scene import ViewportScene
 
 
 def bookmark_of(eye: Eye, name: str, player_id: str) -> CameraBookmark:
-    """Return the bookmark of a camera, or of the end of its flight."""
+    """Return the bookmark of a camera, or of the camera to which it is flying."""
     camera = eye.destination
     return CameraBookmark(
         name,
@@ -42,19 +42,21 @@ def camera_of(bookmark: CameraBookmark) -> Camera:
 def shot_of(
     bookmark: CameraBookmark, player_ids: tuple[str, ...], project: Project, cameras: dict[float, Camera] | None
 ) -> Shot:
-    """Return a film's camera for a bookmark, which follows the bookmark's player if it exists."""
+    """Return a film's camera for a bookmark, which follows the bookmark's player if that exists; ``cameras`` as in
+    `Shot`.
+    """
     is_there = any(bookmark.player_id == one.id for one in project.performers)
     followed = (bookmark.player_id,) if is_there else player_ids
     return Shot(bookmark.view, camera_of(bookmark), followed, bookmark.shift_m, cameras)
 
 
 class BookmarkedCamera:
-    """The viewport's camera for commands: see `app.editor.viewport_state.ViewportCamera`.
+    """The viewport's camera as used by commands, see `app.editor.viewport_state.ViewportCamera`.
 
     Parameters
     ----------
     go : callable
-        Moves the camera, with an animation if it is visible.
+        Moves the camera, smoothly if the viewport is visible.
     """
 
     def __init__(
@@ -86,7 +88,7 @@ class BookmarkedCamera:
         return self._eye.touched
 
     def restore(self, bookmark: CameraBookmark, is_moved: bool) -> None:
-        """Restore the view in which a piece was closed."""
+        """Restore the camera that a piece had when it was closed."""
         if is_moved:
             self.recall(bookmark)
             self._eye.jump(self._eye.destination)
@@ -94,5 +96,5 @@ class BookmarkedCamera:
             self._session.viewport.set_view(bookmark.view)
 
     def ask_name(self, bookmark: CameraBookmark) -> None:
-        """Open a field over the picture for another name of the bookmark."""
+        """Open a field over the picture for renaming a bookmark."""
         self._header.ask_name(bookmark)

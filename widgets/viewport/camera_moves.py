@@ -21,12 +21,12 @@ LONGEST_STEP_S = 0.1
 
 
 class Eye:
-    """Position of the camera with its flights. Times are those of any clock in seconds.
+    """The viewport's camera with its flights. Times are seconds of any one clock.
 
     Attributes
     ----------
     camera : Camera
-        Of now.
+        The present camera.
     view : View
         Present view; close-ups follow their object.
     touched : bool
@@ -45,12 +45,12 @@ class Eye:
 
     @property
     def destination(self) -> Camera:
-        """The camera, or the end of its flight."""
+        """The camera, or the camera at the end of its flight."""
         return self._flight[1] if self._flight is not None else self.camera
 
     @property
     def shift_m(self) -> FloatArray:
-        """Shift (3,) in metres of a close-up from its object, as set by the user."""
+        """Shift (3,) in metres of a close-up's centre from the followed object, as set by the user."""
         return self._shift_m
 
     @property
@@ -59,16 +59,18 @@ class Eye:
         return self._flight is not None
 
     def choose(self, view: View) -> None:
-        """Choose a named view (such as the front) for the camera, and forget the user's own moves and shift."""
+        """Choose a named view (such as the front), and discard the user's own moves and shift; the camera itself does
+        not move yet.
+        """
         self.view, self.touched, self._framed = view, False, None
         self._shift_m = np.zeros(3)
 
     def place(self, shift_m: FloatArray) -> None:
-        """Set the camera as moved by the user, for a close-up with a shift."""
+        """Record that the user has moved the camera, with a shift (3,) for a close-up."""
         self.touched, self._shift_m = True, shift_m
 
     def jump(self, camera: Camera) -> None:
-        """Set the camera at once, without moving there smoothly."""
+        """Set the camera immediately, without a flight."""
         self.camera, self._flight, self._framed = camera, None, None
 
     def fly(self, camera: Camera, now_s: float) -> None:
@@ -88,17 +90,19 @@ class Eye:
         return True
 
     def centred(self, middle_m: FloatArray) -> FloatArray:
-        """Return the point (3,) that the camera looks at: a followed point moved as the user has shifted the view."""
+        """Return the point (3,) that the camera looks at: a followed point plus the user's shift."""
         shifted: FloatArray = middle_m + self._shift_m
         return shifted
 
     def follow(self, middle_m: FloatArray | None, now_s: float, needed_m: float | None = None) -> bool:
-        """Move towards a followed point, and return whether it is not reached yet.
+        """Move the camera towards a followed point, and return whether it must move further.
 
         Parameters
         ----------
         middle_m : array (3,) or None
+            The followed point; None if the view follows nothing.
         now_s : float
+            Present time.
         needed_m : float, optional
             Distance in metres at which all of a close-up's contents are visible; the camera moves back if it grows.
         """
@@ -133,7 +137,7 @@ class Eye:
         self._shift_m = self._shift_m + np.asarray(self.camera.target_m) - before
 
     def dolly(self, steps: float) -> None:
-        """Move the camera nearer by steps of the user."""
+        """Move the camera nearer by steps of the user's mouse wheel."""
         self._grasp()
         self.camera = moves.dolly(self.camera, steps)
 

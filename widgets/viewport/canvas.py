@@ -46,14 +46,14 @@ def why_no_gl() -> str | None:
 
 
 class Canvas(vispy_app.Canvas):  # type: ignore[misc]
-    """Draws the result of `picture` whenever Qt requests it.
+    """Widget that draws the stage with GL whenever Qt requests it.
 
     Parameters
     ----------
     picture : callable
-        Camera, look and emphasis of now; given the size in pixels first.
+        Returns camera, look and emphasis for the present picture, given its width and height in pixels.
     failed : callable
-        Called with the reason why drawing does not work, once.
+        Called once with the reason if drawing does not work.
     """
 
     def __init__(self, picture: Callable[[int, int], Picture], failed: Callable[[str], None]) -> None:
@@ -82,8 +82,9 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         self.update()
 
     def clear_stage(self) -> None:
-        """Draw no players from now on; the figures are released immediately, since a hidden canvas draws no next
-        picture."""
+        """Draw no performers from now on. Their figures are released immediately, since a hidden canvas draws no next
+        picture.
+        """
         self._prepare = None
         if self._renderer is not None:
             self._renderer.clear_stage()
@@ -99,7 +100,7 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
 
     @property
     def rested_s(self) -> float:
-        """Time since the last picture."""
+        """Return the time in seconds since the last picture was drawn."""
         return perf_counter() - self._drawn_s
 
     def draw_now(self) -> None:
@@ -149,7 +150,7 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
 
 
 def pixels(image: QImage) -> npt.NDArray[np.uint8]:
-    """Return an RGBA8888 picture as an array (height, width, 4)."""
+    """Return an image of the format RGBA8888 as an array (height, width, 4)."""
     rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
     return rows[:, : 4 * image.width()].reshape(image.height(), image.width(), 4).copy()
 

@@ -1,6 +1,6 @@
 """The performers on the stage, prepared for drawing, and their poses as arrays of bone matrices.
 
-All performers whose skeletons have the same joints are posed at once: the arrays have a row for each.
+All performers whose skeletons have the same joints are posed together, in arrays with a row for each.
 """
 
 from __future__ import annotations
@@ -37,8 +37,9 @@ class RenderAssets:
     Attributes
     ----------
     character : Character
+        The character.
     held : (InstrumentModel, InstrumentMap) or None
-        Instrument; None for a dancer.
+        Model and map of the instrument; None for a dancer.
     """
 
     character: Character
@@ -46,13 +47,13 @@ class RenderAssets:
 
     @property
     def instrument(self) -> InstrumentModel:
-        """Return the model of a player's instrument."""
+        """The model of a player's instrument."""
         assert self.held is not None
         return self.held[0]
 
     @property
     def map(self) -> InstrumentMap:
-        """Return the map of a player's instrument."""
+        """The map of a player's instrument."""
         assert self.held is not None
         return self.held[1]
 
@@ -64,8 +65,11 @@ class Member:
     Attributes
     ----------
     player_id : str
-    kit : RenderAssets
+        Id of the player or dancer.
+    assets : RenderAssets
+        Meshes and skeletons.
     world_from_player : (3, 4) float64
+        Place on the stage.
     seat_m : (3,) float64 or None
         Middle of the seat's top in the player's frame; None if standing.
     musician_id : str
@@ -75,7 +79,7 @@ class Member:
     supports : Supports or None
         Straps and chair; None if there are none, or not known yet.
     dances_on_foot : bool
-        True if the legs dance: of a dancer, or of a player who dances standing.
+        Whether the legs dance: those of a dancer, or of a player who dances standing.
     """
 
     player_id: str
@@ -107,13 +111,14 @@ def dancer_kit(dancer: Dancer) -> RenderAssets:
 
 
 def dancing_member(dancer: Dancer, assets: RenderAssets) -> Member:
-    """Describe a dancer at the place on stage as a member of the stage to be drawn."""
+    """Return a dancer at its place as a member of the stage."""
     return Member(dancer.id, assets, placed(dancer.stage), None, dancer.id, dances_on_foot=True)
 
 
 def stand_of(player: Player, assets: RenderAssets, number: int) -> FloatArray | None:
     """Return the position (3,) of the top of the stand on which an unused instrument lies, in the player's frame;
-    ``number`` counts the musician's instruments from 0. None while unknown."""
+    ``number`` counts the musician's instruments from 0. None if it is not known yet.
+    """
     found = lies_at(player, find_map(player.instrument_id), number)
     if found is None:
         return None
@@ -132,7 +137,9 @@ def member_of(
     stand_m: FloatArray | None = None,
     supports: Supports | None = None,
 ) -> Member:
-    """Return a player at its place, with a musician's body if given."""
+    """Return a player at its place as a member of the stage; ``musician_id`` is the player whose body plays, if
+    another.
+    """
     musician_id = musician_id or player.id
     posture = body_of(player).postures[assets.map.hold.possible(player.parameters.posture)]
     seat_m = seat(assets.character.skeleton, posture) if musician_id == player.id else None
@@ -146,7 +153,7 @@ def dances(player: Player) -> bool:
 
 
 def placed(stage: StagePosition) -> FloatArray:
-    """``world_from_player`` (3, 4) of a place on the stage."""
+    """Return the transform ``world_from_player`` (3, 4) of a place on the stage."""
     cosine, sine = math.cos(stage.turn_rad), math.sin(stage.turn_rad)
     return np.array([[cosine, 0.0, sine, stage.x_m], [0.0, 1.0, 0.0, 0.0], [-sine, 0.0, cosine, stage.z_m]])
 
@@ -173,9 +180,9 @@ class SkeletonBatch:
     Parameters
     ----------
     members : sequence of Member
-        All of the stage.
+        All members of the stage.
     rows : sequence of int
-        Rows of the members.
+        Indices of those members that the batch has.
     """
 
     def __init__(self, members: Sequence[Member], rows: Sequence[int]) -> None:
@@ -191,8 +198,9 @@ class SkeletonBatch:
         self._bind = np.array([character.joint_from_mesh for character in characters])
 
     def joints(self, rotations: FloatArray, hips_m: FloatArray) -> FloatArray:
-        """Return the transforms ``world_from_joint`` (P, J, 3, 4) of J joints of P performers from their rotations (P,
-        J, 4) and the places of the hips (P, 3)."""
+        """Return the transforms ``world_from_joint`` (P, J, 3, 4) of J joints of P performers, from rotations (P, J, 4)
+        and positions of the hips (P, 3).
+        """
         local = np.empty((*rotations.shape[:2], 3, 4))
         local[..., :3] = quaternion.to_matrix(rotations[:, self._order])
         local[..., 3] = self._offsets_m
@@ -206,8 +214,7 @@ class SkeletonBatch:
         return world[:, self._back]
 
     def skinning(self, joints: FloatArray) -> FloatArray:
-        """Return the matrices (P, J, 3, 4) that move the mesh of P performers with their J joints:
-        ``world_from_mesh``."""
+        """Return the skinning matrices ``world_from_mesh`` (P, J, 3, 4) of P performers with J joints."""
         matrices: FloatArray = joints @ self._bind
         return matrices
 
@@ -218,12 +225,13 @@ class Stage:
     Parameters
     ----------
     members : sequence of Member
+        All performers.
 
     Attributes
     ----------
     bones : (N, B, 3, 4) float32
-        ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat and of
-        the stand, then of straps and chair (from `first_support`); all 0 for performers without a pose.
+        ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat and of the
+        stand, then of straps and chair (from `first_support`); all 0 for performers without a pose.
     joints : (N, J, 3, 4) float64
         ``world_from_joint``.
     heads : (N,) int
@@ -282,7 +290,7 @@ class Stage:
         return [row for row, member in enumerate(members) if member.musician_id == musician_id]
 
     def pose(self, poses: Mapping[str, Pose | None]) -> bool:
-        """Apply poses to all performers, and return whether anything changed."""
+        """Apply poses, by player id, to all performers, and return whether anything changed."""
         fresh = False
         for row, member in enumerate(self.members):
             pose = poses.get(member.player_id)
@@ -313,7 +321,9 @@ class Stage:
         return True
 
     def _hang(self, row: int, played: Sequence[int], held: FloatArray) -> None:
-        """Put a musician's straps where body and instruments are."""
+        """Place a musician's straps and chair by the body in the row ``row``, and by the instruments in the rows
+        ``played``, whose transforms are ``held``.
+        """
         supports = self.members[row].supports
         assert supports is not None
         stage = self._stages[row]
@@ -353,14 +363,14 @@ class Stage:
         return place
 
     def node_matrix(self, row: int, node: int = 0) -> FloatArray:
-        """``world_from_rest`` (3, 4) of an instrument's node."""
+        """Return the transform ``world_from_rest`` (3, 4) of a node of an instrument."""
         matrix: FloatArray = self.bones[row, self.first_node + node].astype(np.float64)
         return matrix
 
 
 def _levels(skeleton: Skeleton) -> tuple[IndexArray, list[tuple[slice, IndexArray | None]]]:
-    """Return an order of the joints by depth, and for each depth its range with the parents' positions; the root has
-    none.
+    """Return an order of the joints by depth in the hierarchy, and for each depth the range in that order, with the
+    places there of the joints' parents; None for the root.
     """
     depth: list[int] = []
     for parent in skeleton.parents:
@@ -383,7 +393,7 @@ def _grouped(keys: Sequence[Hashable]) -> list[list[int]]:
 
 
 def _within(stage: FloatArray, transforms: FloatArray) -> FloatArray:
-    """Transforms (..., 3, 4) of the world in the space of a place (3, 4)."""
+    """Return transforms (..., 3, 4), given in the world, relative to a place (3, 4) on the stage."""
     back = stage[:, :3].T
     turned: FloatArray = back @ transforms
     turned[..., 3] -= back @ stage[:, 3]

@@ -34,7 +34,9 @@ class ViewportLook:
 
 @dataclass(frozen=True)
 class Emphasis:
-    """Highlighted parts of the picture: rings by row, transparent rows, style of the figures, and the podium."""
+    """State of the picture beyond the poses: rings on the floor by row, the conductor's place, rows drawn transparent
+    because they are in the way, wireframe, props and video.
+    """
 
     rings: Mapping[int, Color] = field(default_factory=dict)
     podium: tuple[float, float, Color] | None = None
@@ -52,7 +54,7 @@ class Emphasis:
 
 
 def direction(x: float, y: float, z: float) -> Color:
-    """Scale a vector to length 1."""
+    """Return a direction as a vector of length 1."""
     length = float(np.linalg.norm((x, y, z)))
     return x / length, y / length, z / length
 
@@ -67,7 +69,7 @@ def rgb(text: str) -> Color:
 
 
 def mixed(one: Color, other: Color, share: float) -> Color:
-    """A colour between two; ``share`` 0 is the first."""
+    """Return a mixture of two colours; at ``share`` 0 it is the first, at 1 the second."""
     return (
         one[0] + share * (other[0] - one[0]),
         one[1] + share * (other[1] - one[1]),

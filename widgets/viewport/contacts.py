@@ -24,9 +24,9 @@ class ContactReading:
     Attributes
     ----------
     part : str
-        Landmark of the hand.
+        Landmark of the hand that touches.
     requested_m, found_m : (3,) float64
-        The place on the instrument and the middle of the landmark's skin, in the world.
+        The point to touch on the instrument, and the middle of the landmark's skin, both in the world.
     firm : bool
         Whether it supports or works the instrument.
     """
@@ -43,7 +43,7 @@ class ContactReading:
 
     @property
     def distance_mm(self) -> float:
-        """Return the distance in millimetres of the skin from its place."""
+        """Return the distance in millimetres of the skin from the point to touch."""
         return 1000.0 * float(np.linalg.norm(self.requested_m - self.found_m))
 
 
@@ -84,8 +84,8 @@ def _nearest(touches: list[ContactReading]) -> ContactReading:
 
 
 def _holds(index: int, instrument: InstrumentMap, controls: Mapping[str, float]) -> bool:
-    """Return whether a contact applies: of a finger with several places, the one at which it works most of the pressed
-    controls.
+    """Return whether a contact with an index is required in the present pose; of a finger with several stations, only
+    those of the station at which it works most of the pressed controls.
     """
     contact = instrument.contacts[index]
     place = only_at(instrument)[index]

@@ -33,9 +33,9 @@ CastKey = tuple[tuple[str, str, str, str, str, int, int, bool, float, float, flo
 
 @dataclass(frozen=True, eq=False)
 class DrawableFigures:
-    """Figures of the performers that can be drawn, with the reasons for the others.
+    """Figures of the performers that can be drawn, and the reasons why others cannot.
 
-    ``crowd`` is dropped once the graphics card has it, since it is large.
+    ``crowd`` is set to None once the graphics card has its data, since it is large.
     """
 
     key: CastKey
@@ -83,14 +83,15 @@ def cast_key(project: Project) -> CastKey:
 
 
 def is_known(player: Player) -> bool:
-    """Return whether it is known how the player holds the instrument: so where it lies on a stand, and hangs on a
-    strap."""
+    """Return whether the player's grip on the instrument is known, which decides its place on a stand and on
+    a strap.
+    """
     instrument = library().maps.get(player.instrument_id)
     return instrument is not None and is_held(player, instrument)
 
 
 def _supports(project: Project, musician: Player, assets: RenderAssets) -> Supports | None:
-    """Straps and chair of a musician, as far as it is known how the instruments are held."""
+    """Return the straps and chair of a musician, as far as the grips on the instruments are known."""
     held = []
     for player in project.played_by(musician):
         instrument = suited_to(player, library().maps[player.instrument_id]).instrument
@@ -101,7 +102,7 @@ def _supports(project: Project, musician: Player, assets: RenderAssets) -> Suppo
 
 
 def same_figures(one: CastKey, other: CastKey) -> bool:
-    """Return whether two stages differ only in places, so that nothing must be loaded."""
+    """Return whether the figures for two stages differ only in their places, so that nothing must be loaded."""
     return [row[:8] for row in one] == [row[:8] for row in other]
 
 
@@ -111,12 +112,12 @@ def is_part_of(part: CastKey, whole: CastKey) -> bool:
 
 
 def only(project: Project, player: Player) -> Project:
-    """The project as if a player's musician were alone on the stage."""
+    """Return the project with a player's musician as the only performer."""
     return replace(project, players=project.played_by(player), dancers=())
 
 
 def load(project: Project, before: Shapes | None, progress: Progress, stop_requested: StopRequested) -> DrawableFigures:
-    """Load all performers. A player with something missing is excluded. Raises Cancelled."""
+    """Load the figures of all performers. A player with something missing is excluded. Raises Cancelled."""
     assets: dict[tuple[str, str], RenderAssets] = {}
     musicians: dict[str, str] = {}
     done = 0
@@ -155,7 +156,7 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
 
 
 def moved(project: Project, loaded: DrawableFigures) -> DrawableFigures:
-    """The figures in their poses, at the places of another value of the project."""
+    """Return the loaded figures, keeping their poses, at the places in a changed project."""
     players: dict[str, Player] = {player.id: player for player in project.players}
     dancers: dict[str, Dancer] = {dancer.id: dancer for dancer in project.dancers}
     members = [

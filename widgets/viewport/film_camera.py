@@ -1,4 +1,4 @@
-"""The camera of a film: fixed, or following a close-up's object smoothly."""
+"""The camera of a film: fixed, or smoothly following the object of a close-up."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ class Shot:
     Parameters
     ----------
     view : View
+        The view.
     camera : Camera
         Direction, distance and angle of view of the whole film.
     player_ids : tuple of str
@@ -31,7 +32,7 @@ class Shot:
     shift_m : (3,) float, optional
         Shift of a close-up's object from the middle of the picture.
     cameras : dict of float to Camera, optional
-        Cameras by time: existing ones are used, others are added.
+        Cameras by time in seconds: existing ones are used, others are added, so that two films agree.
     """
 
     def __init__(
@@ -51,7 +52,9 @@ class Shot:
         """Names, marks and rings are drawn."""
 
     def camera_at(self, stage: Stage, time_s: float) -> Camera:
-        """Return the camera for the stage's poses at a time after the previous one; the first one is centred."""
+        """Return the camera for a time (later than at the previous call) and the stage's poses then; the first camera
+        is centred.
+        """
         if self._cameras is not None and time_s in self._cameras:
             return self._cameras[time_s]
         rows = stage.rows(self.player_ids)
@@ -65,7 +68,9 @@ class Shot:
 
 
 def times_looked_at(players: int, start_s: float, end_s: float) -> list[float]:
-    """Return the times in seconds at which players are measured before a film."""
+    """Return the times in seconds at which players are measured before a film, to find a camera that shows them at all
+    times.
+    """
     if end_s <= start_s:
         return [start_s]
     count = min(max(_POSES // max(players, 1), _LEAST_TIMES), _MOST_TIMES)

@@ -38,7 +38,7 @@ _TIP_M = 0.022
 
 
 def directions(usual: Direction) -> list[Direction]:
-    """Return the possible directions in degrees, the usual one first."""
+    """Return the possible directions of view (yaw, pitch) in degrees, the usual one first."""
     return [usual, *((side, height) for side in _SIDES_DEG for height in _HEIGHTS_DEG)]
 
 
@@ -50,7 +50,7 @@ def clearest(gained: FloatArray, usual: Direction) -> Direction:
     gained : (D,) float64
         Visibility from each of `directions`, 0..1.
     usual : tuple of float
-        In degrees.
+        The usual direction in degrees.
     """
     found = directions(usual)
     turned = [math.hypot(side - usual[0], height - usual[1]) / 90.0 for side, height in found]
@@ -66,12 +66,12 @@ def fingers_seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_
     Parameters
     ----------
     turn_rad : float
-        Direction that the player faces, from +Z towards +X.
+        Direction in which the player faces, from +Z towards +X.
 
     Returns
     -------
     (D,) float64
-        0..1.
+        Visibility from each direction, 0..1.
     """
     wrists_m, joints_m = _moving_fingers(stage, row)
     tips_m = joints_m[:, 2] + _TIP_M * _unit(joints_m[:, 2] - joints_m[:, 1])
@@ -86,8 +86,8 @@ def fingers_seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_
 
 
 def _moving(instrument: InstrumentMap) -> list[str]:
-    """Return the first parts of the joint names of playing fingers; thumbs, which are behind, only if there is no other
-    finger.
+    """Return the prefixes of the joint names of fingers that play; of thumbs, which are behind, only if no other finger
+    plays.
     """
     movers = {control.finger for control in instrument.controls if control.role == "pitch"}
     named = sorted(f"{hand}{finger.capitalize()}" for hand, finger in (mover.split(".") for mover in movers))

@@ -59,11 +59,13 @@ def view_camera(view: View, stage: Stage, rows: Sequence[int], camera: Camera, a
     Parameters
     ----------
     view : View
+        The view.
     stage : Stage
+        Performers with their poses.
     rows : sequence of int
         Rows of the selected players, the active one first.
     camera : Camera
-        Previous camera: gives the angle of view, and is kept if there is no player to show.
+        Previous camera, whose angle of view is used; it is returned if there is no player to show.
     aspect : float
         Width over height.
     """
@@ -140,7 +142,7 @@ def needed_distance_m(view: View, stage: Stage, row: int, camera: Camera, aspect
 
 
 def in_the_way(view: View, stage: Stage, rows: Sequence[int], camera: Camera) -> frozenset[int]:
-    """Return the players between the camera and the selected players of a view about these."""
+    """Return the rows of players who stand between the camera and the selected players, if the view is about these."""
     chosen = [row for row in rows if stage.shown[row]]
     if view == "ensemble" or not chosen:
         return frozenset()
@@ -182,8 +184,9 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
 
 
 def _bust(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
-    """Return least and greatest corner (3,) of a box around players from the hips up, centred regardless of their arms;
-    from the floor up if they dance."""
+    """Return least and greatest corner (3,) of a box around players from the hips up, or from the floor up if they
+    dance; it is centred on the bodies regardless of the arms.
+    """
     low, high = bounds(stage, rows)
     if any(stage.members[row].assets.held is None for row in rows):
         return low, high
@@ -214,7 +217,7 @@ def _hands(stage: Stage, row: int) -> FloatArray:
 
 
 def _around(view: View, stage: Stage, row: int, middle: FloatArray) -> FloatArray:
-    """Return the points (N, 3) that a close-up shows, relative to its middle."""
+    """Return the points (N, 3) that a close-up must show, relative to its middle."""
     if view == "hands":
         return np.array([stage.joint_m(row, name) for name in _FINGERS]) - middle
     half = 0.58 * _HALF_M[view]

@@ -49,11 +49,15 @@ class Crowd:
     parts : tuple of (int, Geometry)
         Row of the player and geometry of each part, in order.
     shape : (V,) SHAPE
+        Vertices of all players.
     surface : (V,) SURFACE
+        Surfaces of the vertices.
     rows : (V,) float32
-        The player's row of every vertex.
+        Row of the player to which each vertex belongs.
     triangles : (T, 3) uint32
+        Vertex indices; one-sided triangles first.
     one_sided : int
+        Number of one-sided triangles.
     """
 
     parts: tuple[tuple[int, Geometry], ...]
@@ -66,7 +70,7 @@ class Crowd:
 
 @lru_cache(maxsize=16)
 def character_levels(character: Character) -> tuple[Geometry, ...]:
-    """All levels of detail of a character; the coarsest has no morphs."""
+    """Return all levels of detail of a character, finest first; the coarsest has no morphs."""
     return _levels(character.meshes, BODY_CELLS_M, PLAIN_FACTOR)
 
 
@@ -74,7 +78,7 @@ def character_levels(character: Character) -> tuple[Geometry, ...]:
 def instrument_levels(model: InstrumentModel, first_bone: int) -> tuple[Geometry, ...]:
     """Return all levels of detail of an instrument, whose node n moves with bone ``first_bone + n``.
 
-    The cache is larger than the number of instruments: otherwise all would be made anew with every added player, which
+    The cache is larger than the number of instruments: otherwise all would be made again for every added player, which
     takes seconds.
     """
     return tuple(_moving_with(level, first_bone) for level in _levels(model.meshes, INSTRUMENT_CELLS_M, 1.0))
@@ -82,7 +86,7 @@ def instrument_levels(model: InstrumentModel, first_bone: int) -> tuple[Geometry
 
 @lru_cache(maxsize=128)
 def supports_geometry(supports: Supports, first_bone: int) -> Geometry:
-    """Straps and chair in one level of detail; bone n of theirs is bone ``first_bone + n``."""
+    """Return straps and chair as a geometry with one level of detail; their bone n is bone ``first_bone + n``."""
     whole = _Whole([split_mesh(mesh) for mesh in supports.meshes], 1.0)
     return _moving_with(whole.level(0.0, 0.0, far=True), first_bone)
 
@@ -155,7 +159,7 @@ def edges(geometry: Geometry) -> npt.NDArray[np.uint32]:
 def _turned(
     profile: FloatArray, color: tuple[float, float, float], roughness: float, metallic: float, bone: int
 ) -> Geometry:
-    """A surface of revolution about Y through points (radius, height), with an edge at every point."""
+    """Return a surface of revolution about Y through points (radius, height), with an edge at every point."""
     steps = 28
     angles = np.linspace(0.0, 2.0 * np.pi, steps + 1)
     around = np.stack([np.cos(angles), np.zeros(steps + 1), np.sin(angles)], axis=1)
@@ -197,7 +201,7 @@ def _levels(meshes: Sequence[Mesh], cells_m: Sequence[float], plain_factor: floa
 
 
 class _Whole:
-    """All meshes of a thing end to end."""
+    """All meshes of a character or instrument concatenated, from which levels of detail are made."""
 
     def __init__(self, splits: Sequence[SplitMesh], plain_factor: float) -> None:
         counts = [len(split.vertices) for split in splits]
@@ -242,7 +246,9 @@ class _Whole:
         self._morphs = self._all_morphs()
 
     def _texture(self, own: slice, split: SplitMesh, looks: tuple[Material, ...], plains: tuple[Material, ...]) -> None:
-        """Note texture coordinates, looks and colours of a mesh's vertices."""
+        """Store texture coordinates, textured materials and colours of a mesh's vertices, which are in the range
+        ``own``.
+        """
         mesh, uvs = split.mesh, split.mesh.uvs[split.vertices]
         self._uvs[own] = uvs
         for number, (material, plain) in enumerate(zip(mesh.materials, plains, strict=True)):
@@ -289,8 +295,9 @@ class _Whole:
         return Geometry(shape, surfaces, corners, int((~last).sum()), face, surface_of, self._uvs[order], groups)
 
     def _surfaces(self, order: IntArray) -> tuple[npt.NDArray[np.void], npt.NDArray[np.uint16] | None]:
-        """Return the surfaces (colour, texture and the like) of the vertices in ``order``, as in `Geometry.surfaces`;
-        where vertices share them, each once, with the row for every vertex."""
+        """Return the surfaces of the vertices in ``order`` for `Geometry.surfaces` and `Geometry.surface_of`: each
+        distinct surface once with the index for every vertex, or one surface for each vertex and None.
+        """
         if self._bends:
             return self._surface[order], None
         rows = numbers(self._surface)[order]
@@ -350,7 +357,7 @@ class _Whole:
 
 
 def _is_plain(mesh: Mesh) -> bool:
-    """Return whether a mesh is large and shows no expression."""
+    """Return whether a mesh is large and has no morphs, so that it can be simplified more."""
     return not mesh.morphs and _thickness_m(mesh) > PLAIN_LEAST_M
 
 

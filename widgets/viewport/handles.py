@@ -39,11 +39,11 @@ class Handle:
     ----------
     target : PoseTarget
     at_m : (3,) float64
-        Displayed position.
+        Displayed position in the world.
     turns : tuple of (Angle, (3,) float64)
         Motion of the handle in metres per radian of each angle that a drag changes.
-    leans : tuple of the same
-        Same for a drag with Alt.
+    leans : tuple of (Angle, (3,) float64)
+        Likewise for a drag with Alt.
     """
 
     target: PoseTarget
@@ -53,7 +53,9 @@ class Handle:
 
 
 def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
-    """The handles by which the present pose of the player ``row`` can be dragged; none if hidden."""
+    """Return the handles by which the present pose of the player in ``row`` can be dragged; empty if the player is not
+    drawn.
+    """
     if not stage.shown[row]:
         return ()
     frame = stage.members[row].world_from_player
@@ -93,7 +95,7 @@ def _turns(arm_m: FloatArray, **axes: FloatArray) -> tuple[tuple[Angle, FloatArr
 
 
 def _elbow(stage: Stage, row: int, target: PoseTarget, outwards: FloatArray, up: FloatArray) -> Handle:
-    """Return the handle of an elbow, which swings about the line from shoulder to wrist."""
+    """Return the handle of an elbow, which rotates about the line from shoulder to wrist."""
     side = target.split("_")[0]
     shoulder, elbow, wrist = (stage.joint_m(row, side + name) for name in ("UpperArm", "LowerArm", "Hand"))
     line = (wrist - shoulder) / max(float(np.linalg.norm(wrist - shoulder)), 1e-6)

@@ -54,6 +54,7 @@ class ViewportHeader(Retranslated, QWidget):
     Parameters
     ----------
     session : Session
+        Session with the state of the 3D view.
     """
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -126,7 +127,7 @@ class ViewportHeader(Retranslated, QWidget):
         self._folded.hide()
 
     def _add_shown(self) -> dict[Shown, QAction]:
-        """Add a menu of additional things to display, and return its actions."""
+        """Add a menu of additional things to display, and return its actions by kind."""
         menu = named(QMenu(self), "viewport_show_menu")
         self._show.setMenu(menu)
         self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
@@ -197,7 +198,7 @@ class ViewportHeader(Retranslated, QWidget):
             field.deleteLater()
 
     def set_note(self, text: str) -> None:
-        """Show a text between the buttons, as many of its parts as fit."""
+        """Show a text between the buttons; as many of its parts as fit."""
         self._note_text = text
         self._note.setToolTip(text)
         self._fold()
@@ -239,7 +240,7 @@ class ViewportHeader(Retranslated, QWidget):
         self._note.setStyleSheet(f"color: {tokens.text_dim};")
 
     def _fold(self) -> None:
-        """Show seven buttons if they fit, else one with a menu."""
+        """Show the views as seven buttons if they fit, else as one button with a menu."""
         others = sum(button.sizeHint().width() + 4 for button in self._others)
         fits = self.width() >= self._segments.sizeHint().width() + others + 24
         self._segments.setVisible(fits)
@@ -252,7 +253,7 @@ class ViewportHeader(Retranslated, QWidget):
 
     @property
     def _others(self) -> tuple[QToolButton, ...]:
-        """Buttons that stay visible when the header is narrow."""
+        """Return the buttons that stay visible when the header is narrow."""
         return self._cameras, self._pose, self._frame, self._show, self._full
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
@@ -263,12 +264,12 @@ class ViewportHeader(Retranslated, QWidget):
         return super().eventFilter(watched, event)
 
     def minimumSizeHint(self) -> QSize:
-        """Narrow enough for the folded header."""
+        """Return the width of the header with the views folded into a menu."""
         shown = (self._folded, *self._others)
         return QSize(sum(button.sizeHint().width() + 4 for button in shown) + 16, super().minimumSizeHint().height())
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Show the button for full screen and the shortcuts, which are known by now."""
+        """Update the button for full screen and the shortcuts, which are known only once the window exists."""
         self._full.setVisible(FULL_SCREEN in actions(self._session))
         self.word()
         super().showEvent(event)

@@ -1,4 +1,4 @@
-"""All instruments and their moving parts as matrices, computed together.
+"""Transforms of all instruments and their moving parts, computed together.
 
 The motion of nodes in the maps is stored in arrays once, so that thirty kinds of instruments take no longer than one.
 """
@@ -69,11 +69,13 @@ class Instruments:
         self._travels_m = self._axes * np.array([motion.travel_m or 0.0 for motion in motions])[:, None]
 
     def work(self, row: int, controls: Mapping[str, float]) -> None:
-        """Set the controls of an instrument, 0..1; missing ones are at 0."""
+        """Set the values 0..1 of the controls of the instrument in ``row``; missing ones are at 0."""
         self._values[self._own[row]] = [controls.get(name, 0.0) for name in self._names[row]]
 
     def matrices(self, held: FloatArray) -> FloatArray:
-        """Return ``world_from_rest`` (N, nodes, 3, 4) for ``world_from_instrument`` (N, 3, 4)."""
+        """Return the transforms ``world_from_rest`` (N, nodes, 3, 4) of all nodes for ``world_from_instrument`` (N, 3,
+        4).
+        """
         result = np.empty((len(held), self.nodes, 3, 4))
         result[:] = held[:, None]
         asked = self._values[self._controls]

@@ -72,7 +72,7 @@ def _anatomy(skeleton: Skeleton) -> _Anatomy:
 
 @lru_cache(maxsize=64)
 def model_bounds(model: InstrumentModel) -> tuple[FloatArray, FloatArray]:
-    """Return the bounding box of a model at rest in its frame."""
+    """Return least and greatest corner (3,) of the bounding box of a model at rest, in its frame."""
     low = np.min([mesh.positions_m.min(axis=0) for mesh in model.meshes], axis=0).astype(np.float64)
     high = np.max([mesh.positions_m.max(axis=0) for mesh in model.meshes], axis=0).astype(np.float64)
     return low, high
@@ -97,6 +97,7 @@ class LimbCapsules:
     Parameters
     ----------
     stage : Stage
+        The stage.
     """
 
     def __init__(self, stage: Stage) -> None:
@@ -116,7 +117,7 @@ class LimbCapsules:
         self._without = np.array([not member.has_body for member in stage.members], dtype=bool)
 
     def capsules(self) -> FloatArray:
-        """Return capsules (N, LIMBS, 2, 4) in the world: both ends with their radius."""
+        """Return the capsules (N, LIMBS, 2, 4) of N performers in the world: position and radius at both ends."""
         stage = self._stage
         count = len(stage.members)
         result = np.empty((count, LIMBS, 2, 4))
@@ -141,8 +142,9 @@ class LimbCapsules:
 
 
 def hit(capsules: FloatArray, origin: FloatArray, direction: FloatArray) -> tuple[int, float] | None:
-    """Return the first of N bodies of L capsules (N, L, 2, 4: two ends with radius) that a ray hits, with the distance;
-    None if there is none."""
+    """Return the index of the first of N bodies of L capsules (N, L, 2, 4: ends with radius) that a ray hits, and the
+    distance in metres; None if there is none.
+    """
     if not capsules.size:
         return None
     a, b = capsules[..., 0, :3], capsules[..., 1, :3]

@@ -16,7 +16,8 @@ from app.rig.mesh import Mesh
 
 
 def row_keys(*columns: AnyIntArray, size: int | None = None) -> IntArray:
-    """Return a number for each row of a table of integers: equal for equal rows, ascending in the order of rows.
+    """Return a number for each row of a table of integers, given by columns: equal for equal rows, and in the same
+    order as the rows.
 
     A table without columns has ``size`` equal rows.
 

@@ -55,9 +55,7 @@ class Offscreen:
         cameras: dict[float, Camera] | None = None,
         marked: bool = True,
     ) -> Draw:
-        """Return a function that draws a film: see `ViewportPanel.film`. Dancers in it are not selected in the window.
-        Unless marked, names and rings are not drawn.
-        """
+        """Return a function that draws the pictures of a film; see `ViewportPanel.film`."""
         selected = tuple(own for own in player_ids if own not in self._session.project.dancer_ids)
         self._session.set_players(selected if marked else ())
         self._session.viewport.show("names", marked)
@@ -100,7 +98,7 @@ def offscreen(
     Parameters
     ----------
     posed : Posed, optional
-        Function that changes the performance's poses.
+        Changes the poses of the performance before they are drawn.
 
     Raises
     ------
@@ -168,7 +166,9 @@ class _MadePoses:
         self._live, self._stop_requested, self._posed = live, stop_requested, posed
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
-        """Return the pose of each player at a time, computed already (see `app.editor.poses.PoseSource.poses`)."""
+        """Return the pose of each player at a time if it is computed, else None (see
+        `app.editor.poses.PoseSource.poses`).
+        """
         poses = self._live.poses(player_ids, time_s)
         return [self._seen(*one, time_s) for one in zip(player_ids, poses, strict=True)]
 
@@ -193,7 +193,7 @@ class _MadePoses:
 
 
 class _AtOnce:
-    """Task runner that runs work immediately, since there is no window."""
+    """Task runner that runs work immediately instead of in the background, since there is no window."""
 
     def __init__(self, stop_requested: StopRequested) -> None:
         self._stop_requested = stop_requested
@@ -214,7 +214,9 @@ class _AtOnce:
         *,
         writes: bool = False,
     ) -> None:
-        """See `app.editor.tasks.Tasks.run`; errors without ``failed`` are raised, Cancelled too."""
+        """Run work and pass the result to ``done``; see `app.editor.tasks.Tasks.run`. Errors without ``failed`` are
+        raised, also Cancelled.
+        """
         try:
             result = work(lambda share: None, self._stop_requested)
         except Cancelled:

@@ -34,7 +34,7 @@ CLOSE_MM, NEAR_MM = 2.0, 4.0
 
 @dataclass(frozen=True, eq=False)
 class NameTag:
-    """A player's name to be painted over the head."""
+    """A performer's name to be painted over the head."""
 
     text: str
     color: str
@@ -79,7 +79,7 @@ def paint(
 
 
 def over_heads_m(stage: Stage, rows: Sequence[int], upwards: FloatArray) -> FloatArray:
-    """Return points (R, 3) a little above the heads of R players, where above is upwards in the picture."""
+    """Return points (R, 3) a little above the heads of R players in the direction ``upwards`` of the picture."""
     heads = stage.joints[rows, stage.heads[rows]]
     places_m: FloatArray = heads[..., :3] @ CROWN_M + heads[..., 3] + NAME_UP_M * upwards
     return places_m
@@ -88,7 +88,7 @@ def over_heads_m(stage: Stage, rows: Sequence[int], upwards: FloatArray) -> Floa
 def handle_at(
     handles: Sequence[Handle], camera: Camera, x_px: float, y_px: float, size: tuple[float, float]
 ) -> Handle | None:
-    """Return the handle at a point; of several, the nearest to the eye."""
+    """Return the handle at a point of the picture; of several, the one nearest to the camera; None if there is none."""
     if not handles:
         return None
     places, depths = camera.project(np.array([handle.at_m for handle in handles]), *size)
@@ -259,7 +259,7 @@ def _placed_names(
 
 
 def _pill_box(metrics: QFontMetricsF, text: str, at: QPointF, size: tuple[float, float]) -> QRectF:
-    """Box of a short text, kept within the picture."""
+    """Return the rectangle of a short text at a point, kept within the picture."""
     width, height = metrics.horizontalAdvance(text) + 14.0, metrics.height() + 4.0
     left = min(max(at.x() - width / 2.0, 4.0), max(size[0] - width - 4.0, 4.0))
     top = min(max(at.y() - height / 2.0, 4.0), max(size[1] - height - 4.0, 4.0))

@@ -12,13 +12,14 @@ Paint = Callable[[QPainter, tuple[float, float]], None]
 
 
 class Layer(QWidget):
-    """Widget over another one that ignores the mouse.
+    """Transparent widget over another one, which ignores the mouse.
 
     Parameters
     ----------
     below : QWidget
+        The widget below.
     paint : callable
-        Paints over a picture of a size.
+        Paints with a painter into the given width and height.
     """
 
     def __init__(self, below: QWidget, paint: Paint) -> None:
@@ -31,7 +32,7 @@ class Layer(QWidget):
         self.hide()
 
     def refresh(self, requested: bool) -> None:
-        """Repaint, or hide if there is nothing to paint."""
+        """Repaint, or hide the layer if there is nothing to paint (``requested`` False)."""
         if requested != self.isVisibleTo(self._below):
             self.setGeometry(self._below.rect())
             self.setVisible(requested)

@@ -78,14 +78,16 @@ MENU = (
 
 
 class ViewportPanel(Retranslated, QWidget):
-    """The players in 3D.
+    """Panel that shows the players in 3D.
 
     If GL does not work, the panel shows the reason, and the rest of the editor works.
 
     Parameters
     ----------
     session : Session
+        Session with the piece.
     poses : PoseSource
+        Source of the poses.
     """
 
     def __init__(self, session: Session, poses: PoseSource, parent: QWidget | None = None) -> None:
@@ -167,7 +169,7 @@ class ViewportPanel(Retranslated, QWidget):
 
     @property
     def camera(self) -> Camera:
-        """The camera, or the end of its flight."""
+        """The camera, or the camera at the end of its flight."""
         return self._eye.destination
 
     @property
@@ -177,7 +179,7 @@ class ViewportPanel(Retranslated, QWidget):
         return None if stage is None or row is None else stage.members[row].player_id
 
     def canvas_widget(self) -> QWidget | None:
-        """The widget that is drawn in; None without GL."""
+        """The widget in which the stage is drawn; None without GL."""
         native: QWidget | None = self._canvas.native if self._canvas is not None else None
         return native
 
@@ -190,7 +192,7 @@ class ViewportPanel(Retranslated, QWidget):
         return {item.target: QPointF(*place) for item, place in zip(found, places, strict=True)}
 
     def message(self) -> str:
-        """Text shown instead of a picture or in its middle; empty if there is none."""
+        """Return the text shown instead of a picture or in its middle; empty if there is none."""
         return self._reason.text() if self._failure is not None else self.scene.message()
 
     def set_poses(self, poses: PoseSource) -> None:
@@ -199,7 +201,7 @@ class ViewportPanel(Retranslated, QWidget):
         self.refresh()
 
     def poses_changed(self) -> None:
-        """Handle new motion, which only matters at the playhead."""
+        """Redraw after new motion has been computed for the playhead's time."""
         if self._canvas is None:
             return
         at_s = self._session.playhead_s
@@ -227,8 +229,9 @@ class ViewportPanel(Retranslated, QWidget):
         self._update()
 
     def render_image(self, width: int, height: int, time_s: float, view: View | None = None) -> npt.NDArray[np.uint8]:
-        """Return an image (height, width, 4) of the stage at ``time_s`` with the displayed names and marks, in the
-        present view unless another is given."""
+        """Return an image (height, width, 4) of the stage at ``time_s`` with the names and marks of the window, in the
+        present view unless another is given.
+        """
         return self.film(width, height, (time_s, time_s), view, True)(time_s)
 
     def film(
@@ -250,7 +253,7 @@ class ViewportPanel(Retranslated, QWidget):
         span_s : (float, float)
             Range of the pictures in seconds of the performance.
         view : View or CameraBookmark, optional
-            View; by default the present camera.
+            View of the film; by default the present camera.
         marked : bool
             Whether to draw the names and marks of the window, and rings around selected players.
         player_ids : tuple of str, optional
@@ -318,7 +321,7 @@ class ViewportPanel(Retranslated, QWidget):
         player_ids: tuple[str, ...],
         cameras: dict[float, Camera] | None,
     ) -> Shot:
-        """Return the camera of a film: of a view, or like the window's."""
+        """Return the camera of a film: that of a view, or if None the window's."""
         if view is None:
             return Shot(self._eye.view, self._eye.camera, player_ids, self._eye.centred(np.zeros(3)))
         _, stage = self._require_stage()
@@ -373,7 +376,7 @@ class ViewportPanel(Retranslated, QWidget):
         self.retranslate()
 
     def _picture(self, width: int, height: int) -> Picture:
-        """Describe the picture to draw, for the canvas."""
+        """Return camera, look and emphasis of the present picture, for the canvas."""
         stage, pointer, session = self.scene.stage, self._pointer, self._session
         here = self._elsewhere is None
         camera, view, rows, marked = self._eye.camera, self._eye.view, self.scene.rows(), True
@@ -434,7 +437,7 @@ class ViewportPanel(Retranslated, QWidget):
         return tracked(self._eye.view, stage, rows[0]) if stage is not None and rows else None
 
     def _needed_m(self) -> float | None:
-        """Return the distance in metres at which all of a close-up is visible, if it varies."""
+        """Return the distance in metres at which all of a close-up is visible; None if it is constant."""
         stage, rows, widget = self.scene.stage, self.scene.rows(), self.canvas_widget()
         if stage is None or not rows or widget is None:
             return None
@@ -469,14 +472,14 @@ class ViewportPanel(Retranslated, QWidget):
             self._ticker.start()
 
     def _tick(self) -> None:
-        """A frame of a flight, or of following after the playhead has stopped."""
+        """Draw the next picture of a flight, or of following after the playhead has stopped."""
         if not self._eye.advance(perf_counter()):
             self._ticker.stop()
             self._follow()
         self._update()
 
     def _wait(self) -> None:
-        """Look again after a while, as long as a pose is missing or may still change after an edit."""
+        """Check for new poses repeatedly, as long as a pose is missing or may still change after an edit."""
         stage, changing = self.scene.stage, self.scene.missing or perf_counter() < self._settle_until_s
         waiting = changing and stage is not None and bool(stage.members)
         if waiting and not self._waiter.isActive():
@@ -520,7 +523,7 @@ class ViewportPanel(Retranslated, QWidget):
         self.refresh()
 
     def _live_changed(self) -> None:
-        """Draw continuously while a player is live."""
+        """Start drawing continuously when a player plays live, and stop when none does."""
         if self._session.live_players.is_shown and self._canvas is not None:
             self._live.start()
         else:
@@ -528,7 +531,7 @@ class ViewportPanel(Retranslated, QWidget):
         self.refresh()
 
     def _struck(self) -> None:
-        """A note is seen at once."""
+        """Redraw immediately when a live player begins a note."""
         if self._live.isActive():
             self._live.start()
             self.refresh()
@@ -560,7 +563,7 @@ class ViewportPanel(Retranslated, QWidget):
             self._go(self._view_camera())
 
     def _turn(self) -> None:
-        """Move the camera to the other side: from the front to the back, other views mirrored."""
+        """Move the camera to the other side: from the front to the back, or to the mirror image of another view."""
         stage, rows = self.scene.stage, self.scene.rows()
         if stage is not None:
             self._eye.touched = True
@@ -572,7 +575,7 @@ class ViewportPanel(Retranslated, QWidget):
         self._go(dolly(self._eye.destination, steps))
 
     def _frame_asked(self, selected: bool) -> None:
-        """Move the camera so that the players fill the picture, keeping its direction."""
+        """Move the camera, keeping its direction, so that all or the selected players fill the picture."""
         self._frame(self.scene.visible(selected))
 
     def _frame(self, rows: Sequence[int]) -> None:
@@ -603,7 +606,7 @@ class ViewportPanel(Retranslated, QWidget):
         self._update()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """A canvas of another size shows the whole view, unless the user has moved the camera."""
+        """Place the camera again when the canvas is resized, unless the user has moved it."""
         if event.type() == QEvent.Type.Resize:
             self._place_camera()
         return super().eventFilter(watched, event)

@@ -26,10 +26,15 @@ class Pointer(QObject):
     Parameters
     ----------
     canvas : QWidget
+        Widget with the picture.
     session : Session
+        Session with the selection.
     eye : Eye
+        Camera to move.
     scene : ViewportScene
+        Performers on the stage.
     tool : PoseTool
+        Tool that changes poses.
 
     Signals
     -------
@@ -42,7 +47,7 @@ class Pointer(QObject):
     menu_asked(QPoint)
         The right button was clicked at this point of the screen.
     framed(int)
-        The dancer of this row must be framed.
+        The dancer in this row of the stage was double-clicked, and the camera must frame it.
     """
 
     moved = Signal()
@@ -65,7 +70,7 @@ class Pointer(QObject):
         canvas.installEventFilter(self)
 
     def row_at(self, at: QPointF) -> int | None:
-        """Row of the player under a point of the picture."""
+        """Return the row of the performer under a point of the picture; None if there is none."""
         return self._scene.row_at(*self._eye.camera.ray(at.x(), at.y(), *self._size()))
 
     def forget(self) -> None:

@@ -38,7 +38,7 @@ _NAMES: dict[PoseTarget, Message] = {
 
 @dataclass(eq=False)
 class _Drag:
-    """State of a pose handle that is being dragged: the project at its start, and the present result."""
+    """State of a drag of a pose handle: the project at its start, the correction before, and the present one."""
 
     handle: Handle
     player_id: str
@@ -52,11 +52,12 @@ class _Drag:
 
 
 class PoseTool:
-    """Turns drags into edits of a session's document.
+    """Converts drags of handles to edits of a session's document.
 
     Parameters
     ----------
     session : Session
+        Session with the document.
     """
 
     def __init__(self, session: Session) -> None:
@@ -65,12 +66,12 @@ class PoseTool:
 
     @property
     def grasped(self) -> PoseTarget | None:
-        """Target of the running drag."""
+        """Target of the current drag; None without a drag."""
         return self._drag.handle.target if self._drag is not None else None
 
     @property
     def correction(self) -> PoseCorrection | None:
-        """Correction made by the drag so far."""
+        """Correction made by the drag so far; None without a drag."""
         return self._drag.after if self._drag is not None else None
 
     def corrected(self, targets: Sequence[PoseTarget]) -> frozenset[PoseTarget]:

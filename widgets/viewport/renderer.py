@@ -1,7 +1,8 @@
 """Renderer of a stage with gloo, which owns all objects on the graphics card.
 
 Near players are drawn one by one, with faces morphed on the processor and only moved vertices sent; far players are
-drawn by a single call with coarser shapes. The bones of all players are in one float texture, uploaded once per frame.
+drawn by a single draw call with coarser shapes. The bones of all players are in one float texture, uploaded once per
+frame.
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ PODIUM_M = (0.28, 0.55)
 
 
 def _program(name: str) -> Any:
-    """Read a program of the graphics card, with the numbers of limbs in place of their names."""
+    """Return a shader program, read from files, with constants such as the number of limbs inserted."""
     numbers = {"SHADERS": str(SHADING + 1), "HELD": f"{HELD}.0", "LIMBS": str(LIMBS)}
     sources = [(_SHADERS / f"{name}.{end}").read_text("utf-8") for end in ("vert", "frag")]
     for word, number in numbers.items():
@@ -99,9 +100,10 @@ class Renderer:
         stage : Stage
             Stage with at least one performer: see `clear_stage`.
         shapes : Shapes
+            Geometries of its performers.
         everyone : Crowd or None
-            Crowd of this stage and these shapes (`crowd_of`), made outside the window's thread. None for the previous
-            one with players at other places.
+            Crowd of this stage and these shapes (`crowd_of`), made outside the window's thread. None to keep the
+            previous crowd, if only places have changed.
         """
         same = self._stage is not None and shapes is self._shapes and looks_same(stage, self._stage)
         self._stage, self._shapes = stage, shapes
@@ -167,7 +169,7 @@ class Renderer:
         return self._software
 
     def _fill_batch(self, everyone: Crowd) -> None:
-        """Send the crowd to the graphics card, without keeping it in memory."""
+        """Send the vertices of the crowd to the graphics card, without keeping a copy."""
         self._batch.bind(gloo.VertexBuffer(everyone.shape))
         self._batch.bind(gloo.VertexBuffer(everyone.surface))
         self._batch["a_row"] = gloo.VertexBuffer(everyone.rows)
@@ -176,7 +178,7 @@ class Renderer:
         self._batch_parts = everyone.parts
 
     def draw(self, camera: Camera, size_px: tuple[int, int], look: ViewportLook, emphasis: Emphasis) -> None:
-        """Draw a picture of a size into the bound framebuffer."""
+        """Draw a picture of a size into the framebuffer that is bound."""
         width, height = size_px
         aspect = width / max(height, 1)
         gloo.set_viewport(0, 0, width, height)
@@ -226,7 +228,7 @@ class Renderer:
             self._draw_wires(stage, shapes, level, 0.0006 * camera.distance_m, (*look.wire, opacity))
 
     def _is_other(self, program: Any, *source: object) -> bool:
-        """Return whether a program's uniforms were last made from another source."""
+        """Return whether a program's uniforms were last set from another ``source``, and record the new one."""
         if self._sent.get(program) == source:
             return False
         self._sent[program] = source
@@ -250,7 +252,7 @@ class Renderer:
         program["u_middle"], program["u_radius"] = middle, radius
 
     def _draw_video(self, picture: Picture, opacity: float, aspect: float) -> None:
-        """Draw a film's picture as large as possible."""
+        """Draw a frame of the reference video as large as possible behind the players."""
         if picture is not self._video_picture:
             before, self._video_picture = self._video_picture, picture
             if before is not None and before.shape == picture.shape:
@@ -265,7 +267,7 @@ class Renderer:
         gloo.set_state(blend=False)
 
     def _levels(self, stage: Stage, camera: Camera, matrix: FloatArray, height_px: float) -> IndexArray:
-        """The level of detail (N,) of everyone: 0 is the finest, -1 outside the picture."""
+        """Return the level of detail (N,) of all performers: 0 is the finest, -1 outside the picture."""
         middles = self._middles_m
         away = np.linalg.norm(middles - camera.eye_m, axis=1)
         scale = camera.pixels_per_metre(height_px, 1.0) / np.maximum(away - 0.35, 0.2)
@@ -327,7 +329,7 @@ class Renderer:
         program["u_key_light"], program["u_fill_light"] = look.key_light, look.fill_light
 
     def _draw_near(self, stage: Stage, shapes: Shapes, level: IndexArray, mode: str) -> None:
-        """Draw all near performers; geometries of one kind together, so that buffers are bound once."""
+        """Draw all near performers; those with the same geometry together, so that buffers are bound once."""
         near = [int(row) for row in np.flatnonzero((level >= 0) & (level < LEVELS - 1))]
         if not near:
             return
@@ -369,7 +371,7 @@ class Renderer:
             self._figures.draw(mode, solid.edges)
 
     def _draw_looks(self, solid: Solid) -> None:
-        """Draw a solid with its textures, or with the colours of its vertices."""
+        """Draw a geometry with its textures, or with the colours of its vertices."""
         program, looks = self._figures, solid.geometry.looks
         if solid.uvs is not None:
             program["a_uv"] = solid.uvs
@@ -412,7 +414,9 @@ class Renderer:
         return solid
 
     def _shape(self, stage: Stage, row: int, level: int, solid: Solid) -> Any:
-        """Return the vertices of a player with the face of the pose, sent only if changed."""
+        """Return the vertex buffer of a player with the face of the present pose, sent to the graphics card only if
+        changed.
+        """
         pose, face = stage.poses[row], solid.geometry.face
         if face is None or pose is None:
             return solid.shape

@@ -45,14 +45,16 @@ class ViewportScene(QObject):
     Parameters
     ----------
     session : Session
+        Session with the project.
     poses : PoseSource
+        Source of the poses.
 
     Signals
     -------
     staged()
-        The stage changed.
+        The performers on the stage have changed.
     shown()
-        More or fewer players have a pose.
+        The number of players with a pose has changed.
     """
 
     staged = Signal()
@@ -79,7 +81,7 @@ class ViewportScene(QObject):
 
     @property
     def stage(self) -> Stage | None:
-        """The stage that is drawn at present; None while none is loaded."""
+        """The stage with the loaded figures; None before they are loaded."""
         return self._loaded.stage if self._loaded is not None else None
 
     def set_poses(self, poses: PoseSource) -> None:
@@ -89,14 +91,14 @@ class ViewportScene(QObject):
     # Figures
 
     def leave(self) -> None:
-        """Remove the figures of the previous piece when another is opened, except for equal stages."""
+        """Remove the figures of the previous piece when another is opened, unless both have the same figures."""
         loaded = self._loaded
         if loaded is not None and not same_figures(loaded.key, cast_key(self._session.project)):
             self._loaded, self._shapes = None, loaded.shapes
             self.staged.emit()
 
     def load(self) -> None:
-        """Load missing figures of the project in the background."""
+        """Load the project's figures that are missing, in the background."""
         self._others.stop()
         project, before = self._session.project, self._loaded
         if before is not None and same_figures(before.key, cast_key(project)):
@@ -116,7 +118,7 @@ class ViewportScene(QObject):
         )
 
     def sent(self, shapes: Shapes) -> None:
-        """Drop the crowd of shapes that the graphics card has received."""
+        """Drop the vertices of the crowd of ``shapes``, which the graphics card has received."""
         if self._loaded is not None and self._loaded.shapes is shapes:
             self._loaded = replace(self._loaded, crowd=None)
 
@@ -147,7 +149,7 @@ class ViewportScene(QObject):
     # Poses
 
     def pose(self, time_s: float) -> None:
-        """Set the poses of a time, as far as they exist."""
+        """Set the poses at a time of those performers for whom they are computed."""
         if self._loaded is not None:
             player_ids = [member.player_id for member in self._members()]
             asked = self._poses.poses(player_ids, time_s)
@@ -155,12 +157,12 @@ class ViewportScene(QObject):
             self.take(dict(zip(player_ids, asked, strict=True)))
 
     def pose_now(self, time_s: float, player_ids: Sequence[str] | None = None) -> None:
-        """Set the poses of a time for all or some performers, computing missing ones."""
+        """Set the poses at a time of all or some performers, and compute missing ones."""
         asked = [member.player_id for member in self._members()] if player_ids is None else player_ids
         self.take({player_id: self._poses.pose_now(player_id, time_s) for player_id in asked})
 
     def poses(self) -> dict[str, Pose | None]:
-        """The poses drawn at present by player id; None while one is being computed."""
+        """Return the poses drawn at present by player id; None for a player whose pose is being computed."""
         stage = self.stage
         if stage is None:
             return {}
@@ -176,7 +178,7 @@ class ViewportScene(QObject):
                 self.shown.emit()
 
     def is_outdated(self, time_s: float) -> bool:
-        """Return whether any pose differs from the displayed one."""
+        """Return whether the pose of any performer at a time differs from the displayed one."""
         shown = self.poses()
         found = self._poses.poses(tuple(shown), time_s)
         # A pose that is not there yet leaves the one before it.
@@ -197,7 +199,7 @@ class ViewportScene(QObject):
         return [] if self.stage is None else self.stage.rows(self._session.players)
 
     def visible(self, selected: bool) -> list[int]:
-        """Rows of performers with a pose: the selected players, or all."""
+        """Return the rows of the performers with a pose: of the selected players, or of all."""
         stage = self.stage
         if stage is None:
             return []
@@ -240,7 +242,7 @@ class ViewportScene(QObject):
     # Marks and words
 
     def handles(self) -> tuple[Handle, ...]:
-        """Return the handles of the first displayed player while the pose tool is active; otherwise none."""
+        """Return the handles of the first visible selected player while the pose tool is active; otherwise none."""
         stage, rows = self.stage, self.rows()
         return handles(stage, rows[0]) if self._session.viewport.posing and stage is not None and rows else ()
 
@@ -290,7 +292,7 @@ class ViewportScene(QObject):
         return self.tr("scene.generating")
 
     def _reading(self) -> str:
-        """The angles of the pose in hand."""
+        """Return the angles of the correction that is being dragged as text; empty without a drag."""
         held = self._tool.correction
         if held is None:
             return ""

@@ -1,5 +1,5 @@
-"""Cache files of shapes for the graphics card, since making those of fifty players takes seconds, and they are as large
-as their motion. Files are memory-mapped, so that the system reads only the parts that are sent to the card.
+"""Cache files of geometries for the graphics card, since making those of fifty players takes seconds. Files are
+memory-mapped, so that the system reads only the parts that are sent to the card.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _NAMES: Final = {kind: name for name, kind in _KINDS.items()}
 
 
 class _Array(msgspec.Struct, frozen=True, array_like=True):
-    """Place of an array in the file, counted from the end of the head."""
+    """Position, type and shape of an array in a cache file; ``start`` counts from the end of the file's head."""
 
     start: int
     kind: str
@@ -81,7 +81,7 @@ def kept(
     Parameters
     ----------
     made_with : tuple
-        All other inputs besides the code in this folder.
+        All inputs other than the meshes and the code in this folder.
     """
     path = cache_folder("shapes") / f"{_digest(meshes, made_with)}.shapes"
     found = _read(path)
@@ -153,7 +153,7 @@ def _write(file: BinaryIO, levels: Sequence[Geometry]) -> None:
 
 
 def _read(path: Path) -> tuple[Geometry, ...] | None:
-    """Return the levels in a file; None if it is missing or damaged."""
+    """Return the geometries (levels of detail) in a cache file; None if it is missing or damaged."""
     try:
         with open_file(path) as file:
             length, expected = _BEGINNING.unpack(file.read(_BEGINNING.size))

@@ -30,11 +30,13 @@ class MorphTargets:
     Attributes
     ----------
     count : int
-        Number of vertices that any of them moves, which are the first ones.
+        Number of vertices that any morph moves; they are the first ones of the geometry.
     names : tuple of str
+        Names of the morphs.
     targets : tuple of ((K,) int32, (K, 6) float32)
-        Moved vertices of each name, with displacement and change of normal as in `SHAPE`. Most move few vertices.
+        Moved vertices of each morph, with displacement and change of normal as in `SHAPE`.
     rest : (count, 6) float32
+        Position and normal of these vertices at rest.
     """
 
     count: int
@@ -43,7 +45,7 @@ class MorphTargets:
     rest: SingleArray
 
     def morphed(self, weights: SingleArray) -> npt.NDArray[np.void]:
-        """Return the first vertices under weights (len(names),) as `SHAPE` records."""
+        """Return the first vertices, morphed by weights (len(names),), as `SHAPE` records."""
         shape = self.rest.copy()
         for index in np.flatnonzero(np.abs(weights) > 1e-4).tolist():
             vertices, deltas = self.targets[index]
@@ -66,6 +68,7 @@ class Geometry:
     one_sided : int
         Number of one-sided triangles.
     face : MorphTargets or None
+        Morphs of the face; None if there are none.
     surface_of : (V,) uint16 or None
         Index of each vertex's surface, since rigid objects have few. None if each vertex has its own.
     uvs : (V, 2) float32 or None
@@ -74,7 +77,7 @@ class Geometry:
         Ranges of consecutive triangles with one look: first triangle, number of triangles, index of the look; -1 for
         vertex colours. None if all use vertex colours.
     looks : tuple of Material
-        With textures.
+        Materials with textures, to which ``groups`` refer.
     """
 
     shape: npt.NDArray[np.void]
@@ -89,7 +92,7 @@ class Geometry:
 
     @property
     def surface(self) -> npt.NDArray[np.void]:
-        """The surface of every vertex, (V,) records of type SURFACE."""
+        """Return the surface of every vertex as records (V,) of the type SURFACE."""
         if self.surface_of is None:
             return self.surfaces
         return numbers(self.surfaces).take(self.surface_of, axis=0).view(SURFACE).reshape(-1)

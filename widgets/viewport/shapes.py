@@ -24,8 +24,9 @@ from widgets.viewport.shape_model import Geometry
 
 @dataclass(frozen=True, eq=False)
 class Shapes:
-    """Geometries: of characters by id and of instruments by map id, by level of detail; of straps and chairs by player
-    id; of stands."""
+    """Geometries of everything on a stage, by level of detail: characters by id, instruments by map id; straps and
+    chairs by player id; the stand.
+    """
 
     characters: Mapping[str, tuple[Geometry, ...]]
     instruments: Mapping[str, tuple[Geometry, ...]]
@@ -54,7 +55,7 @@ def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
 
 
 def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
-    """The coarsest shapes of everyone, end to end."""
+    """Return the coarsest geometries of all performers, concatenated."""
     parts: list[tuple[int, Geometry]] = []
     for row, member in enumerate(stage.members):
         if member.has_body:
@@ -80,13 +81,15 @@ def parts_of(member: Member) -> tuple[bool, object, bool]:
 
 
 def sides(geometry: Geometry | Crowd) -> tuple[tuple[bool, Any], ...]:
-    """Return the one-sided and the two-sided triangles: whether back faces are culled, and indices."""
+    """Return the triangles as index buffers, one-sided and two-sided ones, each with whether back faces are culled."""
     parts = ((True, geometry.triangles[: geometry.one_sided]), (False, geometry.triangles[geometry.one_sided :]))
     return tuple((culled, gloo.IndexBuffer(part)) for culled, part in parts if len(part))
 
 
 def looks(geometry: Geometry) -> tuple[tuple[bool, int, Any], ...]:
-    """Return the triangles of each look: whether back faces are culled, index of the look, and indices."""
+    """Return the triangles of each textured material: whether back faces are culled, index of the material in
+    `Geometry.looks` (-1 for vertex colours), and an index buffer.
+    """
     if geometry.groups is None:
         return tuple((culled, -1, indices) for culled, indices in sides(geometry))
     groups = ((int(first), int(count), int(look)) for first, count, look in geometry.groups)
@@ -103,12 +106,12 @@ def draw_sides(program: Any, sides: tuple[tuple[bool, Any], ...]) -> None:
 
 
 class Solid:
-    """A geometry on the graphics card.
+    """A geometry in buffers of the graphics card.
 
     Parameters
     ----------
     fine : bool
-        Whether it is the finest level of its figure.
+        Whether it is the finest level of detail of its figure.
     """
 
     def __init__(self, geometry: Geometry, fine: bool = False) -> None:
@@ -121,14 +124,14 @@ class Solid:
 
     @property
     def shape(self) -> Any:
-        """The vertices of the solid at rest, as a buffer of the graphics card."""
+        """The vertices at rest as a vertex buffer, made at the first use."""
         if self._shape is None:
             self._shape = gloo.VertexBuffer(self.geometry.shape)
         return self._shape
 
     @property
     def edges(self) -> Any:
-        """The edges of the solid as an index buffer, each once."""
+        """The edges, each once, as an index buffer, made at the first use."""
         if self._edges is None:
             self._edges = gloo.IndexBuffer(edges(self.geometry))
         return self._edges

@@ -38,7 +38,7 @@ def uv_islands(triangles: AnyIntArray, textured: npt.NDArray[np.bool_]) -> IntAr
 
 
 def texture_groups(look: AnyIntArray, two_sided: npt.NDArray[np.bool_]) -> npt.NDArray[np.int32]:
-    """Return `Geometry.groups` for triangles in order by look and sides."""
+    """Return `Geometry.groups` for triangles that are ordered by look (index of the textured material) and sides."""
     keys = look.astype(np.int64) * 2 + two_sided
     first = np.flatnonzero(np.r_[True, keys[1:] != keys[:-1]])
     counts = np.diff(np.r_[first, len(keys)])

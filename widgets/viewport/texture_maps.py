@@ -1,4 +1,4 @@
-"""Textures on the graphics card: shared by performers, smaller for far ones, within a memory limit."""
+"""Textures on the graphics card: shared by performers, smaller for distant ones, within a memory limit."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _FLAT: Final = np.array([[[128, 128, 255, 255]]], np.uint8)
 
 
 class TextureMaps:
-    """Textures in the current GL context."""
+    """Cache of textures in the current GL context."""
 
     def __init__(self) -> None:
         self._maps: OrderedDict[tuple[str, bool], Any] = OrderedDict()
@@ -49,7 +49,9 @@ class TextureMaps:
         program["u_color_map"], program["u_surface_map"], program["u_normal_map"] = self._white, self._white, self._flat
 
     def dress(self, program: Any, look: Material, near: bool) -> None:
-        """Set a program to the textures of a material, without its normal map for far performers."""
+        """Set a shader program to draw with the textures of a material; the normal map is used only for ``near``
+        performers.
+        """
         textures = look.textures
         program["u_textured"] = 1.0
         surface = textures.metallic_roughness or textures.occlusion

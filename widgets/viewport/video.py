@@ -37,18 +37,19 @@ _BUTTONS: Final[dict[Placement, tuple[str, str]]] = {
 
 
 def fitted(ratio: float, width: float, height: float) -> QRectF:
-    """Return the largest centred rectangle of an aspect ratio."""
+    """Return the largest centred rectangle of an aspect ratio (width / height) in an area of a size."""
     shown_width = min(width, height * ratio)
     shown_height = shown_width / ratio
     return QRectF((width - shown_width) / 2.0, (height - shown_height) / 2.0, shown_width, shown_height)
 
 
 class VideoView(Retranslated, QWidget):
-    """The video's picture at the playhead, or the reason why there is none.
+    """Shows the video's frame at the playhead, or the reason why there is none.
 
     Parameters
     ----------
     session : Session
+        Session with the video.
     """
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -66,7 +67,7 @@ class VideoView(Retranslated, QWidget):
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the picture or the reason."""
+        """Paint the video's frame or the reason."""
         state, tokens = self._session.video, self._session.tokens
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(tokens.sunken))
@@ -89,7 +90,9 @@ class BesideVideo(QSplitter):
     Parameters
     ----------
     session : Session
+        Session with the video.
     players : QWidget
+        The view of the players.
     """
 
     def __init__(self, session: Session, players: QWidget, parent: QWidget | None = None) -> None:
@@ -133,6 +136,7 @@ class VideoStrip(Retranslated, QWidget):
     Parameters
     ----------
     session : Session
+        Session with the video.
     """
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -186,7 +190,7 @@ class VideoStrip(Retranslated, QWidget):
         self.refresh()
 
     def refresh(self, change: Change | None = None) -> None:
-        """Show or hide the strip and update its picture, as the project's reference video requires."""
+        """Show or hide the strip and update its controls, depending on the project's reference video."""
         video, state = self._session.project.video, self._session.video
         self.setVisible(video is not None and state.placement != "hidden")
         if video is None:

@@ -16,7 +16,9 @@ ICON_PX = 40
 
 
 def draw_figures(painter: QPainter, points: FloatArray, colour: QColor, width_px: float, height_px: float) -> None:
-    """Draw figures (N, 21, 2) in pixels with lines of a width; ``height_px`` is the height given to `placed`."""
+    """Draw N stick figures (N, 21, 2), in pixels; ``height_px`` is the value given to `placed`, ``width_px`` the width
+    of lines.
+    """
     from app.choreography.performed.dance_steps import BONES, HEAD
 
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
@@ -37,13 +39,17 @@ def draw_figures(painter: QPainter, points: FloatArray, colour: QColor, width_px
 
 
 def placed(drawn: FloatArray, middles_px: FloatArray, floor_px: float, height_px: float) -> FloatArray:
-    """Figures (N, 21, 2) of parts of the body's height as pixels."""
+    """Return N stick figures (N, 21, 2) converted from parts of the body's height to pixels.
+
+    Each figure's middle is at ``middles_px`` (N,), its feet at ``floor_px``; ``height_px`` is the height of the
+    tallest.
+    """
     scale = height_px / HIGHEST
     return np.stack([middles_px[:, None] + scale * drawn[..., 0], floor_px - scale * drawn[..., 1]], axis=-1)
 
 
 def figure_icon(drawn: FloatArray, colour: QColor, ratio: float) -> QIcon:
-    """Return a figure (21, 2) as the icon of a menu entry."""
+    """Return a stick figure (21, 2) as the icon of a menu entry; ``ratio`` is the number of screen pixels per pixel."""
     picture = QPixmap(QSize(ICON_PX, ICON_PX) * ratio)
     picture.setDevicePixelRatio(ratio)
     picture.fill(Qt.GlobalColor.transparent)

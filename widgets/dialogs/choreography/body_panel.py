@@ -1,4 +1,4 @@
-"""The body read from a motion file beside the file's own skeleton, with correction of bones."""
+"""Panel that shows the body read from a motion file next to the file's own skeleton, with correction of bones."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ def t_pose_of(clip: MotionClip) -> MotionClip:
 
 
 class BodyPanel(Retranslated, QWidget):
-    """Three pictures, and lists of the joints and of the file's bones.
+    """Panel with three pictures of the body, and lists of the joints and of the file's bones.
 
     Signals
     -------
     changed()
-        The user corrected a bone, or took that back; `DraftHistory.now` of the pair says what holds.
+        The user corrected a bone or undid that; the present corrections are in `DraftHistory.now`.
     """
 
     changed = Signal()
@@ -115,7 +115,7 @@ class BodyPanel(Retranslated, QWidget):
 
     @property
     def found(self) -> PairContents:
-        """Contents of the pair on show."""
+        """Contents of the displayed pair of motion and music."""
         return self._found
 
     @property

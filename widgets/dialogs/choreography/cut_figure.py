@@ -1,4 +1,4 @@
-"""Front view of the pose at a frame of a motion as a stick figure, and of the skeleton of its file."""
+"""Drawing of the front view of a pose in a motion as a stick figure, and of the skeleton of its file."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ _PEN_PX = 2.5
 
 
 def pose_of(clip: MotionClip, frame: int) -> FloatArray:
-    """Return the front view (21, 2) of the body at a frame: X to the right, Y up from the floor, relative to the
-    height.
+    """Return the front view (21, 2) of the body's 21 points at a frame: X to the right, Y up from the floor, relative
+    to the body's height.
     """
     poses = features(clip.span(frame, frame + 1), [Cut(0, 0, 0)])
     pose: FloatArray = poses.reshape(POSES, len(SEGMENTS) + len(ENDS), 3)[0, :, :2]
@@ -58,7 +58,7 @@ class PoseFigure(QWidget):
 
     @property
     def pose(self) -> FloatArray | None:
-        """Points (21, 2) of the pose, see `pose_of`; None for no pose."""
+        """Points (21, 2) of the drawn pose, see `pose_of`; None for no pose."""
         return self._pose
 
     def show_pose(self, pose: FloatArray | None) -> None:
@@ -67,7 +67,7 @@ class PoseFigure(QWidget):
         self.update()
 
     def _room(self) -> tuple[float, float]:
-        """Height of a body of the size `HIGHEST`, and y of the floor, in pixels."""
+        """Return the drawn height of a body of the height `HIGHEST`, and the y of the floor, in pixels."""
         wide, high, points = _WIDEST, HIGHEST, self._points()
         if self._is_fitted and len(points):
             wide = max(_LEAST_WIDTH, 2.0 * float(np.abs(points[:, 0]).max()))
@@ -104,8 +104,9 @@ class SkeletonPose:
     Attributes
     ----------
     lines : ndarray, shape (L, 2, 2)
+        Start and end of each line.
     marked : ndarray, shape (2,), or None
-        The joint to mark.
+        Position of the marked joint.
     """
 
     lines: FloatArray
@@ -115,7 +116,9 @@ class SkeletonPose:
 def skeleton_pose(
     skeleton: RawSkeleton, mapping: JointMapping, motion: ReadMotion | None, bone: int | None
 ) -> SkeletonPose:
-    """Return the skeleton facing as in the first frame of the motion, or as its hip joints; ``bone`` is marked."""
+    """Return a file's skeleton for drawing, facing forwards as in the motion's first frame, or else by its hip joints;
+    ``bone`` is marked.
+    """
     across = np.zeros(3)
     if {"leftUpperLeg", "rightUpperLeg"} <= mapping.bones.keys():
         left, right = (skeleton.places[mapping.bones[f"{side}UpperLeg"]] for side in ("left", "right"))

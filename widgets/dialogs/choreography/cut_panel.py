@@ -26,14 +26,14 @@ _EMPTY = np.zeros(0), Fraction(60), 0.0, np.zeros(0)
 
 @dataclass(eq=False)
 class CutHistory:
-    """Undo history of a pair's cuts; None stands for automatic cuts."""
+    """Undo history of the cuts of a motion; None stands for automatic cuts."""
 
     done: list[Cuts | None] = field(default_factory=list)
     undone: list[Cuts | None] = field(default_factory=list)
     token: object = None
 
     def push(self, before: Cuts | None, token: object) -> None:
-        """Add a change of cuts; changes of one gesture are a single step."""
+        """Add the cuts ``before`` a change; changes with the same token (one gesture) are a single step."""
         if token is None or token is not self.token:
             self.done.append(before)
         self.undone.clear()
@@ -53,12 +53,12 @@ class CutHistory:
 
 
 class CutPanel(Retranslated, QWidget):
-    """Plot, figure and tools.
+    """Panel with plot, figure and tools for the cuts of a motion.
 
     Signals
     -------
     changed(tuple of Cut or None)
-        The user set other cuts; None: found ones again.
+        The user changed the cuts; None for the automatic ones.
     """
 
     changed = Signal(object)

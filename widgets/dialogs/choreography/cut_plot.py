@@ -1,7 +1,7 @@
-"""Plot of a motion's angular acceleration over time, with cuts to move, add and delete.
+"""Plot of a motion's angular acceleration over time, with cuts that can be moved, added and deleted.
 
-Mouse events are handled here and not by pyqtgraph, to agree with the timeline: the wheel scrolls, and zooms with Ctrl;
-the middle button pans.
+Mouse events are handled here instead of by pyqtgraph, to agree with the timeline: the wheel scrolls, and zooms with
+Ctrl; the middle button pans.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ _LEFT, _MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton
 
 @dataclass(frozen=True)
 class CutLine:
-    """A line of the plot by its index: a bound or an accent of a motion."""
+    """A line of the plot by its index: a boundary or an accent of a basic motion."""
 
     kind: Kind
     number: int
@@ -58,7 +58,7 @@ class CutLine:
 
 @dataclass(frozen=True, eq=False)
 class _Drag:
-    """Drag of a line, or of the view if the line is None."""
+    """Drag of a line, or of the visible range if the line is None."""
 
     line: CutLine | None
     cuts: Cuts
@@ -72,11 +72,11 @@ class CutPlot(QWidget):
     Signals
     -------
     edited(tuple of Cut, object)
-        The user changes the cuts; those of one drag come with one token, others with None.
+        The user changed the cuts; the object is a token shared by all changes of one drag, None for others.
     pointed(int)
-        The mouse is over this frame, or a line was moved there.
+        The mouse is over this frame, or a line was moved to it.
     scrubbed(float)
-        The mouse is pressed or dragged in the axis of time: a time of the file, in seconds.
+        The mouse was pressed or dragged in the time axis, at this time of the motion file in seconds.
 
     Parameters
     ----------
@@ -150,12 +150,12 @@ class CutPlot(QWidget):
 
     @property
     def unfit(self) -> tuple[tuple[int, int], ...]:
-        """Spans (start, stop) of frames that are not learned from, which the plot shades."""
+        """Spans (start, stop) of frames that are excluded from learning, which the plot shades."""
         return self._unfit_spans
 
     @property
     def selected(self) -> CutLine | None:
-        """The selected line of a cut, which the arrow keys move; None if none is."""
+        """The selected line, which the arrow keys move; None if none is selected."""
         return self._selected
 
     def show_motion(self, curve_rad_s2: FloatArray, fps: Fraction, start_s: float, hits_s: FloatArray) -> None:
@@ -164,10 +164,13 @@ class CutPlot(QWidget):
         Parameters
         ----------
         curve_rad_s2 : (F,) float64
+            Angular acceleration at each frame.
+        fps : Fraction
+            Frames per second.
         start_s : float
             Time in seconds of the motion file's first frame.
         hits_s : (H,) float64
-            When the music strikes, times of the file.
+            Times of the motion file in seconds at which percussion sounds.
         """
         self._curve, self._fps, self._start_s = curve_rad_s2, fps, start_s
         minima, maxima = extrema(curve_rad_s2) if len(curve_rad_s2) else (np.zeros(0, np.int64),) * 2
@@ -182,13 +185,13 @@ class CutPlot(QWidget):
         self.fit()
 
     def show_unfit(self, spans: Sequence[tuple[int, int]]) -> None:
-        """Shade spans of frames that are not learned from."""
+        """Shade spans of frames that are excluded from learning."""
         self._unfit_spans = tuple(spans)
         starts, stops = (self.time_s([span[end] for span in spans]) for end in (0, 1))
         self._unfit.setOpts(x0=starts, x1=stops, height=np.full(len(spans), self._top))
 
     def show_hits(self, hits_s: FloatArray) -> None:
-        """Draw the hits of the music at other times (N,) in seconds."""
+        """Draw percussion hits of the music at times (N,) in seconds."""
         self._hits_s = hits_s
         self._items["hits"].setData(*_uprights(hits_s, np.full(len(hits_s), _HITS_PART * self._top)))
 
@@ -234,7 +237,7 @@ class CutPlot(QWidget):
         return float(left), float(right)
 
     def _look(self, left_s: float, right_s: float) -> None:
-        """Show a range, limited to the motion and to at least `LEAST_SPAN_S`."""
+        """Show a range of seconds, limited to the motion and to at least `LEAST_SPAN_S`."""
         first, last = self._start_s, self._start_s + max(LEAST_SPAN_S, (len(self._curve) - 1) / float(self._fps))
         span = min(max(right_s - left_s, LEAST_SPAN_S), last - first)
         middle = (left_s + right_s) / 2.0
@@ -244,7 +247,7 @@ class CutPlot(QWidget):
     # Between frames and pixels
 
     def time_s(self, frames: Any) -> Any:
-        """Convert frames of the motion file to its times in seconds."""
+        """Convert frame indices to times of the motion file in seconds."""
         return self._start_s + np.asarray(frames, np.float64) / float(self._fps)
 
     def x_px(self, frame: float) -> float:
@@ -257,16 +260,16 @@ class CutPlot(QWidget):
         return float(self.view.mapSceneToView(inverse.map(QPointF(x_px, 0.0))).x())
 
     def frame_at(self, x_px: float) -> int:
-        """The frame under a place of the plot's viewport."""
+        """Return the frame at an x position of the plot's viewport."""
         return self.frame_of(self._time_at(x_px))
 
     def frame_of(self, time_s: float) -> int:
-        """Return the frame at a time of the file, limited to the motion."""
+        """Return the frame at a time of the motion file, limited to the motion."""
         frame = round((time_s - self._start_s) * float(self._fps))
         return min(max(frame, 0), max(len(self._curve) - 1, 0))
 
     def _line_at(self, x_px: float) -> CutLine | None:
-        """The line under the mouse; the nearest of several."""
+        """Return the line under the mouse, the nearest of several; None if there is none."""
         # In frames: asking the view for the place of each of many lines takes longer than drawing them.
         frame_px = max(self.x_px(1.0) - self.x_px(0.0), 1e-9)
         under = (x_px - self.x_px(0.0)) / frame_px
@@ -281,7 +284,7 @@ class CutPlot(QWidget):
         return line if near <= NEAR_PX else None
 
     def _is_axis(self, event: QMouseEvent) -> bool:
-        """Return whether the mouse is in the axis of time, below the curve."""
+        """Return whether the mouse is in the time axis, below the curve."""
         bottom = self.plot.viewportTransform().map(self.view.sceneBoundingRect().bottomLeft()).y()
         return bool(event.position().y() > bottom)
 
@@ -338,7 +341,7 @@ class CutPlot(QWidget):
             self._move(line, self._cuts, self._frames(line.kind)[line.number] + frames, None)
 
     def _choose_next(self, by: int) -> None:
-        """Select the next line of any kind."""
+        """Select the line after (1) or before (-1) the selected one, of any kind."""
         lines = sorted((frame, kind, number) for kind in KINDS for number, frame in enumerate(self._frames(kind)))
         if not lines:
             return
@@ -468,5 +471,5 @@ class CutPlot(QWidget):
 
 
 def _uprights(times_s: FloatArray, heights: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return X and Y (2 N,) of vertical lines from 0 to their heights, a lower and an upper end for each."""
+    """Return X and Y (2 N,) of N vertical lines from 0 to their heights, a lower and an upper end for each."""
     return np.repeat(times_s, 2), np.stack([np.zeros(len(heights)), heights], axis=1).ravel()

@@ -57,12 +57,12 @@ _LEAST_PX: Final = 900
 
 
 class LearnDialog(WorkingDialog):
-    """Learns a choreography. Not modal.
+    """Dialog that learns a choreography; not modal.
 
     Signals
     -------
     used(Path)
-        The user assigns it to a dancer.
+        The user assigns the learned file to a dancer.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ class LearnDialog(WorkingDialog):
 
     @property
     def drafts(self) -> tuple[PairDraft, ...]:
-        """The entries of all pairs of motion and music to learn from."""
+        """The user's entries for all pairs of motion and music to learn from."""
         return tuple(row.draft for row in self._rows)
 
     @property
@@ -327,7 +327,7 @@ class LearnDialog(WorkingDialog):
     # Showing
 
     def _edited(self, unknown: tuple[Path, ...] = ()) -> None:
-        """Discard the outdated learned result; `unknown` are added files of unsupported kinds."""
+        """Discard a learned result, which is outdated; ``unknown`` are added files of unsupported kinds."""
         self._result, self._failure, self._unknown = None, None, unknown
         for row in self._rows:
             row.states = None

@@ -18,12 +18,12 @@ from app.score.suffixes import MUSIC
 
 
 class PairDraft(msgspec.Struct, frozen=True):
-    """The fields of a pair.
+    """The user's entries for a pair of motion and music.
 
     Attributes
     ----------
     motion, music, credits : Path or None
-        Paths, None if not chosen; default credits are those beside the motion.
+        Paths, None if not chosen; default credits are those next to the motion.
     offset_s : float or None
         Time in seconds of the motion file at which the music begins; None for automatic.
     fps : Fraction or None
@@ -47,12 +47,12 @@ class PairDraft(msgspec.Struct, frozen=True):
 
     @property
     def files(self) -> tuple[Path | None, Path | None, Path | None, Fraction | None, Mapping[str, str], str]:
-        """Those fields of the pair whose change requires reading the files again."""
+        """Return those fields of the pair whose change requires reading the files again."""
         return self.motion, self.music, self.credits, self.fps, self.joints, self.figure
 
 
 class PairContents(msgspec.Struct, frozen=True):
-    """Motion and music read from the files of a pair, or the error; the skeleton is available with some errors too."""
+    """Motion and music read from the files of a pair, or the error; with some errors the skeleton is available too."""
 
     read: ReadPair | None = None
     analysis: Analysis | None = None
@@ -72,7 +72,7 @@ def offset_s_of(draft: PairDraft, found: PairContents) -> float:
 
 
 def offset_range_s(found: PairContents) -> tuple[float, float] | None:
-    """Return the least and greatest offset in seconds with which percussion sounds during the motion; None before the
+    """Return the least and greatest offset in seconds for which percussion sounds during the motion; None before the
     files are read.
     """
     if found.read is None or found.analysis is None:
@@ -82,13 +82,13 @@ def offset_range_s(found: PairContents) -> tuple[float, float] | None:
 
 
 def is_offset_outside(draft: PairDraft, found: PairContents) -> bool:
-    """Return whether the user's offset leaves the motion without music, as after another file was chosen."""
+    """Return whether no music sounds during the motion with the user's offset, as after another file was chosen."""
     bounds = offset_range_s(found)
     return bounds is not None and draft.offset_s is not None and not bounds[0] <= draft.offset_s <= bounds[1]
 
 
 def with_files(drafts: Sequence[PairDraft], paths: Sequence[Path]) -> tuple[tuple[PairDraft, ...], tuple[Path, ...]]:
-    """Return the pairs after adding files, and the files of unsupported kinds.
+    """Return the pairs with files added, and the files of unsupported kinds.
 
     A motion or piece is added to the first pair that lacks it and whose other file has the same name, else to the first
     pair that lacks it, else to a new pair; credits to the pair whose motion has the same name, else to the last one.
@@ -111,8 +111,8 @@ def with_files(drafts: Sequence[PairDraft], paths: Sequence[Path]) -> tuple[tupl
 
 
 def _lacking(drafts: Sequence[PairDraft], field: str, other: str = "", path: Path = Path()) -> list[int]:
-    """Return the indices of pairs that lack a file; with another field, only those whose file there has the path's
-    name.
+    """Return the indices of pairs without a file in ``field``. With ``other``, only pairs whose file there has the same
+    name as ``path``.
     """
     lacking = [at for at, one in enumerate(drafts) if getattr(one, field) is None]
     if not other:

@@ -52,12 +52,12 @@ _NOTES_LINES = 3
 
 
 class PairForm(Retranslated, QWidget):
-    """The fields of a pair.
+    """Form with the fields of a pair of motion and music.
 
     Signals
     -------
     changed(PairDraft)
-        The user filled in something else.
+        The user changed a field.
     """
 
     changed = Signal(object)
@@ -221,7 +221,7 @@ def file_name(path: Path | None) -> str:
 
 
 class _WholeLines(QScrollArea):
-    """Scroll area that shows only whole lines of a text.
+    """Scroll area that shows no partial lines of a text.
 
     Parameters
     ----------
@@ -243,7 +243,9 @@ class _WholeLines(QScrollArea):
         self.fit()
 
     def fit(self) -> None:
-        """Leave the space of an incomplete line below the text empty. Japanese lines are higher than the font's."""
+        """Adjust the height so that no partial line is visible below the text. Japanese lines are higher than the
+        font's.
+        """
         line = self._text.fontMetrics().boundingRect(QRect(), Qt.TextFlag.TextSingleLine, self._text.text())
         line_px = max(line.height(), self._text.fontMetrics().lineSpacing())
         self.setMinimumHeight(_NOTES_LINES * line_px)

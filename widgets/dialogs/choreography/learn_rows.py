@@ -46,18 +46,18 @@ COLUMNS: Final = {
 
 @dataclass(eq=False)
 class PairRow:
-    """A pair in the list.
+    """State of a pair in the list.
 
     Attributes
     ----------
     history : CutHistory
-        Of the cuts of the draft.
+        Undo history of the cuts.
     bones : DraftHistory
-        History of bone corrections.
+        Undo history of bone corrections.
     cut_clip : tuple of float and int, or None
         Start and length of the clip to which the cuts belong, see `take_contents`.
     reading : int
-        Number of the current reading; 0 for none.
+        Number that identifies the current reading of files; 0 for none.
     states : int or None
         Number of basic motions learned from the pair in its present state.
     judged : tuple or None
@@ -76,14 +76,14 @@ class PairRow:
 
 @dataclass(frozen=True, eq=False)
 class PairRead:
-    """Result of reading a pair's files."""
+    """Result of reading a pair's files, with the number of the reading."""
 
     number: int
     found: PairContents
 
 
 def take_contents(row: PairRow, found: PairContents) -> None:
-    """Store the contents of a pair; the user's cuts stay if the clip has the same frames."""
+    """Store the contents read for a pair; the user's cuts stay if the clip has the same frames as before."""
     row.reading, row.found = 0, found
     if found.read is not None and found.analysis is not None:
         clip = (found.read.motion.start_s, len(found.analysis.clip))
@@ -93,7 +93,7 @@ def take_contents(row: PairRow, found: PairContents) -> None:
 
 
 def training_pair(row: PairRow) -> Pair | None:
-    """Return the pair to learn from; None before the files are read."""
+    """Return the data of a pair for learning; None before its files are read."""
     read = row.found.read
     if read is None:
         return None
@@ -127,12 +127,12 @@ def _unusable(pair: Pair) -> Message | None:
 
 
 def offset_confidence(row: PairRow) -> float:
-    """Return the confidence of the automatic offset, 0..1; 1 before there is one."""
+    """Return the confidence 0..1 of the automatic offset; 1 before it is computed."""
     return 1.0 if row.found.analysis is None else row.found.analysis.offset.confidence
 
 
 def row_texts(row: PairRow) -> tuple[str, ...]:
-    """Return the texts of a row by `COLUMNS`."""
+    """Return the texts of a row for the columns `COLUMNS`."""
     read, analysis, draft = row.found.read, row.found.analysis, row.draft
     names = file_name(draft.motion), file_name(draft.music)
     if read is None or analysis is None:
@@ -187,7 +187,7 @@ class PairList(ColumnList):
             self.headerItem().setTextAlignment(column, _RIGHT)
 
     def show_rows(self, rows: Sequence[PairRow], tokens: Tokens) -> None:
-        """Show pairs of motion and music, each as a row."""
+        """Show pairs of motion and music, each as a row; ``tokens`` has the theme's colours."""
         self.blockSignals(True)
         while self.topLevelItemCount() > len(rows):
             self.takeTopLevelItem(self.topLevelItemCount() - 1)

@@ -22,8 +22,7 @@ from widgets.dialogs.progress_dialog import stopping
 
 @dataclass(frozen=True, eq=False)
 class LearnedChoreography:
-    """A choreography that was learned and saved, with its pairs, and the accuracy with which music predicts its
-    motion."""
+    """Result of learning: the saved choreography, its pairs, and the accuracy with which music predicts its motion."""
 
     path: Path
     model: ChoreographyModel
@@ -57,7 +56,7 @@ def learning(
     Parameters
     ----------
     states : int or None
-        Number of basic motions; None for automatic.
+        Number of basic motions; None to choose it automatically.
     share : list of float
         List whose only number is set to the completed share, 0..1.
     """

@@ -36,14 +36,14 @@ _STATE: Final = Qt.ItemDataRole.UserRole
 
 
 class MotionModel(QAbstractListModel):
-    """Model of basic motions as rows.
+    """Qt model of basic motions as rows.
 
     Attributes
     ----------
     used : mapping of int to int
-        How often a basic motion is danced.
+        Number of times that the dancer dances each basic motion in the piece.
     sources : int
-        Number of times that each basic motion is danced.
+        Number of motion files from which the choreography was learned.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -53,23 +53,24 @@ class MotionModel(QAbstractListModel):
         self.sources = 0
 
     def show_motions(self, motions: Sequence[BasicMotion], used: Mapping[int, int], sources: int) -> None:
-        """Replace the displayed basic motions; ``used`` counts the uses of each, ``sources`` is the number of motion
-        files."""
+        """Replace the displayed basic motions; ``used`` counts how often each is danced, ``sources`` is the number of
+        motion files.
+        """
         self.beginResetModel()
         self.motions, self.used, self.sources = motions, used, sources
         self.endResetModel()
 
     def segments_text(self, state: int) -> str:
-        """Number and mean length of the segments."""
+        """Return number and mean length of the segments of a basic motion as text."""
         motion = self.motions[state]
         return self.tr("motion_model.segments_s_on_average").format(count=motion.segments, seconds=motion.mean_s)
 
     def sources_text(self, state: int) -> str:
-        """Return the text of the number of sources of a basic motion."""
+        """Return the number of motion files that contain a basic motion as text."""
         return self.tr("motion_model.sources_of").format(count=len(self.motions[state].sources), all=self.sources)
 
     def used_text(self, state: int) -> str:
-        """Return the text of how often a basic motion is danced in the piece."""
+        """Return the number of times that a basic motion is danced in the piece as text."""
         count = self.used.get(state, 0)
         return self.tr("motion_model.danced").format(count=count) if count else self.tr("motion_model.not_danced")
 
@@ -96,7 +97,7 @@ class MotionGallery(QListView):
     Signals
     -------
     selected(int)
-        Another basic motion is.
+        Another basic motion was selected.
     """
 
     selected = Signal(int)
@@ -120,7 +121,9 @@ class MotionGallery(QListView):
     def show_motions(
         self, motions: Sequence[BasicMotion], used: Mapping[int, int], sources: int, colour: str, mirrored: bool
     ) -> None:
-        """Show basic motions in a dancer's colour and side (normal or mirrored), keeping the selection."""
+        """Show basic motions in a dancer's colour, mirrored if the dancer is, keeping the selection; see
+        `MotionModel.show_motions`.
+        """
         before = max(self.currentIndex().row(), 0)
         self._delegate.colour, self._delegate.mirrored = colour, mirrored
         self.rows.show_motions(motions, used, sources)

@@ -74,7 +74,7 @@ class PairPlayer(Retranslated, QWidget):
 
     @property
     def position_s(self) -> float:
-        """Time in seconds at the playhead."""
+        """Time of the playhead in seconds."""
         return self._playback.position_s()
 
     @property
@@ -153,14 +153,14 @@ class PairPlayer(Retranslated, QWidget):
             self._stems.follow(self._project, self.position_s - self._offset_s)
 
     def _take_sound(self) -> None:
-        """Set the rendered sound, shifted by the offset."""
+        """Give the rendered sound, shifted by the offset, to the playback."""
         if self._project is not None:
             by = round(self._offset_s * RATE_HZ)
             self._playback.set_mix(Mix(track.moved(by) for track in self._stems.tracks(self._project)))
         self._say()
 
     def _follow(self) -> None:
-        """Move the playhead with the sound."""
+        """Move the playhead to the time of the audible sound."""
         time_s = min(max(self.position_s, self._span_s[0]), self._span_s[1])
         self.slider.blockSignals(True)
         self.slider.setValue(round((time_s - self._span_s[0]) * _STEPS_PER_S))

@@ -46,7 +46,7 @@ class Side:
     notes : mapping of int to str
         Short texts beside names.
     figures : (N, 21, 2) float64, optional
-        Of basic motions.
+        Stick figures of the basic motions, drawn instead of numbers.
     """
 
     names: tuple[str, ...]
@@ -59,7 +59,7 @@ _NONE: Final = Side((), frozenset(), {})
 
 
 class _TableModel(QAbstractTableModel):
-    """Model of a table of probabilities with R rows and C columns (R, C), with headings."""
+    """Qt model of a table (R, C) of probabilities, with headings of R rows and C columns."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -100,12 +100,12 @@ class _TableModel(QAbstractTableModel):
 
 
 class ProbabilityTable(QTableView):
-    """Shades with percentages; the arrow keys select cells.
+    """Table of probabilities as shades with percentages; the arrow keys select cells.
 
     Signals
     -------
     pointed(str)
-        What the current cell says; empty: there is none.
+        Sentence about the current cell; empty if there is none.
     """
 
     pointed = Signal(str)
@@ -136,7 +136,9 @@ class ProbabilityTable(QTableView):
         self.selectionModel().currentChanged.connect(self._point)
 
     def show_table(self, values: FloatArray, rows: Side, columns: Side, sentence: Callable[[int, int], str]) -> None:
-        """Show probabilities (R, C) of R rows and C columns with a sentence about each, keeping the current cell."""
+        """Show probabilities (R, C) of R rows and C columns keeping the current cell; ``sentence`` returns a text about
+        a cell.
+        """
         before = self.currentIndex()
         row, column = max(before.row(), 0), max(before.column(), 0)
         self.table.show_table(values, rows, columns, sentence)
@@ -186,7 +188,7 @@ def _luminance(colour: QColor) -> float:
 
 
 class _CellDelegate(QStyledItemDelegate):
-    """Draws a probability: the darker or lighter from the ground, the higher."""
+    """Draws the cell of a probability; the higher it is, the more the colour differs from the background."""
 
     def __init__(self, session: Session, view: ProbabilityTable) -> None:
         super().__init__(view)
@@ -217,7 +219,7 @@ class _CellDelegate(QStyledItemDelegate):
 
 
 class _Header(QHeaderView):
-    """Draws figures with numbers, or names; marks those that occur in the piece."""
+    """Draws headings: stick figures with numbers, or names; marks those that occur in the piece."""
 
     def __init__(self, orientation: Qt.Orientation, session: Session, view: ProbabilityTable) -> None:
         super().__init__(orientation, view)
@@ -227,7 +229,7 @@ class _Header(QHeaderView):
         self.setHighlightSections(False)
 
     def measure(self) -> None:
-        """Set the size needed by the headings."""
+        """Set the size that the headings need."""
         size = self.sizeHint()
         if self.orientation() == Qt.Orientation.Vertical:
             self.setFixedWidth(size.width())
@@ -240,7 +242,7 @@ class _Header(QHeaderView):
         return table.columns if self.orientation() == Qt.Orientation.Horizontal else table.rows
 
     def _fonts(self) -> tuple[QFont, QFont]:
-        """The fonts for names of motions (bold) and for the notes below them (small)."""
+        """Return the fonts for names of motions (bold) and for the notes below them (small)."""
         bold, small = QFont(self._view.font()), QFont(self._view.font())
         bold.setBold(True)
         small.setPointSizeF(max(small.pointSizeF() - 0.5, LEAST_TEXT_PT))

@@ -55,7 +55,7 @@ class ChoreographyView:
     derived : bool
         Whether the symbols are derived because the piece has no percussion.
     error : Message or None
-        Why the dancer does not dance.
+        Reason why the dancer does not dance; None if the dancer does.
     """
 
     dancer: Dancer

@@ -63,7 +63,7 @@ class TransitionGraph(QWidget):
         figures : (K, 21, 2) float64
             See `widgets.common.choreography.figures`.
         used : frozenset of int
-            Basic motions of the dancer, drawn in the dancer's colour.
+            Basic motions that the dancer dances, drawn in the dancer's colour.
         """
         self._transition, self._figures, self._used, self._colour = transition, figures, used, colour
         if self.looked_at >= len(transition):
@@ -80,7 +80,7 @@ class TransitionGraph(QWidget):
         return list(zip(rows[order].tolist(), columns[order].tolist(), strict=True))
 
     def place(self, state: int) -> QPointF:
-        """The middle of a basic motion on the widget."""
+        """Return the centre of a basic motion on the circle in pixels of the widget."""
         count = max(len(self._transition), 1)
         angle = 2.0 * math.pi * state / count - 0.5 * math.pi
         middle = QRectF(self.rect()).center()
@@ -172,7 +172,7 @@ class TransitionGraph(QWidget):
 
 
 def _unit(way: complex) -> complex:
-    """Return a vector scaled to length 1; a zero vector is unchanged."""
+    """Return a vector, given as a complex number, scaled to length 1; a zero vector is unchanged."""
     return way / max(abs(way), 1e-9)
 
 

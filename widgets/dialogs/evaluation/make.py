@@ -60,14 +60,14 @@ _PRESENTATIONS: Final = {id: f"evaluation_dialog.presentation_{id}" for id in ge
 
 
 class EvaluationDialog(WorkingDialog):
-    """Makes an evaluation.
+    """Dialog that makes an evaluation.
 
     Parameters
     ----------
     make : Make
-        Called in a thread.
+        Makes the evaluation; called in a background thread.
     folder : path
-        Proposed.
+        Proposed folder for its files.
     """
 
     def __init__(self, session: Session, make: Make, folder: Path, title: str, parent: QWidget | None = None) -> None:
@@ -194,7 +194,7 @@ class EvaluationDialog(WorkingDialog):
         )
 
     def request(self) -> EvaluationRequest:
-        """Make the request from the chosen fields."""
+        """Return the request that results from the fields."""
         film, keyframes, folder = self._film.path, self._keyframes.path, self._folder.path
         assert folder is not None, "the button is disabled without one"
         place, view = self._place.currentData(), self._view.currentData()
@@ -225,7 +225,7 @@ class EvaluationDialog(WorkingDialog):
         return tuple(variant for variant, check in self._variants.items() if check.isChecked() and self._there(variant))
 
     def _there(self, variant: Variant) -> bool:
-        """Return whether the files for a variant were chosen."""
+        """Return whether the file that a variant needs was chosen."""
         field = {"film": self._film, "keyframes": self._keyframes}.get(variant)
         return field is None or field.path is not None
 

@@ -59,6 +59,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
     Parameters
     ----------
     gather : Gather
+        Reads and evaluates viewers' files.
     folder : Path
         Initial folder for files.
     """
@@ -116,12 +117,12 @@ class EvaluationResultsDialog(Retranslated, QDialog):
     # What is shown
 
     def add_files(self, paths: Sequence[Path]) -> None:
-        """Add files with viewers' answers, each once, and evaluate all again."""
+        """Add files with viewers' answers, each once, and evaluate all files again."""
         self._files += [path for path in dict.fromkeys(paths) if path not in self._files]
         self._evaluate()
 
     def set_key(self, path: Path) -> None:
-        """Use another key than that beside the files."""
+        """Use a key file other than the one next to the viewers' files."""
         self._key_file = path
         self._evaluate()
 
@@ -148,7 +149,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         show_folder(folder)
 
     def _evaluate(self) -> None:
-        """Read and tabulate all files again."""
+        """Read and evaluate all files again."""
         self._found, said = None, ""
         if self._files:
             try:
@@ -175,7 +176,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
             button.setEnabled(self._found is not None)
 
     def _show_results(self) -> None:
-        """The tabs in the language of the editor."""
+        """Fill the tabs with the results in the language of the editor."""
         front = self._tabs.currentIndex()
         while self._tabs.count():
             page = self._tabs.widget(0)
@@ -193,7 +194,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         self._tabs.setCurrentIndex(max(min(front, self._tabs.count() - 1), 0))
 
     def _said(self) -> str:
-        """Return the conclusions from an evaluation as text."""
+        """Return the conclusions of the evaluation as text: what may be claimed and what not."""
         assert self._found is not None
         results = self._found.results
         conclusions = conclude(results)
@@ -283,7 +284,7 @@ class _Picture(QWidget):
         self.update()
 
     def image(self, factor: int) -> QImage:
-        """Return the picture at a multiple of its own size."""
+        """Return the picture as an image, enlarged by a factor."""
         image = QImage(self._renderer.defaultSize() * factor, QImage.Format.Format_RGB32)
         image.fill(QColor("white"))
         painter = QPainter(image)

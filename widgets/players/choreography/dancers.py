@@ -227,8 +227,8 @@ class DancersSection(Retranslated, QWidget):
             slider.show_value(shown_number(dancer.stage, name), by_hand=False)
 
     def _sources(self, dancer: Dancer) -> list[Option]:
-        """Return the captures from which a choreography was learned; empty if it cannot be read, which is reported as a
-        problem.
+        """Return the motion files from which a choreography was learned, as options; empty if it cannot be read, which
+        is reported as a problem.
         """
         if self._read is None or self._read[0] != dancer.choreography:
             try:
@@ -246,7 +246,7 @@ class DancersSection(Retranslated, QWidget):
     # Editing
 
     def offer(self) -> None:
-        """Open the choice of a choreography for a new dancer."""
+        """Open the menu that chooses the choreography of a new dancer."""
         menu = passing_menu(self, "choreography_menu")
         for name in bundled_choreographies():
             on_click(menu.addAction(verbatim(name)), self.add, name)
