@@ -17,32 +17,32 @@ Subject = TypeVar("Subject")
 class ActionRow(Generic[Subject]):
     """A user action, from whose row menus, palette, tool tips and shortcuts are made.
 
-    Its functions take the session (`Action`) or the whole editor (`app.shell.editor.EditorAction`).
+    The functions of a row take the session (`Action`) or the whole editor (`app.shell.editor.EditorAction`).
 
     Attributes
     ----------
     id : str
-        Id such as ``"notes.split"``, by which settings store shortcuts. Its text id is ``"action.notes.split"`` in
-        `app.shell.commands.texts`; the text ends with ``...`` if a dialog follows.
+        Id such as ``"notes.split"``, under which settings store the action's shortcuts. Its text has the id
+        ``"action.notes.split"`` in `app.shell.commands.texts`; the text ends with ``...`` if a dialog opens.
     run : callable
-        Takes the session or editor, and the checked state if ``checked`` is given.
+        Performs the action. Takes the session or editor, and also the new checked state if ``checked`` is given.
     menu : str
-        Path of the menu, ``"edit/notes"``, whose parts have text ids such as ``"menu.notes"``; empty: only in the
-        palette.
+        Path of the menu, such as ``"edit/notes"``, whose parts have text ids such as ``"menu.notes"``; empty if the
+        action is only in the command palette.
     shortcut : str
-        Portable text as in `QKeySequence`; several separated by ``;``; empty: none by default.
+        Default shortcut as portable text of `QKeySequence`, several separated by ``;``; empty for none.
     context : str
-        Scope of the shortcut: ``"window"`` or the object name of a panel (``"timeline"``, ``"viewport"``).
+        Where the shortcut works: ``"window"`` or the object name of a panel (``"timeline"``, ``"viewport"``).
     enabled : callable, optional
-        Returns whether it is available; called when the session changes.
+        Returns whether the action is available; called when the session changes.
     checked : callable, optional
-        Makes it a toggle: returns whether it is on.
+        Returns whether the action is checked; makes it an action with a check mark.
     icon : str
-        Name of an icon in ``resources/icons``; empty: none.
+        Name of an icon in ``resources/icons``; empty for none.
     hides : bool
-        Whether it is hidden in menus while unavailable.
+        Whether menus leave the action out while it is unavailable.
     step : callable, optional
-        Returns the step it would undo or redo, for its text; None: none.
+        Returns the edit that undo or redo would concern, which the action's text then names.
     """
 
     about_editor: ClassVar[bool] = False
@@ -60,12 +60,12 @@ class ActionRow(Generic[Subject]):
 
     @property
     def text(self) -> str:
-        """Text in the editor's language."""
+        """Return the action's text in the editor's language."""
         return tr(f"action.{self.id}")
 
     @property
     def place(self) -> str:
-        """Return the menu path in the editor's language; empty: none."""
+        """Return the path of the action's menu in the editor's language; empty if it is in no menu."""
         return " › ".join(without_key(tr(f"menu.{part}")) for part in self.menu.split("/") if part)
 
 
@@ -74,12 +74,12 @@ class Action(ActionRow[Session]):
 
 
 def without_dots(text: str) -> str:
-    """Text of an action without dots and mnemonic marks."""
+    """Return an action's text without its final dots and its mnemonic mark (``&``)."""
     return text.replace("&", "").removesuffix("...").removesuffix("…")
 
 
 def without_key(text: str) -> str:
-    """Name of a menu without its mnemonic mark: ``&File``, ``ファイル(&F)``."""
+    """Return a menu's name without its mnemonic mark, as in ``&File`` or ``ファイル(&F)``."""
     if text.endswith(")") and "(&" in text:
         text = text[: text.rindex("(&")]
     return text.replace("&", "")

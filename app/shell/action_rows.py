@@ -57,7 +57,7 @@ FILE_ORDER: Final = (
 
 
 def rows() -> tuple[ActionRow[Any], ...]:
-    """All rows of the table of actions, in the order in which the preferences list them."""
+    """Return all rows of the table of actions, in the order in which the preferences list them."""
     place = {action_id: number for number, action_id in enumerate(FILE_ORDER)}
     own: tuple[ActionRow[Any], ...] = (
         *(*file.ACTIONS, *exchange.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *marks.ACTIONS, *fingerings.ACTIONS),

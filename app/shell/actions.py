@@ -28,26 +28,26 @@ CONTEXTS: Final = {
 
 @cache
 def sequences(keys: str) -> tuple[QKeySequence, ...]:
-    """Key sequences of a shortcut text, separated by ``;``."""
+    """Return the key sequences of a shortcut text, which separates them by ``;``."""
     portable = QKeySequence.SequenceFormat.PortableText
     return tuple(QKeySequence.fromString(part.strip(), portable) for part in keys.split(";") if part.strip())
 
 
 @cache
 def written(keys: str) -> frozenset[str]:
-    """Key sequences of a shortcut text, in normalised form."""
+    """Return the key sequences of a shortcut text in Qt's normalised form."""
     return frozenset(sequence.toString() for sequence in sequences(keys))
 
 
 class RowAction(QAction):
-    """A row as Qt action, with text, icon and state.
+    """An action of Qt made from a row of the action table, with the row's text, icon and state.
 
     Qt sends language changes (``QEvent.LanguageChange``) only to widgets, so the table notifies its actions.
 
     Parameters
     ----------
     table : ActionTable
-        Table with the argument of the row's functions, and its shortcuts.
+        Table that knows the user's shortcuts and the session or editor that the row's functions take.
     """
 
     def __init__(self, row: ActionRow[Any], table: ActionTable) -> None:
@@ -116,8 +116,9 @@ class RowAction(QAction):
     # Qt
 
     def event(self, event: QEvent) -> bool:
-        """Ignore shortcuts while a menu or list is open: Qt would pass the keys to the panel behind it, where Delete
-        would remove a player.
+        """Ignore shortcuts while a menu or list is open.
+
+        Qt would pass the keys to the panel behind the menu, where Delete would remove a player.
         """
         if event.type() == QEvent.Type.Shortcut and QApplication.activePopupWidget() is not None:
             return True
@@ -125,23 +126,23 @@ class RowAction(QAction):
 
 
 class ActionTable(QObject):
-    """The rows as Qt actions.
+    """The table of the editor's actions, which makes a Qt action of each row.
 
     Parameters
     ----------
     session : Session
-        Parent of the table, where `widgets.common.actions` finds the actions.
+        Parent of the table; `widgets.common.actions` finds the Qt actions among its children.
     settings : Settings
         Settings with the user's shortcuts.
     rows : sequence of ActionRow
-        Rows; those that take the editor are unavailable before `begin`.
+        Rows of the table; those whose functions take the editor are unavailable before `begin`.
 
     Signals
     -------
     shortcuts_changed()
-        Shortcuts of some action have changed.
+        The user changed the shortcuts of an action.
     context_changed(str)
-        Keyboard focus moved to another panel (``"window"``: none).
+        The keyboard focus moved to the panel of this name, or to no panel (``"window"``).
     """
 
     shortcuts_changed = Signal()
@@ -191,12 +192,12 @@ class ActionTable(QObject):
         self._give_shortcuts()
 
     def begin(self, editor: object) -> None:
-        """Set the editor that rows refer to."""
+        """Set the editor that is passed to the functions of `EditorAction` rows, and make these rows available."""
         self._editor = editor
         self.refresh()
 
     def about(self, row: ActionRow[Any]) -> object | None:
-        """Argument of a row's functions; None: it does not exist yet."""
+        """Return the session or editor that a row's functions take; None if the editor does not exist yet."""
         return self._editor if row.about_editor else self.session
 
     def attach(self, context: str, widget: QWidget) -> None:
@@ -219,7 +220,7 @@ class ActionTable(QObject):
         return self.rows[action_id].shortcut if own is None else own
 
     def set_keys(self, action_id: str, keys: str | None) -> None:
-        """Set the shortcuts of an action; None: the default."""
+        """Set the shortcuts of an action; None restores the default ones."""
         if keys == self.rows[action_id].shortcut:
             keys = None
         self.settings.set_shortcut(action_id, keys)
@@ -228,7 +229,7 @@ class ActionTable(QObject):
         self.shortcuts_changed.emit()
 
     def conflicts(self, action_id: str, keys: str) -> tuple[str, ...]:
-        """Ids of other actions in the same scope that use one of the shortcuts ``keys``."""
+        """Return the ids of other actions in the same scope that use one of the shortcuts ``keys``."""
         requested = written(keys)
         context = self.rows[action_id].context
         return tuple(
@@ -252,8 +253,10 @@ class ActionTable(QObject):
             self.context_changed.emit(context)
 
     def _give_shortcuts(self) -> None:
-        """Resolve shortcuts shared by a panel and the window: the panel's is active while it has the focus, the
-        window's otherwise; Qt would activate neither. The same holds for parts of panels.
+        """Decide between actions of a panel and of the window that have the same shortcut.
+
+        The panel's action gets the shortcut while the panel has the keyboard focus, the window's action otherwise,
+        since Qt would activate neither. The same is done for parts of panels.
         """
         keys = {row.id: self.keys(row.id) for row in self.rows.values()}
         of_context: dict[str, set[str]] = {}

@@ -73,7 +73,7 @@ class LaunchOptions:
     screenshot : Path or None
         Path of a screenshot: draw the window once, write it and exit.
     view, language, theme : str
-        View, language and theme; empty: as stored by the user.
+        Names of view, language and theme; empty to use those in the user's settings.
     size : (int, int)
         Size of the screenshot in device-independent pixels.
     """
@@ -88,7 +88,7 @@ class LaunchOptions:
 
 
 def make_application() -> QApplication:
-    """Make the application of Qt, after the attributes that have to be set before it exists."""
+    """Return a new Qt application, made after setting the attributes that must precede it."""
     # Docking and floating keep the viewport's context only if contexts are shared.
     QCoreApplication.setAttribute(Qt.ApplicationAttribute.AA_ShareOpenGLContexts)
     QGuiApplication.setHighDpiScaleFactorRoundingPolicy(Qt.HighDpiScaleFactorRoundingPolicy.PassThrough)
@@ -107,9 +107,9 @@ class Program(QObject):
     audible : bool
         Whether sound can be played.
     playback : Playback, optional
-        Playback to use; None: one on the system's device.
+        Playback to use; by default one that plays on the system's audio device.
     recorder : callable, optional
-        Makes the recorder; by default the system's.
+        Function that makes the recorder of MIDI; by default the one for the system's MIDI devices.
     """
 
     def __init__(
@@ -185,7 +185,7 @@ class Program(QObject):
 
 
 def _clean_up() -> None:
-    """Delete temporary files of killed processes."""
+    """Delete the temporary files left by editors that were killed."""
     # What exports is not needed for the first picture.
     from app.export.tree import clean_up
 
@@ -193,7 +193,7 @@ def _clean_up() -> None:
 
 
 def run(start: LaunchOptions) -> int:
-    """Run the editor; returns the exit status."""
+    """Run the editor until it is closed, and return the exit status."""
     if start.screenshot is not None:
         return picture(start, start.screenshot)
     share_memory()
@@ -254,7 +254,9 @@ def _end_on_signal(application: QApplication) -> None:
 
 
 def picture(start: LaunchOptions, target: Path) -> int:
-    """Draw the real window once, independent of the user's settings, write it to a file, and exit."""
+    """Draw the editor's window once, independent of the user's settings, write it to an image file, and return the exit
+    status.
+    """
     application = make_application()
     stopped = threading.Event()
     signal.signal(signal.SIGINT, lambda number, frame: stopped.set())
@@ -314,7 +316,7 @@ def picture(start: LaunchOptions, target: Path) -> int:
 
 
 def _moves(program: Program, time_s: float) -> bool:
-    """Return whether the poses of all performers at a time are computed or known to be impossible."""
+    """Return whether the poses of all players at a time are computed, or their computation has failed."""
     live = program.generator.live
     return all(
         live.pose(player.id, time_s) is not None or live.error(player.id) is not None

@@ -26,7 +26,7 @@ Texts = Callable[[], tuple[str, tuple[str, ...]]]
 
 
 class Banner(Retranslated, QFrame):
-    """Bar above the panels that asks one question at a time."""
+    """Bar above the panels of the window that asks one question at a time."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()

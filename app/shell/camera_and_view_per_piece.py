@@ -1,4 +1,4 @@
-"""Restores the view of a piece when it is reopened: camera, front player, playhead, timeline and lanes.
+"""Restores the view of a piece when it is reopened: camera, active player, playhead, timeline and its lanes.
 
 Views are stored in the editor's settings on this computer, by the piece's file, so that looking at a piece does not
 change it, and shared projects are unaffected. Cameras to be shared are bookmarks (`app.project.camera_bookmarks`) in
@@ -28,18 +28,18 @@ _MOST_PLAYERS: Final = 100
 
 
 class PieceView(msgspec.Struct, frozen=True):
-    """View of a piece.
+    """The user's view of a piece, stored when the piece is closed.
 
     Attributes
     ----------
     camera : CameraBookmark or None
-        None: nothing was drawn.
+        The viewport's camera; None if the viewport drew nothing.
     is_moved : bool
-        Whether the user moved the camera away from its view.
+        Whether the user moved the camera away from the chosen view.
     players : tuple of str
-        Ids of the selected players, front player first.
+        Ids of the selected players, the active one first.
     lanes : str
-        State from `TimelinePanel.save_state`, for ``workspace``.
+        State of the timeline's lanes from `TimelinePanel.save_state`; valid in the workspace named by ``workspace``.
     """
 
     camera: CameraBookmark | None
@@ -70,7 +70,7 @@ class PieceViews(QObject):
         files.opened.connect(self._restore)
 
     def _piece(self) -> str:
-        """Path of the open piece; empty: none, or a bundled one, which always starts in its default view."""
+        """Return the path of the open piece; empty if none is open, or a bundled one, whose view is not stored."""
         path = self._files.path or Path(self._session.project.source)
         bundled = Path(str(resource_files("resources")))
         return "" if path == Path() or not self._files.is_open or path.is_relative_to(bundled) else str(path)

@@ -1,4 +1,4 @@
-"""The dialogs for adding a character of the user's own from a file, changing it and removing it."""
+"""The dialogs for adding a character of the user's own from a file, changing and removing it."""
 
 from __future__ import annotations
 

@@ -40,11 +40,11 @@ class CrashHandler:
     Parameters
     ----------
     session : Session
-        Shows the report.
+        Session that shows a message in the status line.
     write_down : callable
-        Saves unsaved work to a recovery file.
+        Function that saves unsaved work to a recovery file.
     clock : callable
-        Returns the time in seconds.
+        Function that returns the time in seconds, by which repeated exceptions are recognised.
     """
 
     def __init__(

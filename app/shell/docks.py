@@ -63,10 +63,13 @@ class Dock(QDockWidget):
     name : str
         Object name, under which the layout is stored.
     panel : QWidget
+        Content of the dock.
     session : Session
+        Session whose theme and language the title bar follows.
     parent : QMainWindow
+        Window that has the dock.
     tools : QWidget, optional
-        Widget in the title bar behind the title.
+        Widget in the title bar after the title.
     """
 
     def __init__(
@@ -196,6 +199,7 @@ class TabsStay(QObject):
     Parameters
     ----------
     window : QMainWindow
+        Window whose tab bars are filtered.
     """
 
     def __init__(self, window: QMainWindow) -> None:

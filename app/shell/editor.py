@@ -27,7 +27,8 @@ D = TypeVar("D", bound=QDialog)
 
 @dataclass(frozen=True, eq=False)
 class Editor:
-    """The services of one session, and its window.
+    """The parts of the running editor that commands use: session, files, recording, export and other services, and the
+    window.
 
     Attributes
     ----------

@@ -43,9 +43,7 @@ class FileQuestions(QObject):
         files.unsaveable.connect(self.say_what_cannot_be_saved)
 
     def offer_recovery(self, item: Recoverable) -> None:
-        """Offer to recover work that was never saved. A piece without a file is named by its title, since it may belong
-        to another user.
-        """
+        """Offer to recover unsaved work; a piece without a file is named by its title."""
 
         def found() -> str:
             if item.document is None:
@@ -68,7 +66,7 @@ class FileQuestions(QObject):
         )
 
     def ask_to_look_elsewhere(self, paths: tuple[str, ...]) -> None:
-        """Ask whether media files on other computers may be read."""
+        """Ask whether media files that are on other computers may be read."""
         names = [*(shown(PureWindowsPath(path).name) for path in paths[:_REASONS]), *["…"] * (len(paths) > _REASONS)]
         hosts = ", ".join(dict.fromkeys(host_of(path) for path in paths))
         self._banner.ask(
@@ -80,7 +78,7 @@ class FileQuestions(QObject):
         )
 
     def say_why_no_one_plays(self, path: Path) -> None:
-        """Show the reasons why an imported file has no players."""
+        """Show the reasons why the notes of an imported file could not be given to players."""
         score = self._session.project.score
 
         def why() -> str:
@@ -108,7 +106,9 @@ class FileQuestions(QObject):
         )
 
     def say_what_cannot_be_saved(self, message: Message) -> None:
-        """Report data of the project that cannot be stored in a file."""
+        """Report that a project file cannot store some of the project's data, and offer to undo the last edit or to
+        remove the data.
+        """
         answers = {"window.undo_last_edit": self._table.actions["edit.undo"].trigger}
         if self._files.can_leave_out:
             answers["window.remove_it"] = self._files.leave_out

@@ -20,10 +20,11 @@ class FocusMark(QWidget):
     Parameters
     ----------
     session : Session
+        Session whose theme gives the accent colour.
     window : QWidget
-        Marked while no panel has the focus.
+        Window whose top edge has the line while no panel has the focus.
     panels : mapping of str to QWidget
-        Panels by the name of the context of their shortcuts.
+        Panels by the context of their shortcuts (`ActionRow.context`).
     """
 
     def __init__(self, session: Session, window: QWidget, panels: Mapping[str, QWidget]) -> None:

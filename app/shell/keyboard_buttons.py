@@ -1,4 +1,4 @@
-"""Handling of Space on buttons that have the keyboard focus, and of Enter in text fields."""
+"""Event filter for Space on buttons that have the keyboard focus, and for Enter in text fields."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ class KeyboardButtons(QObject):
     """Event filter: Space starts playback, but presses a button that was reached with the keyboard.
 
     Enter plays a bar except in a text field. (For text fields Qt gives letters precedence over shortcuts, but not
-    Enter.) A clicked button keeps the focus too; Space starts playback there. Only the widget with the focus is
+    Enter.) A clicked button keeps the focus too; Space starts playback then. Only the widget with the focus is
     filtered: a filter of the whole application would call Python a hundred times in every frame.
     """
 
@@ -35,7 +35,7 @@ class KeyboardButtons(QObject):
             self._watched.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Install the filter on widgets that get the focus, and handle their keys."""
+        """Install the filter on each widget that gets the focus, and handle Space and Enter in it."""
         kind = event.type()
         if kind == QEvent.Type.FocusOut and isinstance(event, QFocusEvent):
             self._reason = event.reason()

@@ -42,11 +42,11 @@ class Language(QObject):
 
     @property
     def code(self) -> str:
-        """Language code: ``"en"`` or ``"ja"``."""
+        """Return the code of the display language: ``"en"`` or ``"ja"``."""
         return self._code
 
     def set(self, code: str) -> None:
-        """Set the language; empty for the system's."""
+        """Set the display language by its code; an empty code sets the system's language."""
         code = code if code in LANGUAGES else system_language()
         if code == self._code:
             return
@@ -102,7 +102,7 @@ class TextTranslator(QTranslator):
     Parameters
     ----------
     code : str
-        One of `LANGUAGES`.
+        Code of the language, one of `LANGUAGES`.
     """
 
     def __init__(self, code: str) -> None:
@@ -116,5 +116,5 @@ class TextTranslator(QTranslator):
         return False
 
     def translate(self, context: str, source: str, disambiguation: str | None = None, count: int = -1) -> str | None:
-        """Return the text of an id; None for texts of other translators, such as most of Qt's."""
+        """Return the text with an id (``source``); None for texts of other translators, such as most of Qt's."""
         return self._texts.get(source) or self._of_qt.get((context, source))

@@ -32,7 +32,7 @@ class ThirdPartyWork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     name, licence, source : str
-        The licence is an SPDX expression; the source is an address.
+        Name of the work, its licence as an SPDX expression, and the web address of its source.
     files : tuple of str
         Patterns of the work's files; empty if it is linked into the package's own modules.
     """
@@ -44,7 +44,9 @@ class ThirdPartyWork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Package(msgspec.Struct, frozen=True):
-    """A Python package of the installation, for the list of licences; its licence is empty if unknown."""
+    """A Python package that is installed with the program, for the list of licences; its licence is empty if
+    unknown.
+    """
 
     name: str
     version: str
@@ -54,7 +56,9 @@ class Package(msgspec.Struct, frozen=True):
 
 
 class _Fact(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Licence information stored by us because a package's metadata lacks it."""
+    """Licence of a package, or its source, as listed in `resources/licences.toml` because the package's metadata lacks
+    it.
+    """
 
     licence: str = ""
     source: str = ""
@@ -83,7 +87,7 @@ def installed() -> tuple[Package, ...]:
     Raises
     ------
     importlib.metadata.PackageNotFoundError
-        The program itself is not installed.
+        If the program itself is not installed as a package.
     """
     return tuple(_present(found) for _, found in sorted(distributions().items()))
 
@@ -138,7 +142,7 @@ def _present(found: Distribution) -> Package:
 
 
 def _licence(metadata: Message) -> str:
-    """Return the licence's name from a package's metadata, as an SPDX expression where one is given."""
+    """Return the licence named in a package's metadata, as an SPDX expression if there is one."""
     stated = str(metadata.get("License-Expression") or metadata.get("License") or "").strip()
     if stated and "\n" not in stated and len(stated) <= _LONGEST:
         return stated
@@ -147,7 +151,7 @@ def _licence(metadata: Message) -> str:
 
 
 def _source(metadata: Message) -> str:
-    """Return the address of a package's source code or home page."""
+    """Return the web address of a package's source code or home page, from the package's metadata."""
     addresses = {}
     for entry in metadata.get_all("Project-URL", ()):
         label, _, address = str(entry).partition(",")

@@ -68,7 +68,9 @@ class LicencesDialog(Retranslated, QDialog):
 
 
 def _row(*texts: str) -> QTreeWidgetItem:
-    """Return a row whose texts are tool tips too, since they may be wider than the columns."""
+    """Return a row of the list with the texts of its columns, each also as tool tip, since it may be wider than the
+    column.
+    """
     row = QTreeWidgetItem(list(texts))
     for column, text in enumerate(texts):
         row.setToolTip(column, text)

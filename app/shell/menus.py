@@ -28,14 +28,14 @@ BEFORE_LINE: Final = frozenset(
 
 
 def menu_with_keys(keys: str) -> str:
-    """Return the name of the menu opened by one of these shortcuts in the editor's language; empty if there is none."""
+    """Return the name, in the editor's language, of the menu that one of these shortcuts opens; empty if none does."""
     requested = written(keys)
     titles = [tr(f"menu.{name}") for name in BAR]
     return next((without_key(title) for title in titles if QKeySequence.mnemonic(title).toString() in requested), "")
 
 
 class Menu(Retranslated, QMenu):
-    """A menu titled by the last part of its path."""
+    """A menu whose title is the last part of its path."""
 
     def __init__(self, path: str, parent: QWidget) -> None:
         super().__init__(parent)
@@ -59,7 +59,7 @@ class Menu(Retranslated, QMenu):
 
 
 class Menus:
-    """The menus of the menu bar, filled from the table of actions."""
+    """The menus of the menu bar, filled with the actions of the table."""
 
     def __init__(self, bar: QMenuBar, table: ActionTable) -> None:
         self._bar = bar

@@ -26,7 +26,7 @@ WIDTH_PX = 520
 
 
 class NoticeList(QFrame):
-    """Messages in full, the newest on top."""
+    """List of the recent messages of the status line in full, the newest on top."""
 
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
@@ -94,7 +94,7 @@ def folder_of(message: Message) -> Path | None:
 
 
 def severity_colour(severity: Severity, tokens: Tokens) -> str:
-    """Return the colour of a severity's mark."""
+    """Return the colour of the mark for messages of a severity (information, warning, error)."""
     return {
         Severity.INFORMATION: tokens.accent,
         Severity.WARNING: tokens.warning,

@@ -154,7 +154,7 @@ class Palette(Retranslated, QFrame):
 
 
 class _Row(QStyledItemDelegate):
-    """Draws a command: icon, text, menu and shortcut."""
+    """Draws one row of the command palette: icon, text, menu and shortcut of a command."""
 
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent)

@@ -23,15 +23,17 @@ from widgets.common.text import sentence
 
 
 class DialogQuestions:
-    """Implementation of `app.editor.questions.Questions` with dialogs."""
+    """Asks the editor's questions in dialogs; implements `app.editor.questions.Questions`."""
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
-        """Ask for an existing file, starting in ``folder``; None if cancelled."""
+        """Ask for an existing file, starting in ``folder``; return None if the user cancels."""
         return ask_for_file(_parent(), title, Path(folder), filters)
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
-        """Ask for a file to write, and before overwriting one; returns the path with one of the suffixes, None if
-        cancelled."""
+        """Ask for a file to write, and again before one is overwritten; return its path with one of the suffixes.
+
+        None if the user cancels.
+        """
         while True:
             chosen = ask_where_to_save(_parent(), title, Path(proposal), filters)
             if chosen is None:
@@ -43,7 +45,7 @@ class DialogQuestions:
             proposal = str(path)
 
     def unsaved(self, name: str) -> Answer:
-        """Ask whether to save the changes of the project ``name``; returns the answer."""
+        """Ask whether to save the changes of the project ``name``, and return the answer."""
         role = ask(
             _parent(),
             "unsaved",
@@ -56,7 +58,7 @@ class DialogQuestions:
         return "save" if role == Role.AcceptRole else "discard" if role == Role.DestructiveRole else "cancel"
 
     def stop_writing(self, works: tuple[Message, ...]) -> bool:
-        """Ask whether to stop the listed works, which still write files; returns True if confirmed."""
+        """Ask whether to stop the listed works, which are still writing files; return True if the user agrees."""
         role = ask(
             _parent(),
             "stop_writing",
@@ -73,7 +75,9 @@ class DialogQuestions:
     def import_midi(
         self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
     ) -> ImportRequest | None:
-        """Show the import dialog for the tracks of a MIDI file; returns the decisions, None if cancelled."""
+        """Show the import dialog for the tracks of a MIDI file, and return the user's decisions; None if the user
+        cancels.
+        """
         from widgets.dialogs.import_midi import ImportDialog
 
         dialog = ImportDialog(contents, all_maps(), tokens, tasks, _parent(), read_again)
@@ -83,7 +87,7 @@ class DialogQuestions:
             dialog.deleteLater()
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
-        """Ask whether to remove a character that the named players use; returns True if confirmed."""
+        """Ask whether to remove a character that the named players have; return True if the user agrees."""
         role = ask(
             _parent(),
             "remove_character",
@@ -96,7 +100,7 @@ class DialogQuestions:
 
 
 def with_suffix(path: Path, suffixes: Sequence[str]) -> Path:
-    """Return a path that ends with one of the suffixes, adding the first if it has none of them."""
+    """Return a path with one of the suffixes; the first is appended if it has none of them."""
     return path if path.suffix.lower() in suffixes else path.with_name(path.name + suffixes[0])
 
 

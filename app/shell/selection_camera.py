@@ -43,12 +43,12 @@ class SelectionCamera(QObject):
         session.viewport.viewed.connect(self._stay)
 
     def _players_selected(self) -> None:
-        """Cancel a pending move if its player is no longer selected."""
+        """Cancel the pending camera move if its player is no longer selected."""
         if self._goal is not None and self._goal[0] not in self._session.players:
             self._goal = None
 
     def _stay(self) -> None:
-        """Cancel a pending move when a view was requested otherwise, as by a jump to a problem."""
+        """Cancel the pending camera move, since another command requested a view, such as a jump to a problem."""
         self._goal = None
 
     def _selected(self) -> None:
@@ -63,8 +63,9 @@ class SelectionCamera(QObject):
             self._show_event(next(iter(events)))
 
     def _changed(self, change: Change) -> None:
-        """Schedule a move for an edit of corrections of one kind and selected player, but not during a drag or an undo
-        of many.
+        """Schedule a camera move after the user has corrected one kind of event of a selected player.
+
+        Edits during a drag, and undo of several edits, move nothing.
         """
         document = self._session.document
         if change.opened or document.undone or not document.done or document.done[-1].gesture is not None:
@@ -107,7 +108,7 @@ class SelectionCamera(QObject):
             self._seek(self._event)
 
     def _seek(self, key: EventKey) -> None:
-        """Move the playhead to the start of an event, unless it is within it."""
+        """Move the playhead to the start of an event, unless it is within the event already."""
         session, plan = self._session, self._session.plans.get(key.player_id)
         event = None if plan is None else events_of(plan).get(key.event_id)
         if event is not None and not event.start_s <= session.playhead_s < event.end_s:
@@ -115,14 +116,14 @@ class SelectionCamera(QObject):
 
 
 def _player_of(session: Session, note_id: str) -> str:
-    """Return the id of the player of a note; a selected one if several share the part."""
+    """Return the id of the player of a note; a selected player if several share the note's part."""
     part_ids = {part.id for part in session.project.score.parts if note_id in part.note_ids}
     playing = [player.id for player in session.project.players if player.part_id in part_ids]
     return next((id for id in session.players if id in playing), next(iter(playing), ""))
 
 
 def _corrected(before: Project, after: Project) -> list[EventKey]:
-    """Return the keys of the events with added, changed or removed corrections."""
+    """Return the keys of the events whose manual changes were added, changed or removed between two projects."""
     found = list[EventKey]()
     if before.corrections is after.corrections:
         return found

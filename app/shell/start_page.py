@@ -164,7 +164,7 @@ class StartPage(Retranslated, QScrollArea):
 
 
 def unsaved_work(item: Recoverable) -> str:
-    """Return the text with the piece and the time of unsaved work."""
+    """Return the text of a link to unsaved work: its piece and time."""
     changed = QDateTime.fromSecsSinceEpoch(round(item.changed_s))
     when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
     return tr("start_page.unsaved_changes").format(name=item.name or tr("start_page.unsaved_piece"), when=when)

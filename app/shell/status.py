@@ -45,7 +45,7 @@ class StatusLine(Retranslated, QStatusBar):
     Parameters
     ----------
     tasks : ThreadTasks or None
-        Running work; None to show none.
+        Background tasks whose progress is shown; None to show none.
     """
 
     def __init__(self, session: Session, files: Files, tasks: ThreadTasks | None, parent: QWidget) -> None:
@@ -200,11 +200,11 @@ class StatusLine(Retranslated, QStatusBar):
 
     @property
     def notice_text(self) -> str:
-        """Return the message on display; empty if there is none."""
+        """Return the text of the message on display; empty if there is none."""
         return "" if self._notice.isHidden() else message_text(self._log[-1][0], self._session)
 
     def _follow_problem(self) -> None:
-        """Hide the message about a problem when the problem is solved, or update its text."""
+        """Hide the message about a problem when the problem is solved, or update its text when the problem changes."""
         before, self._gone_to = self._gone_to, self._session.problem
         if before is None or self._notice.isHidden() or self._log[-1] != (before[1].message, Severity.WARNING):
             return
@@ -214,7 +214,7 @@ class StatusLine(Retranslated, QStatusBar):
             self.report(self._gone_to[1].message, Severity.WARNING)
 
     def _forget_device(self, port: str, is_open: bool) -> None:
-        """Hide a warning about a device when it works, or when another device or none is chosen."""
+        """Hide a warning about a MIDI device when the device works, or is no longer the chosen one."""
         if self._notice.isHidden() or self._log[-1][1] is Severity.INFORMATION:
             return
         message = self._log[-1][0]
@@ -257,7 +257,9 @@ class StatusLine(Retranslated, QStatusBar):
         self._problems.setText(f" {text}")
 
     def _report_instruments(self) -> None:
-        """Report faulty instrument files until all are corrected, since a message is replaced by the next."""
+        """Report faulty instrument files, again whenever another message has replaced the report, until all are
+        corrected.
+        """
         wrong = library().problems
         tokens = self._session.tokens
         self._instruments.setVisible(bool(wrong))
@@ -267,7 +269,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._instruments.setToolTip(reported + "\n\n" + self.tr("status_line.show_instruments"))
 
     def _report_device(self) -> None:
-        """Show the recording device and whether it is connected; nothing if there is none."""
+        """Show the name of the MIDI recording device and whether it is connected; nothing if none is chosen."""
         recording, tokens = self._session.recording, self._session.tokens
         reported = (recording.port, recording.connection, bool(recording.ports), tokens.name)
         if reported == self._reported_device:
@@ -289,7 +291,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._device.setToolTip(self.tr("status_line.midi_devices_tip"))
 
     def _report_stream(self) -> None:
-        """Show the streamed format and its rate; hide the label while nothing is streamed."""
+        """Show the format and rate of the live stream of poses; hide the label while nothing is streamed."""
         streaming, tokens = self._session.streaming, self._session.tokens
         self._stream.setVisible(streaming.state != "off")
         lines = streaming.lines
@@ -310,7 +312,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._stream.setToolTip("\n".join([*who, "", self.tr("status_line.stream_tip")]).strip())
 
     def _report_risk(self) -> None:
-        """Warn for as long as unsaved work could not be written to a recovery file."""
+        """Show a warning while unsaved work cannot be written to a recovery file."""
         risk, tokens = self._files.risk, self._session.tokens
         self._risk.setVisible(risk is not None)
         if risk is not None:
@@ -340,7 +342,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._saved.setText(template.format(ago=ago))
 
     def painted(self) -> None:
-        """Count a picture drawn by the viewport, for the frame rate."""
+        """Count a picture that the viewport has drawn, for the display of the frame rate."""
         now_s = time.perf_counter()
         self._frames.append(now_s)
         if self._session.playing and len(self._frames) % 20 == 0:
@@ -355,7 +357,7 @@ class StatusLine(Retranslated, QStatusBar):
             self._rate.clear()
 
     def set_ready(self, share: float) -> None:
-        """Set the completed share of the motion, 0..1."""
+        """Show the completed share of the generated motion, 0..1."""
         self._ready = share
         self._report_motion()
 
@@ -367,7 +369,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._motion.setText(self.tr("status_line.making_motion") if busy else self.tr("status_line.motion_ready"))
 
     def retranslate(self) -> None:
-        """Set all texts, and icons in the theme's colours."""
+        """Set all texts in the editor's language, and the icons in the theme's colours."""
         tokens = self._session.tokens
         for label in (self._saved, self._rate, self._motion):
             label.setStyleSheet(f"color: {tokens.text_dim}; padding: 0 4px;")

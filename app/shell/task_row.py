@@ -29,7 +29,7 @@ def show_value(bar: QProgressBar, value: int) -> None:
 
 
 class TaskRow(Retranslated, QWidget):
-    """A running task: name, progress, and a button that cancels it."""
+    """A row of the status line for one running task: name, progress, and a button that cancels the task."""
 
     def __init__(self, session: Session, task: Task, stop: Callable[[], object]) -> None:
         super().__init__()
@@ -50,7 +50,7 @@ class TaskRow(Retranslated, QWidget):
         self._name.setToolTip(self._name.text())
 
     def set_share(self, share: float) -> None:
-        """Set the completed share, 0..1; 0 shows an indeterminate bar."""
+        """Show the completed share of the task, 0..1; 0 shows a bar without a value."""
         most = 1000 if share > 0.0 else 0
         if self._bar.maximum() != most:
             self._bar.setRange(0, most)

@@ -93,7 +93,9 @@ def _folder() -> Path:
 
 @cache
 def _marks(tokens: Tokens) -> dict[str, str]:
-    """Return paths of drawings in a theme's colours for the style sheet, which can only name files."""
+    """Return the paths of icon files drawn in the theme's colours, by the name used in the style sheet, which can only
+    name files.
+    """
     drawings = {
         "mark_up": ("chevron_up", tokens.text_dim),
         "mark_down": ("chevron_down", tokens.text_dim),
@@ -112,7 +114,7 @@ def _marks(tokens: Tokens) -> dict[str, str]:
 
 
 def faint(tokens: Tokens) -> str:
-    """Return the colour of disabled controls: between dim text and the surface."""
+    """Return the colour of disabled controls, which is between dim text and the surface."""
     text, ground = QColor(tokens.text_dim), QColor(tokens.surface)
     mixed = QColor.fromRgbF(
         FAINT * text.redF() + (1.0 - FAINT) * ground.redF(),
@@ -123,7 +125,9 @@ def faint(tokens: Tokens) -> str:
 
 
 def style_sheet(tokens: Tokens) -> str:
-    """Return the rules of ``resources/theme.qss``, which make Qt's Fusion style flatter, with the theme's colours."""
+    """Return Qt's style sheet, filled with the theme's colours, from ``resources/theme.qss``, which makes the Fusion
+    style flatter.
+    """
     rules = Template((files("resources") / "theme.qss").read_text(encoding="utf-8"))
     sizes = {
         "target_px": LEAST_TARGET_PX,

@@ -62,11 +62,15 @@ class Window(Retranslated, QMainWindow):
     Parameters
     ----------
     session : Session
+        Session that the panels show and change.
     files : Files
+        Opens files that are dropped or chosen on the start page.
     settings : Settings
         Stores the layout.
     questions : Questions
+        Asks the user about files before the window closes.
     table : ActionTable
+        Actions for menus, palette and shortcuts.
     generator : Generator
         Generates the motion that the viewport shows.
 
@@ -75,7 +79,7 @@ class Window(Retranslated, QMainWindow):
     character_dropped(Path)
         A character's file was dropped on the window.
     help_requested(QWidget)
-        The guide section about this widget is requested.
+        The user asked for the guide section about this widget.
     """
 
     character_dropped = Signal(object)
@@ -191,7 +195,7 @@ class Window(Retranslated, QMainWindow):
             self.move(available.topLeft() + QPoint(spare.width(), spare.height()))
 
     def remember(self) -> None:
-        """Store the layout for the next start."""
+        """Store the layout of the panels for the next start."""
         settings = self._settings
         if self._full is None:
             settings.geometry = self.saveGeometry()
@@ -212,7 +216,7 @@ class Window(Retranslated, QMainWindow):
 
     @contextmanager
     def _keys_kept(self) -> Iterator[None]:
-        """Keep the keyboard focus while panels move, since a moved panel loses it."""
+        """Keep the keyboard focus in its widget while panels move, since Qt takes it from a moved panel."""
         held = self.focusWidget()
         yield
         if self._files.is_open:
@@ -249,16 +253,16 @@ class Window(Retranslated, QMainWindow):
             self.panels[name].setFocus(Qt.FocusReason.ShortcutFocusReason)
 
     def is_panel_shown(self, name: str) -> bool:
-        """Return whether a panel is open, possibly behind another tab."""
+        """Return whether a panel is open, even if it is behind another tab."""
         return not self.docks[name].isHidden()
 
     @property
     def is_full_screen(self) -> bool:
-        """True if the viewport is alone on the screen."""
+        """Return whether the viewport alone fills the screen."""
         return self._full is not None
 
     def set_full_screen(self, on: bool) -> None:
-        """Show the viewport alone on the whole screen, or the window as it was before."""
+        """Show the viewport alone on the whole screen, or restore the window."""
         if on == self.is_full_screen:
             return
         if on:
@@ -329,7 +333,7 @@ class Window(Retranslated, QMainWindow):
         self._report_title()
 
     def _fit_corner(self) -> None:
-        """Give the widgets at the right of the menu bar the width that they need, which is less in a narrow window."""
+        """Fit the widgets at the right of the menu bar, which show less in a narrow window."""
         self._narrow = self.width() < NARROW_PX
         keys = self._table.actions["application.palette"].shortcut().toString(QKeySequence.SequenceFormat.NativeText)
         self.palette_field.setText(self.tr("window.search").format(keys="" if self._narrow else keys).strip())
@@ -358,7 +362,7 @@ class Window(Retranslated, QMainWindow):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:
-        """Open the file that was dropped on the window."""
+        """Open the project, MIDI file, score or other file that was dropped on the window."""
         path = dropped_file(event)
         if path is not None:
             event.acceptProposedAction()

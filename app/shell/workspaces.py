@@ -48,21 +48,24 @@ class Workspace:
     Attributes
     ----------
     id : str
+        Id of the workspace, under which its layout is stored.
     text_id : str
         Text id of the name on the button.
     left, right : tuple of str
-        Panels at the sides from the top; panels in neither are closed, except for the timeline.
+        Names of the panels at each side, from the top; other panels are closed, except for the timeline.
     left_px, right_px : int
         Widths of the sides in pixels.
     timeline_share : float
-        Share of the window's height, 0..1.
+        Height of the timeline as a share of the window's height, 0..1.
     left_whole, right_whole : Whole
-        Whether a side has the full height beside the timeline or ends above it; may depend on the window's height.
+        Whether the panels at that side reach down beside the timeline or end above it; may depend on the window's
+        height.
     lists_share : float
-        Share of problems, corrections and history in the inspector's height, 0..1.
+        Height of the lists of problems, corrections and history as a share of the inspector's height, 0..1.
     keeps_lists : bool
-        Whether a short list of problems keeps its share.
+        Whether the lists keep this height even if they are short.
     lanes : LaneState
+        Lanes that the timeline shows.
     """
 
     id: str
@@ -155,10 +158,13 @@ class Workspaces(QObject):
     docks : dict of Dock
         Docks by the name of their panel.
     timeline : TimelinePanel
+        Timeline whose lanes belong to the workspace.
     inspector : InspectorPanel
+        Inspector whose lists get a share of its height.
     players : PlayersPanel
+        List of the players.
     settings : Settings
-        Stores each workspace and the chosen one.
+        Settings that store the layout of each workspace and the chosen workspace.
 
     Signals
     -------
@@ -195,7 +201,7 @@ class Workspaces(QObject):
         return self._settings.workspace if self._settings.workspace in _BY_ID else WORKSPACES[0].id
 
     def choose(self, workspace_id: str) -> None:
-        """Store the current layout, and show another workspace's stored layout."""
+        """Store the current workspace's layout, and show another workspace with the layout stored for it."""
         if workspace_id == self.current:
             return
         self.keep()
@@ -205,27 +211,27 @@ class Workspaces(QObject):
         self.changed.emit()
 
     def show(self) -> None:
-        """Show the panels when a project is opened."""
+        """Show the panels of the current workspace; called when a project is opened."""
         if not self._shown:
             self._shown = True
             self._show()
 
     def leave(self) -> None:
-        """Hide the panels when no project is open."""
+        """Hide all panels; called when no project is open any more."""
         self.keep()
         self._shown = False
         for dock in self._docks.values():
             dock.hide()
 
     def keep(self) -> None:
-        """Store the layout of the window's panels as the current workspace's."""
+        """Store the layout of the window's panels as that of the current workspace."""
         if self._shown:
             layout = base64.b64encode(self._window.saveState(LAYOUT_VERSION).data()).decode()
             states = {name: panel.save_state() for name, panel in self._panels.items()}
             self._settings.set_workspace_state(self.current, layout=layout, **states)
 
     def reset(self) -> None:
-        """Restore the default arrangement of the workspace."""
+        """Restore the default layout of the current workspace."""
         if self._shown:
             self._arrange(_BY_ID[self.current])
             self._settings.forget_workspace(self.current)
@@ -274,7 +280,7 @@ class Workspaces(QObject):
         self._setting = False
 
     def _size(self, workspace: Workspace) -> None:
-        """Give panels their default sizes in a window of this size."""
+        """Give the panels the workspace's default sizes, which depend on the size of the window."""
         window, low = self._window, self._window.height() < SHORT_PX
         whole = {"always": True, "never": False, "if_high": not low, "if_low": low}
         left = LEFT if whole[workspace.left_whole] else BOTTOM
@@ -293,7 +299,10 @@ class Workspaces(QObject):
 
 
 def _height_px(dock: Dock) -> int:
-    """Return the height in pixels that a panel needs, polishing it first, since only a polished widget has its font."""
+    """Return the height in pixels that a panel needs.
+
+    The panel is polished first, since only polished widgets have their font.
+    """
     for widget in dock.findChildren(QWidget):
         widget.ensurePolished()
     for layout in dock.findChildren(QLayout):
@@ -302,7 +311,7 @@ def _height_px(dock: Dock) -> int:
 
 
 class WorkspaceSwitch(Retranslated, QWidget):
-    """A row of buttons, one for each workspace; that of the current workspace is pressed.
+    """A row of buttons, one for each workspace; the button of the current workspace is pressed.
 
     Parameters
     ----------

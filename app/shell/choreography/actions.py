@@ -17,7 +17,7 @@ from widgets.players.choreography.dancers import DancersSection
 
 
 def add(session: Session) -> None:
-    """Add a dancer of the first choreography that comes with the program."""
+    """Add a dancer with the first of the bundled choreographies."""
     performer_edits.add_dancer(session, bundled_choreographies()[0], tr("action.dancer"))
 
 

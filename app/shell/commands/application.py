@@ -1,4 +1,4 @@
-"""Commands of the editor itself: palette, panels, theme, language, and the notation of pitches and times."""
+"""Commands of the editor itself: command palette, panels, theme, language, and the notation of pitches and times."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ NUMBERED: Final = 9
 
 
 def current(session: Session) -> CameraBookmark | None:
-    """Return the camera bookmark that was stored or recalled last, if it still exists."""
+    """Return the camera bookmark that was stored or recalled last; None if there is none or it was removed."""
     cameras = {camera.name: camera for camera in session.project.cameras}
     return next((cameras[name] for name in session.viewport.bookmarks if name in cameras), None)
 

@@ -1,4 +1,6 @@
-"""Objects that commands act on, and conditions for enabling them: the selection, its players, the timeline."""
+"""Objects that commands act on (selected notes and events, their players, the timeline), and conditions for enabling
+commands.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +14,9 @@ from app.score.model import Note
 
 
 def notes_by_player(session: Session) -> dict[Player, list[Note]]:
-    """Return the selected notes by the player that plays them, in the order of the score. Where several players share a
-    part, the selected ones count, else all of them.
+    """Return the selected notes by player, each list in the order of the score.
+
+    Where several players share a part, its notes belong to those of them that are selected, or else to all.
     """
     project, selected = session.project, session.selection.notes
     by_part = {
@@ -75,7 +78,7 @@ def has_everyone(session: Session) -> bool:
 
 
 def on_timeline(run: Callable[[TimelineView], None]) -> Callable[..., None]:
-    """Wrap a function of the timeline as a command that does nothing while no timeline is shown."""
+    """Return a command that calls a function with the shown timeline, and does nothing while none is shown."""
 
     def asked(session: Session, on: bool = True) -> None:
         if session.timeline_view is not None:

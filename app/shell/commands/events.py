@@ -52,8 +52,9 @@ def _playhead_tick(session: Session) -> int:
 
 
 def _places(session: Session) -> list[tuple[PlayerPlan, int]]:
-    """Return player plan and tick at which a command adds an event: the first selected note of each player, else the
-    playhead for the active player."""
+    """Return the places where a command adds an event, each a player's plan and a tick: the first selected note of each
+    player, else the playhead for the active player.
+    """
     found = [(player.id, notes[0].onset_tick) for player, notes in notes_by_player(session).items()]
     if not found and session.player is not None:
         found = [(session.player.id, _playhead_tick(session))]
@@ -61,8 +62,10 @@ def _places(session: Session) -> list[tuple[PlayerPlan, int]]:
 
 
 def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
-    """Return player plan, first and last tick over which a command adds an event: the selected notes of each player,
-    the selected range, or a few beats from the playhead on."""
+    """Return the ranges over which a command adds an event, each a player's plan with the first and last tick.
+
+    They are the selected notes of each player, else the selected range, else a few beats from the playhead.
+    """
     found = [
         (player.id, notes[0].onset_tick, max(note.end_tick for note in notes))
         for player, notes in notes_by_player(session).items()
@@ -200,7 +203,9 @@ def revert_player(session: Session) -> None:
 
 
 def _breathing_notes(session: Session) -> dict[str, list[str]]:
-    """Return the notes by player that are selected, or whose breath or preparation is selected."""
+    """Return the ids of notes, by player id, whose preparation a command changes: those of the selected breaths and
+    preparations, or else the first selected note of each player.
+    """
     result: dict[str, list[str]] = defaultdict(list)
     for player_id, ids in events_by_player(session).items():
         for event_id in ids:

@@ -39,7 +39,9 @@ def read_again(editor: Editor) -> None:
 
 
 def read_another(editor: Editor) -> None:
-    """Ask for a newer version of the piece's MIDI file or score and take it in."""
+    """Ask for a newer version of the piece's MIDI file or score, and show its changes for applying them to
+    the piece.
+    """
     _ask_for_version(editor, _usual_title())
 
 
@@ -86,8 +88,8 @@ def reimport_from(editor: Editor, path: Path) -> None:
 def _take_of_others(
     session: Session, before: Project, outcome: Reimport, kept: frozenset[str], removed: tuple[str, ...]
 ) -> None:
-    """Apply a re-import except for the parts that the user keeps unchanged, in the background, since a large piece
-    takes seconds.
+    """Apply a re-imported MIDI file or score in the background, except for the parts that the user keeps unchanged, in
+    the background, since a large piece takes seconds.
     """
     if not kept:
         _take(session, before, outcome, removed)
@@ -193,7 +195,7 @@ def playblast(editor: Editor) -> None:
 
 
 def can_draw(editor: Editor) -> bool:
-    """Return whether the project has players that a film can show."""
+    """Return whether the project has players to be shown in a film."""
     return _can_export(editor) and editor.window.viewport.has_gl
 
 

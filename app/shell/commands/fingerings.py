@@ -24,7 +24,7 @@ TYPED_TOGETHER_S = 2.0
 
 
 class _Typed:
-    """The beginning of a fingering label that is being typed."""
+    """The first signs of a fingering label that the user is still typing."""
 
     def __init__(self) -> None:
         self.text = ""
@@ -87,8 +87,9 @@ def type_fingering(session: Session, sign: str, now_s: float | None = None) -> N
 
 
 def _offer(session: Session, notes: Mapping[Player, Sequence[Note]], text: str, is_refused: bool) -> None:
-    """Show the fingerings of the first note beside it, with the text typed so far; report in the status line too if the
-    text cannot become a fingering.
+    """Show beside the first note its fingerings and the text typed so far.
+
+    If no fingering's label begins with the text (``is_refused``), say so in the status line too.
     """
     player, found = next(iter(notes.items()))
     offered = choices(session, player, found[0])
@@ -102,7 +103,7 @@ def _offer(session: Session, notes: Mapping[Player, Sequence[Note]], text: str, 
 
 
 def _holds(label: str, signs: str) -> bool:
-    """Return whether a label contains all the signs."""
+    """Return whether a fingering's label contains all the typed signs, in any order."""
     return all(label.count(sign) >= signs.count(sign) for sign in signs)
 
 

@@ -1,4 +1,6 @@
-"""Commands that generate another variation of the performance. Ordinary generation runs by itself after every edit."""
+"""Commands that generate another random variation of the performance. Ordinary generation runs by itself after every
+edit.
+"""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ def select_bar(session: Session) -> None:
 
 
 def select_span(session: Session) -> None:
-    """The notes of the selected players that begin in the selected range, or in the loop."""
+    """Select the notes of the selected players that begin in the selected range of time, or else in the loop."""
     project, tempo = session.project, session.project.score.tempo_map
     span = session.selection.span
     if span is not None:
@@ -103,7 +103,7 @@ def _edit(session: Session, id: str, edit: Callable[[Project, frozenset[str]], P
 def _edit_making(
     session: Session, name: Message, edit: Callable[[Project], tuple[Project, tuple[str, ...]]], kept: frozenset[str]
 ) -> None:
-    """Make an edit that adds notes, and select these notes together with ``kept``."""
+    """Make an edit that adds notes, and select the new notes in addition to those with the ids ``kept``."""
     made: list[str] = []
 
     def run(project: Project) -> Project:
@@ -165,7 +165,7 @@ def nudge(session: Session, steps: int) -> None:
 
 
 def nudge_frames(session: Session, frames: int) -> None:
-    """Shift the selected notes or events by video frames, at least by one tick."""
+    """Shift the selected notes or events by a number of video frames, by at least one tick."""
     tempo = session.project.score.tempo_map
     by_s = float(frames / session.project.fps)
 
@@ -177,7 +177,13 @@ def nudge_frames(session: Session, frames: int) -> None:
 
 
 def _shift(session: Session, moved: Callable[[int], int]) -> None:
-    """Shift the selection by the difference that a function makes to its first tick."""
+    """Shift the selected notes or events, all by the same number of ticks.
+
+    Parameters
+    ----------
+    moved : callable
+        Returns the new tick of the first selected note or event for its present tick.
+    """
     selection = session.selection
     if selection.notes:
         chosen = [note for _, mine in notes.chosen_notes(session.project, selection.notes) for note in mine]
@@ -269,7 +275,7 @@ def _clipboard() -> notes.ClipboardNotes | None:
 
 
 def _playhead_tick(session: Session) -> int:
-    """Return the playhead's tick, rounded to the grid line if the playhead looks as if it is on one."""
+    """Return the tick of the playhead, rounded to a grid line that is less than half a video frame away."""
     score = session.project.score
     tick = score.tempo_map.ticks(session.playhead_s)
     snapped = session.grid.snap(score.metre_map, tick)

@@ -1,4 +1,4 @@
-"""Commands for playback: playing, looping, stepping, the audible sources, and the recording."""
+"""Commands for playback: playing, looping, stepping, choosing what is heard, and the piece's recording."""
 
 from __future__ import annotations
 

@@ -137,7 +137,7 @@ def _has_several(session: Session) -> bool:
 
 
 def _differ_in_dress(session: Session) -> bool:
-    """Return whether someone does not wear what the active player wears."""
+    """Return whether any player has clothes or colours other than the active player's."""
     front = session.player
     return front is not None and any(one.outfit != front.outfit for one in session.project.performers)
 

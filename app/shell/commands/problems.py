@@ -14,8 +14,9 @@ _visited: WeakKeyDictionary[Session, tuple[str, Problem]] = WeakKeyDictionary()
 
 
 def problems(session: Session) -> list[tuple[str, Problem]]:
-    """Return the problems of all players and dancers with their ids, ordered by time; only those in the filtered list,
-    if it has any.
+    """Return the problems of all players and dancers in the order of time, each with the performer's id.
+
+    If the list of problems is filtered, only the listed ones are returned, unless there are none.
     """
     found = [(one.id, problem) for one in session.project.performers for problem in session.problems(one.id)]
     listed = [item for item in found if session.problem_filter.takes(*item, session.players)]

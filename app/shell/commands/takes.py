@@ -22,7 +22,7 @@ from app.shell.editor import Editor, EditorAction
 
 
 def _takes(session: Session) -> tuple[Take, ...]:
-    """Return the takes of the active player in the order of their lanes."""
+    """Return the takes of the active player in the order of their lanes; empty if no player is active."""
     return _takes_of(session.project, session.player.id) if session.player is not None else ()
 
 
@@ -47,7 +47,7 @@ def listen(editor: Editor, alone: bool = False) -> None:
 
 
 def _listen_from(session: Session) -> float:
-    """Return the moment at which listening begins in seconds: the start of the selected span, else the playhead if it
+    """Return the time in seconds from which a take is played: the start of the selected range, else the playhead if it
     is within the take, else the start of the take.
     """
     clock, span, chosen = session.project.score.tempo_map, session.selection.span, _chosen(session)
@@ -60,7 +60,7 @@ def _listen_from(session: Session) -> float:
 
 
 def whole(session: Session) -> None:
-    """Use all of the selected take in the part, or all of the notes from before the first take."""
+    """Use all of the selected take in the part, or all of the notes that the part had before its first take."""
     player, take_id, chosen = session.player, session.selection.take, _chosen(session)
     if player is None or take_id is None:
         return
@@ -69,7 +69,7 @@ def whole(session: Session) -> None:
 
 
 def before(session: Session) -> None:
-    """Restore the notes from before the first take in the selected span, or everywhere."""
+    """Restore the notes that the part had before its first take, in the selected range or everywhere."""
     player, span = session.player, session.selection.span or (0, LAST_TICK)
     if player is not None:
         session.attempt(Message("edit.comp_before"), lambda project: edit.comp(project, player.id, BEFORE, *span))
@@ -151,7 +151,7 @@ def _can_take_whole(session: Session) -> bool:
 
 
 def _differs_from_before(session: Session) -> bool:
-    """Return whether the part differs from the notes before the first take."""
+    """Return whether the active player's part differs from its notes before the first take."""
     player = session.player
     recorded = session.project.takes.get(player.id) if player is not None else None
     if player is None or recorded is None or not recorded.takes:
@@ -173,7 +173,7 @@ def _can_step(session: Session) -> bool:
 
 
 def _may_move(session: Session, edge: int) -> bool:
-    """Return whether the selected take is not the first (0) or the last (-1)."""
+    """Return whether a take is selected that is not the first (``edge`` 0) or not the last (``edge`` -1)."""
     chosen = _chosen(session)
     return chosen is not None and chosen[1] is not _takes(session)[edge]
 

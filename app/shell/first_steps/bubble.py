@@ -21,13 +21,12 @@ FRAME_PX: Final = 2
 
 
 def place_beside(avoided: QRect, target: QRect, size: QSize, room: QRect) -> QPoint:
-    """Return the top left corner for a bubble that does not cover a rectangle: below, above, right or left of it, as
-    near to the target as possible.
+    """Return the top left corner of a bubble beside a rectangle, on the side where it is nearest to the target control.
 
     Parameters
     ----------
     avoided : QRect
-        Rectangle not to be covered: the part of the window with the target.
+        Part of the window with the target control, which the bubble must not cover.
     """
     x = min(max(target.center().x() - size.width() // 2, room.left()), room.right() + 1 - size.width())
     y = min(max(target.center().y() - size.height() // 2, room.top()), room.bottom() + 1 - size.height())
@@ -41,7 +40,9 @@ def place_beside(avoided: QRect, target: QRect, size: QSize, room: QRect) -> QPo
 
 
 class Spotlight(QWidget):
-    """A frame in the accent colour that lets mouse events through."""
+    """A frame in the accent colour around the control that a stop of the tour is about; it lets mouse events
+    through.
+    """
 
     def __init__(self, session: Session, window: QWidget) -> None:
         super().__init__(window)
@@ -62,14 +63,14 @@ class Spotlight(QWidget):
 
 
 class Bubble(Retranslated, QFrame):
-    """A bubble with the task and number of a stop and buttons for next, back and close.
+    """A bubble with the task and number of one stop of the tour, and the buttons next, back and close.
 
     Signals
     -------
     back_requested(), next_requested(), closed()
         The button of that name was pressed.
     left()
-        Escape was pressed, which gives up the keyboard focus.
+        Escape was pressed; the bubble gives up the keyboard focus.
     """
 
     back_requested = Signal()

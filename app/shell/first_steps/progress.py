@@ -1,4 +1,6 @@
-"""Progress of the tour: an immutable value that changes with the user's actions and the tour's buttons."""
+"""Progress of the tour of first steps, as an immutable value that changes by the user's actions and the
+tour's buttons.
+"""
 
 from __future__ import annotations
 
@@ -18,12 +20,13 @@ class TourFacts:
     Attributes
     ----------
     is_playing : bool
+        Whether the piece is being played.
     fingerings : frozenset of (str, PinFingering)
-        Pinned fingerings with the ids of their players.
+        Fingerings that the user pinned, each with its player's id.
     breaths : frozenset of (str, int)
-        Start ticks of existing breaths that were set by hand, with the ids of their players.
+        Player id and start tick of each breath that the user placed by hand.
     breath_ticks : frozenset of (str, int)
-        Start ticks of the breaths in all plans, with the ids of their players.
+        Player id and start tick of each breath in all plans.
     amplitudes : mapping of str to float
         Amplitude of each player's motion, by player id.
     is_exporting : bool
@@ -39,7 +42,7 @@ class TourFacts:
 
 
 def facts_of(project: Project, plans: Mapping[str, PlayerPlan], is_playing: bool, is_exporting: bool) -> TourFacts:
-    """Return the facts about a project and its newest plans."""
+    """Return the facts about a project and its newest plans by which the tour recognises completed tasks."""
     made = [(player, each) for player in project.players for each in project.corrections.get(player.id, ())]
     return TourFacts(
         is_playing,
@@ -86,7 +89,7 @@ class TourProgress:
     Attributes
     ----------
     arrival : TourFacts
-        Facts at the arrival at the stop.
+        Facts about the editor when this stop began, with which later facts are compared.
     number : int
         Index of the stop from 0; the number of stops after the tour has ended.
     done : frozenset of str
@@ -113,7 +116,7 @@ class TourProgress:
         return self.number == len(_NAMES) - 1
 
     def observe(self, now: TourFacts) -> TourProgress:
-        """Return the progress with the task of this stop marked as done if the facts show it."""
+        """Return the progress with the task of this stop marked as done, if the facts ``now`` show that it is."""
         if not self.stop or self.is_done:
             return self
         if STOPS[self.stop](self.arrival, now):
@@ -124,9 +127,12 @@ class TourProgress:
         return self
 
     def next(self, now: TourFacts) -> TourProgress:
-        """Return the progress at the next stop, or after the last one, even if the task is not done."""
+        """Return the progress at the next stop, or after the last one, whether or not the task is done.
+
+        ``now`` are the facts with which the stop begins.
+        """
         return TourProgress(now, min(self.number + 1, len(_NAMES)), self.done)
 
     def back(self, now: TourFacts) -> TourProgress:
-        """Return the progress at the previous stop."""
+        """Return the progress at the previous stop, which begins with the facts ``now``."""
         return TourProgress(now, max(self.number - 1, 0), self.done)

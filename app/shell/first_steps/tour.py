@@ -58,7 +58,7 @@ def _named(name: str) -> Callable[[Window], QRect]:
 
 
 def _seen(widget: QWidget, window: Window) -> QRect:
-    """Return the visible part of a widget in the window's coordinates; empty if it is hidden."""
+    """Return the visible part of a widget in the window's coordinates; empty if the widget is hidden."""
     if not widget.isVisible() or not window.isAncestorOf(widget):
         return QRect()
     box = QRect(widget.mapTo(window, QPoint()), widget.size())
@@ -249,7 +249,7 @@ class FirstSteps(QObject):
         self._place()
 
     def _place(self) -> None:
-        """Move frame and bubble to the present place of the control."""
+        """Move the frame and the bubble to the control, which may have moved."""
         if self.progress is None:
             return
         target = TARGETS[self.progress.stop]

@@ -40,11 +40,11 @@ class GuideSection:
     Attributes
     ----------
     level : int
-        1 for the title of the guide.
+        Level of the heading, 1 for the title of the guide.
     anchor : str
-        Part of a link after ``#``, derived from the heading as code hosts do.
+        Part of a link after ``#``, made from the heading as GitHub does.
     block : int
-        Number of the heading's block in the document.
+        Number of the heading's text block in the Qt document.
     text : str
         Plain text up to the next heading.
     """
@@ -65,10 +65,11 @@ class Guide:
     name : str
         File name of the English guide without its ending.
     markdown : str
+        Text of the guide in Markdown.
     is_translated : bool
         False if the text is English because there is no translation.
     sections : tuple of GuideSection
-        The title first.
+        Sections in their order, that of the title first.
     """
 
     name: str
@@ -99,7 +100,7 @@ class SearchHit:
 
 
 def anchor_of(heading: str) -> str:
-    """Return the anchor of a heading, as code hosts make it: lower case, hyphens for spaces, no punctuation."""
+    """Return the anchor of a heading, made as GitHub does: lower case, hyphens for spaces, no punctuation."""
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
 
@@ -117,7 +118,7 @@ def guide(name: str, language: str) -> Guide:
     Raises
     ------
     KeyError
-        There is no guide of this name.
+        If there is no guide of this name.
     """
     if name not in names():
         raise KeyError(name)

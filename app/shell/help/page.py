@@ -86,7 +86,7 @@ class GuidePage(QTextBrowser):
         self.verticalScrollBar().setValue(0)
 
     def go_to(self, number: int) -> None:
-        """Scroll a section's heading to the top."""
+        """Scroll the guide so that the heading of a section, given by its index, is at the top."""
         if self._guide is None:
             return
         block = self.document().findBlockByNumber(self._guide.sections[number].block)
@@ -135,7 +135,7 @@ class GuidePage(QTextBrowser):
         self.document().setDefaultFont(font)
 
     def _dress(self) -> None:
-        """Set the line height, and plain styles for tables, code and links."""
+        """Set the line height of the guide's text, and plain styles for tables, code and links."""
         tokens, document = self._session.tokens, self.document()
         cursor = QTextCursor(document)
         cursor.beginEditBlock()
@@ -168,7 +168,7 @@ class GuidePage(QTextBrowser):
         cursor.endEditBlock()
 
     def _fit_pictures(self) -> None:
-        """Shrink pictures wider than the page."""
+        """Shrink pictures that are wider than the page to its width."""
         ratio = self.devicePixelRatioF()
         room = self.viewport().width() - 2 * MARGIN_PX
         for name, picture in self._pictures.items():

@@ -16,8 +16,9 @@ class Visits:
     Attributes
     ----------
     places : tuple of Place
+        Sections in the order of the visits.
     at : int
-        Index of the section on display; -1 if there is none.
+        Index in ``places`` of the section on display; -1 if there is none.
     """
 
     places: tuple[Place, ...] = ()
@@ -30,12 +31,12 @@ class Visits:
 
     @property
     def can_go_back(self) -> bool:
-        """True if there is an earlier section."""
+        """Return whether an earlier section is in the history."""
         return self.at > 0
 
     @property
     def can_go_forward(self) -> bool:
-        """True if there is a later section."""
+        """Return whether a later section is in the history."""
         return self.at < len(self.places) - 1
 
     def visit(self, place: Place) -> Visits:
@@ -46,9 +47,9 @@ class Visits:
         return Visits(places, len(places) - 1)
 
     def back(self) -> Visits:
-        """Return the history at the previous section, if there is one."""
+        """Return the history moved to the previous section; unchanged at the first one."""
         return Visits(self.places, self.at - 1) if self.can_go_back else self
 
     def forward(self) -> Visits:
-        """Return the history at the next section, if there is one."""
+        """Return the history moved to the next section; unchanged at the last one."""
         return Visits(self.places, self.at + 1) if self.can_go_forward else self

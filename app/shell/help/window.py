@@ -37,7 +37,7 @@ _PLACE: Final = int(Qt.ItemDataRole.UserRole)
 
 
 class HelpWindow(Retranslated, QDialog):
-    """A separate window that stays usable while a modal dialog is open.
+    """The window in which guides are read; it stays usable while a modal dialog is open.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ class HelpWindow(Retranslated, QDialog):
         name : str
             See `Guide.name`.
         section : str or int
-            Anchor of a section in the English guide, or its index; an unknown anchor stands for the beginning.
+            Anchor of a section in the English guide, or its index; an unknown anchor opens the beginning of the guide.
         """
         number = section if isinstance(section, int) else guide(name, "en").number(section) or 0
         self.show()
@@ -133,7 +133,7 @@ class HelpWindow(Retranslated, QDialog):
 
     @property
     def place(self) -> Place | None:
-        """The guide on display and the index of the section that was opened."""
+        """Return the guide on display and the index of the section that was opened; None before the first one."""
         return self._visits.here
 
     def go_back(self) -> None:
@@ -247,7 +247,7 @@ class HelpWindow(Retranslated, QDialog):
             self._go_to_hit(self.hits.item(0))
 
     def _leave(self) -> None:
-        """End the search on Escape; close the window if there is none."""
+        """Clear the search when Escape is pressed; close the window if nothing is searched."""
         if self.search_field.text():
             self.search_field.clear()
         else:
@@ -268,7 +268,9 @@ class HelpWindow(Retranslated, QDialog):
     # Modality
 
     def _stay_usable(self, window: QWindow | None) -> None:
-        """Make the front modal dialog the parent, since a modal dialog blocks all windows but its children."""
+        """Make the topmost modal dialog the help window's parent, since a modal dialog blocks all windows but its
+        children.
+        """
         own, editor = self.windowHandle(), self._editor.windowHandle()
         if own is None or not self.isVisible():
             return
