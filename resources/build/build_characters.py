@@ -20,7 +20,7 @@ from character_body import tongue, visible_body
 from character_breath import add_breath
 from character_brows import deepen_brows
 from character_eyeballs import IRIS_MEAN_LINEAR, eyeballs, iris_colour, wet_colour
-from character_garments import measure, shirt, trousers
+from character_garments import measure, trousers
 from character_glb import Material, write_character
 from character_landmarks import landmarks
 from character_mouth import WET, with_wet_material
@@ -40,8 +40,13 @@ from character_source import Phenotype, Source, load_model
 from character_strands import ALPHA_CUTOFF, STRANDS_MEAN_LINEAR, brows_and_lashes, hair
 from character_teeth import teeth
 from character_textures import Texture
+from wardrobe_atlas import CLOTH_MEAN_LINEAR, atlas_textures, write_atlas
+from wardrobe_pieces import Wearer
+from wardrobe_shirt import own_shirt
 
 CHARACTERS_FOLDER = Path(__file__).resolve().parent.parent / "characters"
+WARDROBE = "wardrobe"
+"""Folder of the outfits beside the characters."""
 
 META = {
     "version": "1",
@@ -82,22 +87,24 @@ class Look:
 
 @dataclass(frozen=True)
 class Character:
-    """One file: its name, what anny is asked for, and its look."""
+    """One file: its name, what anny is asked for, its look, and the patch of the atlas that its shirt is of."""
 
     name: str
     title: str
     phenotype: Phenotype
     look: Look
+    shirt: str
 
 
 CLOTHES = {
-    "shirt": Material((0.75, 0.75, 0.74), 0.8, two_sided=True),
     "trousers": Material((0.012, 0.012, 0.014), 0.85, two_sided=True),
     "belt": Material((0.01, 0.008, 0.007), 0.4),
     "shoes": Material((0.008, 0.008, 0.008), 0.3),
     "buttons": Material((0.6, 0.58, 0.54), 0.3),
 }
-
+COMPACT = ("hair", "shirt", "trousers")
+"""Meshes whose normals, texture coordinates and weights are whole numbers: those that nothing touches."""
+SHIRT_COLOUR = (0.75, 0.75, 0.74)
 
 CHARACTERS = (
     Character(
@@ -128,6 +135,7 @@ CHARACTERS = (
             hair_colour=(0.085, 0.039, 0.018),
             iris_colour=(0.085, 0.040, 0.017),
         ),
+        "blouse",
     ),
     Character(
         "man_adult",
@@ -157,6 +165,7 @@ CHARACTERS = (
             hair_colour=(0.032, 0.018, 0.011),
             iris_colour=(0.055, 0.029, 0.015),
         ),
+        "shirt",
     ),
 )
 
@@ -218,6 +227,20 @@ def _skin_and_eyes(look: Look, source: Source, layout: Layout, assets: Path) -> 
     }
 
 
+def _clothes(folder: Path) -> dict[str, Material]:
+    """Materials of the own clothes; the shirt has the pictures of the wardrobe in the file's folder."""
+    colour, normal, orm = atlas_textures(folder / WARDROBE, f"{WARDROBE}/")
+    shirt = Material(
+        _tint(SHIRT_COLOUR, CLOTH_MEAN_LINEAR),
+        1.0,
+        two_sided=True,
+        colour_texture=colour,
+        normal_texture=normal,
+        orm_texture=orm,
+    )
+    return {"shirt": shirt} | CLOTHES
+
+
 def build(character: Character, source: Source, assets: Path, path: Path) -> SkeletonFit:
     """Write one character; its skeleton as standing on the floor."""
     fit = fit_skeleton(source)
@@ -230,8 +253,9 @@ def build(character: Character, source: Source, assets: Path, path: Path) -> Ske
     brow_surfaces, brow_texture = brows_and_lashes(assets, look.brows, look.lashes, source, fit)
     mouth = (with_wet_material(teeth(source, fit)), with_wet_material(tongue(source, fit)))
     surfaces = [layout.dressed(body), *mouth, eyeballs(source, fit), *brow_surfaces, hair_surface]
-    surfaces += [shirt(tailoring, fit), trousers(tailoring, fit), footwear]
-    materials = CLOTHES | _skin_and_eyes(look, source, layout, assets)
+    wearer = Wearer(character.name, character.shirt, source, fit, tailoring, layout, assets, fit.positions_t)
+    surfaces += [own_shirt(wearer), trousers(tailoring, fit), footwear]
+    materials = _clothes(path.parent) | _skin_and_eyes(look, source, layout, assets)
     materials |= {
         "hair": _hair_material(hair_textures, look.hair_colour),
         "brows": Material(
@@ -246,7 +270,9 @@ def build(character: Character, source: Source, assets: Path, path: Path) -> Ske
     positions = fit.positions_t - np.array([0.0, floor, 0.0])
     fit = replace(fit, positions_t=positions)
     suisou = {"landmarks": landmarks(body, fit, _finger_tips(source), soles(footwear, fit))}
-    write_character(path, fit, positions, surfaces, materials, META | {"name": character.title}, suisou)
+    write_character(
+        path, fit, positions, surfaces, materials, META | {"name": character.title}, suisou, compact=COMPACT
+    )
     add_breath(path)
     deepen_brows(path)
     return fit
@@ -257,7 +283,7 @@ def build_hair(character: Character, source: Source, fit: SkeletonFit, style: st
     surface, *textures = hair(assets, style, source, fit)
     materials = {"hair": _hair_material(textures, character.look.hair_colour)}
     meta = META | {"name": f"{character.title}: {style}"}
-    write_character(path, fit, fit.positions_t, [surface], materials, meta, {"hair": style})
+    write_character(path, fit, fit.positions_t, [surface], materials, meta, {"hair": style}, compact=COMPACT)
 
 
 def write_skins(source: Source, assets: Path, folder: Path) -> None:
@@ -277,6 +303,7 @@ def main() -> None:
     arguments = parser.parse_args()
     folder = arguments.to
     folder.mkdir(parents=True, exist_ok=True)
+    write_atlas(arguments.assets, folder / WARDROBE)
     model = load_model()
     for character in CHARACTERS:
         source = load_person(model, character.phenotype)

@@ -23,9 +23,8 @@ from character_shoes import shoes
 from character_skeleton import fit_skeleton
 from character_skin import skin_layout
 from character_source import Source, load_model
-from character_textures import Texture
 from pygltflib import GLTF2, Buffer
-from wardrobe_atlas import CLOTH_MEAN_LINEAR, write_atlas
+from wardrobe_atlas import CLOTH_MEAN_LINEAR, atlas_textures, write_atlas
 from wardrobe_outfits import OUTFITS, Outfit, Pieces
 from wardrobe_pieces import Wearer
 
@@ -34,18 +33,15 @@ WEARERS = {"man": "man_adult", "woman": "woman_adult"}
 
 
 def _materials(outfit: Outfit, folder: Path) -> dict[str, Material]:
-    atlas = {
-        name: Texture(f"cloth_{name}", (folder / f"cloth_{name}.jpg").read_bytes(), f"cloth_{name}.jpg")
-        for name in ("color", "normal", "orm")
-    }
+    colour_texture, normal_texture, orm_texture = atlas_textures(folder)
     found = {
         name: Material(
             tuple(min(1.0, channel / CLOTH_MEAN_LINEAR) for channel in colour),
             1.0,
             two_sided=True,
-            colour_texture=atlas["color"],
-            normal_texture=atlas["normal"],
-            orm_texture=atlas["orm"],
+            colour_texture=colour_texture,
+            normal_texture=normal_texture,
+            orm_texture=orm_texture,
         )
         for name, colour in outfit.colours.items()
     }
@@ -69,7 +65,8 @@ def build(outfit: Outfit, pieces: Pieces, wearer: Wearer, path: Path) -> None:
     }
     meta = META | {"name": f"Suisou {outfit.title[0].lower()}"}
     parts = [surface for surface, _ in surfaces.values()]
-    write_character(path, wearer.fit, wearer.positions, parts, materials, meta, {"outfit": about}, compact=True)
+    names = [part.name for part in parts]
+    write_character(path, wearer.fit, wearer.positions, parts, materials, meta, {"outfit": about}, compact=names)
     add_breath(path, LEAST_BREATH_M)
 
 
@@ -108,7 +105,8 @@ def wearer_of(character: Character, source: Source, assets: Path) -> Wearer:
     soles = shoes(tailoring, fit)
     floor = float(fit.to_t_pose(soles.positions, soles.weights)[:, 1].min())
     layout = skin_layout(source.uvs, source.groups["body"].uvs)
-    return Wearer(character.name, source, fit, tailoring, layout, assets, fit.positions_t - np.array([0.0, floor, 0.0]))
+    positions = fit.positions_t - np.array([0.0, floor, 0.0])
+    return Wearer(character.name, character.shirt, source, fit, tailoring, layout, assets, positions)
 
 
 def main() -> None:

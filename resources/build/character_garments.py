@@ -1,7 +1,8 @@
-"""A concert shirt and trousers, draped over the base mesh's helper suit in the T-pose."""
+"""Concert trousers, and collar and placket of a shirt, draped over the base mesh's helper suit in the T-pose."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,9 +30,12 @@ from scipy.interpolate import LinearNDInterpolator
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial import cKDTree
 
-CUFF_LENGTH_M = 0.055
 WAISTBAND_M = 0.036
 NECK_HALF_WIDTH_M = 0.11
+OFF_NECK_M = 0.004
+
+Front = Callable[[np.ndarray, np.ndarray], np.ndarray]
+"""z of the foremost layer of a cloth over x and y."""
 
 
 @dataclass(frozen=True)
@@ -126,96 +130,6 @@ def move_out(
     return moved
 
 
-def _drape_torso(tailoring: Tailoring, cloth: Cloth, arm: np.ndarray) -> Cloth:
-    """The shirt's torso: spans hollows, falls from its widest place and is gathered into the belt."""
-    fall = smoothed(hang(tailoring.trunk, 0.25), 2.0, 1.5)
-    points = cloth.points
-    angle, _, _ = fall.polar(points[:, 1], points[:, [0, 2]])
-    gather = smoothstep(points[:, 1], tailoring.belt_m - 0.005, tailoring.belt_m + 0.09)
-    at_belt = tailoring.trunk.radius_at(np.full(len(points), tailoring.belt_m), angle) + 0.003
-    loose = fall.radius_at(points[:, 1], angle) + 0.012
-    crease = (
-        folds(points[:, 1], angle, 0.11, seed=11)
-        * 0.0035
-        * gather
-        * (1 - smoothstep(points[:, 1], tailoring.belt_m + 0.1, tailoring.armpit_m))
-    )
-    vertical = folds(3.0 * angle / (2 * np.pi), np.zeros_like(angle), 0.23, seed=12) * 0.003 * gather * (1 - gather) * 4
-    target = at_belt + (loose - at_belt) * gather + crease + vertical
-    share = (1 - smoothstep(arm, 0.15, 0.6)) * (
-        1 - smoothstep(points[:, 1], tailoring.armpit_m - 0.03, tailoring.shoulder[1] + 0.01)
-    )
-    return replace(cloth, points=move_out(points, fall, (1, 0, 2), target, share))
-
-
-def _drape_sleeves(tailoring: Tailoring, cloth: Cloth, arm: np.ndarray) -> Cloth:
-    """Sleeves, roomy at the upper arm and gathered into the cuffs."""
-    points = cloth.points.copy()
-    start, end = tailoring.shoulder[0], tailoring.wrist_m
-    levels = np.arange(start, end + 0.02, 0.01)
-    centres = np.tile(tailoring.shoulder[[1, 2]], (len(levels), 1))
-    for sign in (1.0, -1.0):
-        own = (arm > 0.3) & (points[:, 0] * sign > 0)
-        mirrored = points[own] * np.array([sign, 1.0, 1.0])
-        solid = arm[own] > 0.9
-        sleeve = smoothed(
-            hull_profile(mirrored[solid, 0], mirrored[solid][:, [1, 2]], levels, centres, 0.016), 2.0, 1.0
-        )
-        angle, _, _ = sleeve.polar(mirrored[:, 0], mirrored[:, [1, 2]])
-        share = (mirrored[:, 0] - start) / (end - CUFF_LENGTH_M - start)
-        roomy = (0.058 - 0.013 * np.clip(share, 0, 1)) * tailoring.shoulder[1] / 1.34
-        gather = 1 - smoothstep(mirrored[:, 0], end - CUFF_LENGTH_M - 0.03, end - CUFF_LENGTH_M + 0.004)
-        bend = np.exp(-(((share - 0.55) / 0.25) ** 2))
-        crease = folds(mirrored[:, 0], angle, 0.10, seed=21 if sign > 0 else 22) * (0.001 + 0.0025 * bend)
-        target = np.maximum(sleeve.radius_at(mirrored[:, 0], angle) + 0.005, roomy * gather) + crease * gather
-        moved = move_out(mirrored, sleeve, (0, 1, 2), target, smoothstep(arm[own], 0.6, 0.98))
-        points[own] = moved * np.array([sign, 1.0, 1.0])
-    return replace(cloth, points=points)
-
-
-def _cuffs(tailoring: Tailoring, fit: SkeletonFit) -> Cloth:
-    """Two buttoned cuffs, stiff on the forearm."""
-    parts = []
-    suit = tailoring.suit
-    for side, sign in (("left", 1.0), ("right", -1.0)):
-        along = suit.points[:, 0] * sign
-        ring = suit.points[np.abs(along - (tailoring.wrist_m - 0.03)) < 0.012][:, [1, 2]]
-        centre = ring.mean(axis=0)
-        profile = smoothed(
-            hull_profile(np.zeros(len(ring)), ring, np.array([0.0, 1.0]), np.stack([centre, centre]), 2.0), 0.01, 4.0
-        )
-        start, end = tailoring.wrist_m - CUFF_LENGTH_M - 0.004, tailoring.wrist_m + 0.010
-        rows = [
-            (start, 0.001),
-            (start, 0.0045),
-            (start + 0.003, 0.0055),
-            (end - 0.002, 0.0055),
-            (end, 0.0045),
-            (end, 0.0030),
-            (end - 0.02, 0.0020),
-        ]
-        angles = 2 * np.pi * np.arange(36) / 36
-        radius = profile.radius_at(np.zeros(36), angles)
-        points = np.concatenate(
-            [
-                np.stack(
-                    [
-                        np.full(36, sign * x),
-                        centre[0] + (radius + out) * np.cos(angles),
-                        centre[1] + (radius + out) * np.sin(angles),
-                    ],
-                    axis=1,
-                )
-                for x, out in rows
-            ]
-        )
-        weights = np.zeros((len(points), len(fit.names)))
-        weights[:, fit.index(side + "LowerArm")] = 1.0
-        faces = grid_faces(len(rows), 36, closed=True)
-        parts.append(to_triangles(Cloth(points, weights, faces[:, ::-1] if sign > 0 else faces)))
-    return join(*parts)
-
-
 def front_of(cloth: Cloth) -> LinearNDInterpolator:
     """z of the foremost layer of a cloth over (x, y)."""
     points = cloth.points[np.unique(cloth.faces)]
@@ -240,12 +154,12 @@ def neck_ring(tailoring: Tailoring, cloth: Cloth, height_m: float, angles: np.nd
     return np.concatenate([found, found[:1]])
 
 
-def collar(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator) -> Cloth:
-    """A turned-down collar on the shirt's neck seam, buttoned, its points spread."""
+def collar(tailoring: Tailoring, shirt: Cloth, front: Front, neck: Cloth) -> Cloth:
+    """A turned-down collar on the shirt's neck seam, buttoned, its points spread; it stands about a `neck` of skin."""
     columns = np.linspace(-np.pi, np.pi, 73)
-    base = neck_ring(tailoring, tailoring.suit, 0.0, columns)
-    upper = neck_ring(tailoring, tailoring.suit, 0.030, columns)
     outward = np.stack([np.sin(columns), np.zeros(73), -np.cos(columns)], axis=1)
+    base = neck_ring(tailoring, tailoring.suit, 0.0, columns)
+    upper = neck_ring(tailoring, neck, 0.026, columns) + OFF_NECK_M * outward
     up = tailoring.collar_normal * 0.8 + np.array([0.0, 0.2, 0.05])
     throat = smoothstep(np.abs(columns), 0.62 * np.pi, np.pi)[:, None]
     top = (
@@ -257,8 +171,8 @@ def collar(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator) -> C
     proud = outward * (0.001 + 0.006 * throat)
     rows = [base - up * 0.008 - outward * 0.001, base + proud, base + rise * 0.5 + proud, top]
     rows += [top + up * 0.0025 + outward * 0.0025, top + outward * 0.0055]
-    length = 0.040 + 0.034 * throat
-    spread = np.sign(columns)[:, None] * np.array([1.0, 0.0, 0.0]) * 0.040 * throat**2
+    length = 0.036 + 0.026 * throat
+    spread = np.sign(columns)[:, None] * np.array([1.0, 0.0, 0.0]) * 0.034 * throat**2
     for share in (0.35, 0.7, 1.0):
         fall = top + outward * (0.0055 + 0.003 * share) - rise * (length / 0.036) * share + spread * share
         lying = front(fall[:, 0], fall[:, 1])
@@ -270,7 +184,7 @@ def collar(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator) -> C
     return to_triangles(Cloth(points, weights, grid_faces(len(rows), 73, closed=False)))
 
 
-def placket(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator, top_m: float) -> tuple[Cloth, Cloth]:
+def placket(tailoring: Tailoring, shirt: Cloth, front: Front, top_m: float) -> tuple[Cloth, Cloth]:
     """The buttoned strip down the front, and its buttons."""
     heights = np.linspace(top_m, tailoring.belt_m - 0.02, 40)
     columns = np.array([-0.0165, -0.0155, 0.0, 0.0155, 0.0165])
@@ -315,24 +229,6 @@ def band(profile: Profile, suit: Cloth, rows: list[tuple[float, float]]) -> Clot
     return to_triangles(
         Cloth(points, np.tile(column, (len(rows), 1)), grid_faces(len(rows), columns, closed=True)[:, ::-1])
     )
-
-
-def shirt(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
-    """The shirt: torso, sleeves, cuffs, collar, placket and buttons."""
-    suit = tailoring.suit
-    cloth = _drape_sleeves(tailoring, _drape_torso(tailoring, suit, tailoring.arm), tailoring.arm)
-    cloth = cut(cloth, cloth.points[:, 1] - (tailoring.belt_m - 0.045))
-    cloth = cut(cloth, tailoring.wrist_m - CUFF_LENGTH_M + 0.004 - np.abs(cloth.points[:, 0]))
-    cloth = cut(
-        cloth, np.maximum(-above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M)
-    )
-    front = front_of(cloth)
-    throat = cloth.points[
-        (np.abs(cloth.points[:, 0]) < 0.01) & (cloth.points[:, 2] > tailoring.collar_point[2] + 0.03)
-    ][:, 1].max()
-    strip, buttons = placket(tailoring, cloth, front, float(throat) - 0.004)
-    whole = join(cloth, _cuffs(tailoring, fit), collar(tailoring, cloth, front), strip)
-    return cloth_surface("shirt", {"shirt": whole, "buttons": buttons}, fit)
 
 
 def _leg_drape(tailoring: Tailoring, leg: np.ndarray, hip: np.ndarray) -> Profile:

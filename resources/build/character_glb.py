@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -305,19 +305,19 @@ def write_character(
     meta: Mapping[str, Any],
     suisou: Mapping[str, Any],
     *,
-    compact: bool = False,
+    compact: Collection[str] = (),
 ) -> None:
     """Write one character; `positions` are the (J, 3) joint centres of the T-pose as standing on the floor.
 
-    A `compact` file has normals, texture coordinates and weights as integers: half the size, for what is not looked at
-    from very near.
+    `compact` meshes have normals, texture coordinates and weights as integers: half the size, for what nothing touches.
     """
     buffer = _Buffer()
     used = [name for name in materials if any(name in surface.triangles for surface in surfaces)]
     textures = list(dict.fromkeys(texture for name in used for texture in materials[name].textures()))
     tiled = any(materials[name].normal_tiles != 1.0 for name in used)
     nodes = _nodes(fit, positions)
-    meshes = [_mesh(buffer, surface, used, compact) for surface in surfaces]
+    meshes = [_mesh(buffer, surface, used, surface.name in compact) for surface in surfaces]
+    quantized = any(surface.name in compact for surface in surfaces)
     inverse_binds = np.linalg.inv(fit.world_from_joint_rest)
     inverse_binds[:, 3] = (0.0, 0.0, 0.0, 1.0)
     skin = {
@@ -332,8 +332,8 @@ def write_character(
         nodes.append({"name": surface.name, "mesh": index, "skin": 0})
     document = {
         "asset": {"version": "2.0", "generator": "Suisou build_characters", "copyright": meta["copyrightInformation"]},
-        "extensionsUsed": ["VRMC_vrm", *([TRANSFORM] if tiled else []), *([QUANTIZED] if compact else [])],
-        **({"extensionsRequired": [QUANTIZED]} if compact else {}),
+        "extensionsUsed": ["VRMC_vrm", *([TRANSFORM] if tiled else []), *([QUANTIZED] if quantized else [])],
+        **({"extensionsRequired": [QUANTIZED]} if quantized else {}),
         "scene": 0,
         "scenes": [{"name": meta["name"], "nodes": [0, *mesh_nodes.values()], "extras": {"suisou": suisou}}],
         "nodes": nodes,

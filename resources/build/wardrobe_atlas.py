@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from character_textures import jpeg, noise, normals_of, to_linear, to_srgb
+from character_textures import Texture, jpeg, noise, normals_of, to_linear, to_srgb
 from PIL import Image
 from scipy.ndimage import gaussian_filter
 
@@ -53,6 +53,7 @@ class Patch:
 PATCHES = {
     "suit": Patch("male_elegantsuit01", (0, 0, 512, 512), (0, 0)),
     "blouse": Patch("female_elegantsuit01", (0, 0, 512, 512), (1024, 0), structure=False),
+    "shirt": Patch("male_casualsuit03", (0, 0, 512, 512), (1032, 8), scale=1, structure=False),
     "dark_trousers": Patch("male_elegantsuit01", (0, 240, 384, 512), (1280, 1024), tone=0.10),
     "tee": Patch("male_casualsuit06", (0, 0, 512, 216), (0, 1024), structure=False),
 }
@@ -183,3 +184,12 @@ def write_atlas(assets: Path, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name, (picture, quality) in pictures.items():
         (folder / f"cloth_{name}.jpg").write_bytes(jpeg(f"cloth_{name}", picture, quality).content)
+
+
+def atlas_textures(folder: Path, beside: str = "") -> tuple[Texture, Texture, Texture]:
+    """Colour, normals, and occlusion with roughness, from a folder; files name them by their place `beside` them."""
+    colour, normal, orm = (
+        Texture(f"cloth_{name}", (folder / f"cloth_{name}.jpg").read_bytes(), f"{beside}cloth_{name}.jpg")
+        for name in ("color", "normal", "orm")
+    )
+    return colour, normal, orm

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from character_cloth import Cloth, cut, relaxed
-from character_garments import collar, front_of, shirt
+from character_garments import collar, front_of
 from character_surface import Surface, modelled
 from wardrobe_pieces import ACCENT, MAIN, SECOND, Wearer, all_of, four_bones, linen_apart, piece, skin
 from wardrobe_sailor import sailor_collar, scarf
 from wardrobe_sewn import Skirt, bow_tie, moved_to, neck_band, over, plain, sewn_surface, shell, skirt, throat
+from wardrobe_shirt import neck_of, own_shirt
 from wardrobe_tunic import buttons, close_dress, front_strip, ribbon, stand_collar, tunic
 
 Colour = tuple[float, float, float]
@@ -137,8 +138,8 @@ def _blouse_and_trousers(wearer: Wearer) -> Pieces:
 
 
 def _tie_alone(wearer: Wearer) -> Pieces:
-    own = cloth_of(wearer, shirt(wearer.tailoring, wearer.fit))
-    tie = bow_tie(wearer, throat(wearer, own.points, 0.004))
+    own = cloth_of(wearer, own_shirt(wearer))
+    tie = bow_tie(wearer, throat(wearer, own.points, 0.008) + np.array([0.0, 0.0, 0.009]))
     return [(sewn_surface("bow_tie", {ACCENT: [tie]}, wearer), "tie")]
 
 
@@ -194,7 +195,7 @@ def hemmed(wearer: Wearer, top: Surface, hem_m: float, side: float = 1.0) -> Sur
 
 def _sailor(wearer: Wearer) -> Pieces:
     legs = _school_legs(wearer, MAIN, False, MAIN)
-    whole = worn_over(wearer, tee(wearer, SECOND), legs[0][0], 0.009)
+    whole = worn_over(wearer, tee(wearer, SECOND), legs[0][0], 0.014)
     top = hemmed(wearer, whole, wearer.tailoring.belt_m - 0.05)
     cloth = cloth_of(wearer, top)
     cape, stripes = sailor_collar(wearer, cloth)
@@ -245,10 +246,10 @@ def _marching(wearer: Wearer) -> Pieces:
 
 def _polo(wearer: Wearer) -> Pieces:
     legs = grey_trousers(wearer)
-    top = worn_over(wearer, tee(wearer), legs, 0.012)
+    top = worn_over(wearer, tee(wearer), legs, 0.016)
     cloth = cloth_of(wearer, top)
     yoke = neck_band(wearer, -0.06, 0.012, 0.0015)
-    turned = collar(wearer.tailoring, cloth, front_of(cloth))
+    turned = collar(wearer.tailoring, cloth, front_of(cloth), neck_of(wearer))
     row = wearer.tailoring.collar_point[1] - 0.075
     strip = front_strip(cloth, row, row - 0.14)
     parts = {MAIN: [plain(turned), strip, yoke]}

@@ -27,9 +27,11 @@ LESS_WEIGHT = 2e-3
 
 @dataclass(frozen=True)
 class Wearer:
-    """A finished body that garments are fitted to; `positions` (J, 3) are its joints as standing on the floor."""
+    """A finished body that garments are fitted to; `positions` (J, 3) are its joints as standing on the floor, `shirt`
+    the patch of its own shirt."""
 
     name: str
+    shirt: str
     source: Source
     fit: SkeletonFit
     tailoring: Tailoring
@@ -103,6 +105,19 @@ def piece(
     parts = {material: triangles[own] for material, own in materials(centres, dye).items() if own.any()}
     weights = four_bones(binding.skin_weights(wearer.fit.weights))
     return modelled(name, positions, weights, parts, uvs=place.uvs(uvs))
+
+
+def connected(wearer: Wearer, patch: str, reach_m: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Faces of an asset that hang together with something above a height in the T-pose, to be chosen by `piece`."""
+    asset = _asset(wearer.assets, PATCHES[patch].folder)
+    faces, count = asset.faces, int(asset.faces.max()) + 1
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 3]]])
+    links = coo_array((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(count, count))
+    part = connected_components(links, directed=False)[1]
+    weights = asset.binding.skin_weights(wearer.fit.weights)
+    heights = wearer.fit.to_t_pose(asset.binding.positions(wearer.source.vertices), weights)[:, 1]
+    high = np.unique(part[np.flatnonzero(heights[:count] > reach_m)])
+    return lambda uvs: np.isin(part[faces[:, 0]], high)
 
 
 def all_of(material: str) -> Callable[[np.ndarray, np.ndarray], dict[str, np.ndarray]]:

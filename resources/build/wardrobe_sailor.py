@@ -20,7 +20,7 @@ TAIL = (
     (0.185, 0.012, 0.001),
 )
 """Sections of a scarf's end: how far down, half its width, half its depth."""
-LIES_M = 0.011
+LIES_M = 0.007
 
 
 def _normals(cloth: Cloth) -> np.ndarray:
@@ -32,19 +32,30 @@ def _normals(cloth: Cloth) -> np.ndarray:
     return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
 
 
+def _dense(cloth: Cloth) -> tuple[np.ndarray, np.ndarray]:
+    """Points and normals of a cloth, at the vertices, the middles of edges and those of faces."""
+    normals, faces = _normals(cloth), cloth.faces
+    corners = [faces, *(faces[:, pair] for pair in ([0, 1], [1, 2], [2, 0]))]
+    means = [
+        np.concatenate([values, *(values[own].mean(axis=1) for own in corners)]) for values in (cloth.points, normals)
+    ]
+    return means[0], means[1] / np.maximum(np.linalg.norm(means[1], axis=1, keepdims=True), 1e-12)
+
+
 def _lying(wearer: Wearer, cloth: Cloth, points: np.ndarray, lift_m: float) -> np.ndarray:
     """Points (N, 3) brought onto what lies below them: the shirt, or the neck where it ends."""
-    suit = wearer.tailoring.suit
-    below = np.concatenate([cloth.points, suit.points])
-    normals = np.concatenate([_normals(cloth), _normals(suit)])
-    far, rows = cKDTree(below).query(points, k=8)
-    shares = 1.0 / (far + 0.003) ** 2
-    shares /= shares.sum(axis=1, keepdims=True)
-    normal = np.einsum("nk,nka->na", shares, normals[rows])
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    # As high as the highest of what is near, so that nothing comes through.
-    height = ((below[rows] - points[:, None]) * normal[:, None]).sum(axis=2).max(axis=1)
-    return points + normal * (height + lift_m)[:, None]
+    below, normals = (np.concatenate(pair) for pair in zip(_dense(cloth), _dense(wearer.tailoring.suit), strict=True))
+    tree = cKDTree(below)
+    for reach in (8, 16):
+        far, rows = tree.query(points, k=reach)
+        shares = 1.0 / (far + 0.003) ** 2
+        shares /= shares.sum(axis=1, keepdims=True)
+        normal = np.einsum("nk,nka->na", shares, normals[rows])
+        normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+        # As high as the highest of what is near, so that nothing comes through.
+        height = ((below[rows] - points[:, None]) * normal[:, None]).sum(axis=2).max(axis=1)
+        points = points + normal * (height + lift_m)[:, None]
+    return points
 
 
 def _edges(wearer: Wearer) -> tuple[np.ndarray, np.ndarray]:
@@ -52,8 +63,8 @@ def _edges(wearer: Wearer) -> tuple[np.ndarray, np.ndarray]:
     tailoring = wearer.tailoring
     nape, size = tailoring.collar_point, tailoring.shoulder[1] / 1.4
     back, front = nape[2] - 0.05, nape[2] + 0.16
-    point = np.array([0.0, nape[1] - 0.165 * size, front])
-    off = np.array([[0.0, 0.0, 0.0], [0.045, 0.0, 0.02], [0.062, -0.01, 0.06], [0.045, -0.06, 0.115]])
+    point = np.array([0.004, nape[1] - 0.185 * size, front])
+    off = np.array([[0.0, 0.0, 0.0], [0.045, 0.0, 0.02], [0.066, -0.01, 0.06], [0.046, -0.07, 0.125]])
     inner = np.concatenate([nape + off, point[None]])
     wide = 0.165 * size
     outer = np.array(
@@ -61,8 +72,8 @@ def _edges(wearer: Wearer) -> tuple[np.ndarray, np.ndarray]:
             [0.0, nape[1] - 0.15 * size, back],
             [wide * 0.97, nape[1] - 0.15 * size, back],
             [wide, tailoring.shoulder[1] + 0.03, nape[2] + 0.04],
-            [wide * 0.72, nape[1] - 0.10 * size, front],
-            np.add(point, (0.012, -0.02, 0.0)),
+            [wide * 0.80, nape[1] - 0.115 * size, front],
+            np.add(point, (0.034, -0.012, 0.0)),
         ]
     )
     share = np.linspace(0.0, 1.0, ALONG)

@@ -11,6 +11,7 @@ from character_surface import Surface, modelled, smooth_normals
 from scipy.spatial import cKDTree
 from wardrobe_atlas import CHECK, GOLD, plain_uvs, spot_uvs
 from wardrobe_pieces import Wearer, four_bones
+from wardrobe_seated import seated_weights
 
 PLEATS, PER_PLEAT = 24, 4
 FARTHEST_M = 0.030
@@ -131,7 +132,8 @@ def skirt(wearer: Wearer, shape: Skirt, *, checked: bool = False) -> Sewn:
             uvs.append(plain_uvs(turn * 1.6 - 0.8, np.full(columns + 1, height)))
     points = np.concatenate(rows)
     faces = grid_faces(shape.rows, columns + 1, closed=False)[:, ::-1]
-    return Sewn(to_triangles(Cloth(points, _leg_weights(wearer, points), faces[:, ::-1])), np.concatenate(uvs))
+    weights = seated_weights(wearer, points, _leg_weights(wearer, points), columns + 1)
+    return Sewn(to_triangles(Cloth(points, weights, faces[:, ::-1])), np.concatenate(uvs))
 
 
 def _layer(suit: Cloth, out_m: float) -> Cloth:
@@ -152,10 +154,10 @@ def shell(wearer: Wearer, low_m: float, high_m: float, out_m: float) -> Sewn:
     return plain(cut(layer, layer.points[:, 1] - low_m))
 
 
-def neck_band(wearer: Wearer, low_m: float, high_m: float, out_m: float) -> Sewn:
-    """A close layer about the neck between two heights above the collar's seam."""
+def neck_band(wearer: Wearer, low_m: float, high_m: float, out_m: float, half_m: float = 0.13) -> Sewn:
+    """A close layer about the neck between two heights above the collar's seam, so far to either side."""
     layer = _layer(wearer.tailoring.suit, out_m)
-    layer = cut(layer, 0.13 - np.abs(layer.points[:, 0]))
+    layer = cut(layer, half_m - np.abs(layer.points[:, 0]))
     layer = cut(layer, high_m - above_collar(wearer.tailoring, layer.points))
     return plain(cut(layer, above_collar(wearer.tailoring, layer.points) - low_m))
 
@@ -171,7 +173,7 @@ def over(wearer: Wearer, outer: Cloth, inner: Cloth, from_m: float, margin_m: fl
     """A garment moved out below a height until it lies over another one; sleeves stay."""
     low = float(outer.points[:, 1].min()) - 0.02
     # The upper edge of what is below gives no whole hull.
-    from_m = min(from_m, float(inner.points[:, 1].max()) - 0.045)
+    from_m = min(from_m, float(inner.points[:, 1].max()) - 0.02)
     levels = np.arange(low, from_m + 0.04, 0.012)
     arm = _arm_share(wearer, inner) < 0.3
     points = inner.points[arm]
@@ -180,7 +182,7 @@ def over(wearer: Wearer, outer: Cloth, inner: Cloth, from_m: float, margin_m: fl
     profile = smoothed(hull_profile(points[:, 1], points[:, [0, 2]], levels, centres, 0.02), 1.0, 1.0)
     angle, radius, _ = profile.polar(outer.points[:, 1], outer.points[:, [0, 2]])
     target = profile.radius_at(outer.points[:, 1], angle) + margin_m
-    share = 1.0 - smoothstep(outer.points[:, 1], from_m - 0.02, from_m + 0.03)
+    share = 1.0 - smoothstep(outer.points[:, 1], from_m, from_m + 0.05)
     share *= _arm_share(wearer, outer) < 0.3
     target = np.minimum(target, radius + FARTHEST_M)
     return replace(outer, points=move_out(outer.points, profile, (1, 0, 2), target, share))

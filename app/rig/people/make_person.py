@@ -31,7 +31,7 @@ LID_M = (0.002, 0.008)
 SKIN = "body"
 """The mesh whose shapes make the face."""
 SKIN_MATERIAL: Final = "skin"
-NEUTRAL_MEANS: Final[Mapping[str, float]] = {"skin": 0.70, "hair": 0.32, "brows": 0.32, "iris": 0.35}
+NEUTRAL_MEANS: Final[Mapping[str, float]] = {"skin": 0.70, "hair": 0.32, "brows": 0.32, "iris": 0.35, "shirt": 0.80}
 """Means of the neutral textures of materials: a colour divided by it tints them (resources/build/README.md)."""
 
 

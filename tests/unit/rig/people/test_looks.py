@@ -52,7 +52,7 @@ def test_a_skin_by_itself_takes_the_place_of_the_body_s(skin: str) -> None:
 def test_colours_are_what_is_seen_of_neutral_textures() -> None:
     person, wanted = _person(), bundled_person("cast_marie").colors
     for material in (material for mesh in person.meshes for material in mesh.materials):
-        if material.name in NEUTRAL_MEANS:
+        if material.name in wanted and material.name in NEUTRAL_MEANS:
             tinted = np.array(material.base_color[:3]) * NEUTRAL_MEANS[material.name]
             assert tinted == pytest.approx(np.minimum(wanted[material.name], NEUTRAL_MEANS[material.name]))
     body = mesh_named(person, "body")
