@@ -62,8 +62,8 @@ def alignment(arrivals_s: FloatArray, beats_s: FloatArray) -> float:
     """Score, 0..2, of the match between arrivals of the body and beats: the sum of the closeness of each arrival to its
     nearest beat, and of each beat to its nearest arrival.
 
-    The sum of beat alignment as of Li et al. (ibid.) and as of Siyao et al., "Bailando: 3D Dance Generation by
-    Actor-Critic GPT with Choreographic Memory", CVPR 2022.
+    Closeness to beats is the beat alignment of Li et al., "AI Choreographer", ICCV 2021; the reverse is that of Siyao
+    et al., "Bailando: 3D Dance Generation by Actor-Critic GPT with Choreographic Memory", CVPR 2022.
     """
     if not len(arrivals_s) or not len(beats_s):
         return 0.0

@@ -59,7 +59,9 @@ def classify(
 
 
 def _k_means(features: FloatArray, states: int, seed: int) -> tuple[IntArray, float]:
-    """Return the classes in the order of first appearance, and the spread about their means (see `SPREAD`)."""
+    """Divide motions with the given features (S, D) into ``states`` classes by k-means. Returns the class (S,) of each,
+    numbered by first appearance, and the spread about the class means (see `SPREAD`).
+    """
     if not len(features):
         return np.zeros(0, np.int64), 0.0
     # NumPy's generator of old, which scikit-learn uses, takes 32 bits.

@@ -251,7 +251,9 @@ def _with_sides_said(body: CapturedBody, figure: Figure) -> CapturedBody:
 
 
 def _by_names(figure: Figure) -> JointMapping:
-    """Find joints by the names of bones only, without checking the shape, for a figure without size."""
+    """Find joints by the names of bones only, for a figure whose joints are all at one place, so that it has no shape
+    to check.
+    """
     mapping = map_joints(replace(figure, translations_m=np.zeros_like(figure.translations_m)))
     bones = {joint: bone for joint, bone in mapping.bones.items() if joint not in mapping.doubtful}
     return replace(mapping, bones=bones, doubtful=())

@@ -67,7 +67,9 @@ _BODY: Final = [SEGMENTS.index(name) for name in (*_TRUNK, *_LIMBS)]
 
 
 def proper(clip: MotionClip) -> tuple[int, int]:
-    """Return the frames (start, stop) of the actual motion; all of a clip without motion."""
+    """Return the frames (start, stop) of the actual motion, without rest poses at the ends; all frames if nothing
+    moves.
+    """
     start, stop = _lead(clip), len(clip) - _lead(_backwards(clip))
     return (start, stop) if (stop - start) / float(clip.fps) >= LEAST_S else (0, len(clip))
 

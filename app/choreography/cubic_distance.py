@@ -24,8 +24,8 @@ GROWS: Final = 1.2
 def between(
     before: FloatArray, after: FloatArray, slopes: tuple[FloatArray, FloatArray], share: float | FloatArray
 ) -> FloatArray:
-    """Evaluate a cubic from ``before`` to ``after`` at a share 0..1 of the way; ``slopes`` are those at both ends, per
-    whole way.
+    """Evaluate a cubic from ``before`` to ``after`` at a share 0..1 of the way; ``slopes`` are its derivatives by the
+    share at both ends.
     """
     square, cube = share * share, share**3
     return np.asarray(

@@ -60,7 +60,8 @@ feet, whose capture is least exact.
 
 @dataclass(frozen=True, order=True)
 class Cut:
-    """Frames of a minimum, of the following maximum, and of the next minimum.
+    """A captured motion between two minima of the body's angular acceleration: the frames of the first minimum, of the
+    maximum after it (the accent), and of the next minimum.
 
     The motion is ``start`` to ``end`` (half-open); the next cut starts at ``end``, or later after a long rest.
     """

@@ -1,7 +1,7 @@
-"""Choice of dancers by their drums: the captured dancers whose dances suit a piece, beat by beat.
+"""Choice of dancers by drums: for each beat of a piece, the captured dancers who danced to similar drums.
 
-If the piece's drums are similar to those of some captures, the sounds decide. Otherwise they do not, since many
-unfamiliar hits would all favour the same dancer; then all dancers are used in proportion to their material.
+If no capture has similar drums, all dancers are used in proportion to the length of their captures, since unfamiliar
+sounds would always favour the same dancer.
 """
 
 from __future__ import annotations

@@ -38,16 +38,17 @@ def legs_to(
     tips: FloatArray,
     planted: BoolArray,
 ) -> MotionClip:
-    """Return the motion with the tips of its feet at places, as far as legs reach, ankles and floor allow.
+    """Bend the legs of a motion so that the tips of its feet are at given positions, as far as the length of legs, the
+    range of ankles and the floor allow.
 
     Parameters
     ----------
     world : JointTransforms
-        Of the clip, with the feet turned as they should be.
+        World transforms of the clip, with the desired rotations of the feet.
     tips : (F, 2, 3) float64
-        Places in metres.
+        World positions in metres of the left and the right tip.
     planted : (F, 2) bool
-        Frames in which the tip stays exactly at its place.
+        Frames in which the foot stands, so that its tip is not lifted from the floor.
     """
     rotations = clip.rotations.copy()
     for foot, side in enumerate(SIDES):
@@ -70,8 +71,9 @@ def legs_to(
 
 
 def _move(clip: MotionClip, world: JointTransforms, limb: tuple[str, ...], rotations: FloatArray) -> None:
-    """Write the places of a leg's joints and the rotations of thigh and shank, as ``rotations`` (F, 16, 4) of a clip
-    have them, into joint transforms in the world."""
+    """Update the world transforms ``world`` in place for a leg: from ``rotations`` (F, 16, 4), the local ones of the
+    clip, follow positions of its joints and rotations of thigh and shank.
+    """
     above = 1 + SEGMENTS.index(limb[0])
     for name in limb[1:]:
         at = 1 + SEGMENTS.index(name)
@@ -82,7 +84,7 @@ def _move(clip: MotionClip, world: JointTransforms, limb: tuple[str, ...], rotat
 
 
 def rest_tip_m(clip: MotionClip, foot: int) -> float:
-    """Return the height of a tip over the floor in the T-pose."""
+    """Return the height in metres above the floor of a foot's tip in the T-pose; ``foot`` is 0 for the left foot."""
     side = SIDES[foot]
     names = ("hips", *(f"{side}{part}" for part in LEG))
     height = sum(clip.shape.offsets_m[SEGMENTS.index(name), 1] for name in names)
@@ -100,7 +102,7 @@ def soles_m(clip: MotionClip, world: JointTransforms) -> FloatArray:
 
 
 def grounded(clip: MotionClip, planted: BoolArray) -> MotionClip:
-    """Return the motion with soles on or above the floor; the same object if they are. See `legs_to`."""
+    """Return the motion with soles on or above the floor; the same object if none is below it."""
     world = clip.world()
     if soles_m(clip, world).min(initial=0.0) >= -SINKS_M:
         return clip
@@ -110,7 +112,9 @@ def grounded(clip: MotionClip, planted: BoolArray) -> MotionClip:
 
 
 def _over_floor(tip: FloatArray, rest_m: float, planted: BoolArray, fps: float) -> FloatArray:
-    """Return the path (F, 3) of a tip that is lifted where it would be under the floor, in time where it is free."""
+    """Lift the path (F, 3) of a foot's tip where it is under the floor, smoothly before and after; not while the foot
+    is ``planted``. ``rest_m`` is the tip's height in the T-pose.
+    """
     floor_m = min(rest_m, 0.0)
     depth = np.where(planted, 0.0, np.maximum(floor_m - tip[:, 1], 0.0))
     tip = tip.copy()
@@ -123,13 +127,17 @@ def _over_floor(tip: FloatArray, rest_m: float, planted: BoolArray, fps: float) 
 
 
 def _above(heights_m: FloatArray, rest_m: float, planted: BoolArray) -> FloatArray:
-    """Return heights (F,) of a tip at most `SINKS_M` under the floor; those of planted feet stay."""
+    """Limit heights (F,) of a foot's tip softly to at most `SINKS_M` under the floor; those of planted feet are
+    unchanged.
+    """
     under = np.where(planted, 0.0, np.minimum(heights_m - min(rest_m, 0.0), 0.0))
     return np.asarray(heights_m + SINKS_M * np.expm1(under / SINKS_M) - under)
 
 
 def free(planted: BoolArray, fps: float) -> FloatArray:
-    """Return a smooth share (F,): 0 while a foot stands, 1 from `FREE_S` before and after that on."""
+    """Return a factor (F,) that rises smoothly from 0 in frames in which a foot stands to 1 at a distance of `FREE_S`
+    from them.
+    """
     if not planted.any():
         return np.ones(len(planted))
     frames, stands = np.arange(len(planted)), np.flatnonzero(planted)
@@ -152,12 +160,12 @@ def _into_range(turned: FloatArray, foot: int) -> FloatArray:
 
 
 def _heel_up(turned: FloatArray, tip_m: FloatArray, end: FloatArray) -> FloatArray:
-    """Return world rotations (F, 4) of a foot, pitched about its tip where its heel would be under the floor.
+    """Return world rotations (F, 4) of a foot with the heel raised about the tip wherever it would be under the floor.
 
     Parameters
     ----------
     tip_m : (F,) float64
-        Heights of the tip.
+        Height of the tip.
     end : (3,) float64
         Vector from ankle to tip.
     """

@@ -28,7 +28,7 @@ ENDS_S: Final = 2.0
 
 @dataclass(frozen=True)
 class Role:
-    """Role of one of several dancers.
+    """Start and place of one of several dancers who dance to one piece.
 
     Attributes
     ----------

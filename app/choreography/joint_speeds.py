@@ -1,7 +1,6 @@
-"""Limits the rotation speeds of joints in a dance to the fastest that captures of people have.
+"""Limits the rotation speeds of joints in a dance to the highest ones in captures of people.
 
-A joint that turns faster is turned more slowly through the frames around, on the way between its rotations before and
-after. Standing feet stay in place.
+Where a joint rotates faster, its rotations are smoothed over the adjacent frames. Standing feet stay in place.
 """
 
 from __future__ import annotations
@@ -28,8 +27,8 @@ ROUNDS: Final = 10
 
 
 def within_speeds(clip: MotionClip, planted: BoolArray) -> MotionClip:
-    """Return the motion with rotation speeds within `app.choreography.damage.FASTEST`, except those of hips; the same
-    object if they are.
+    """Return the motion with the rotation speed of each joint except the hips limited to
+    `app.choreography.damage.FASTEST`; the same object if no joint is faster.
 
     Parameters
     ----------
@@ -55,8 +54,9 @@ def within_speeds(clip: MotionClip, planted: BoolArray) -> MotionClip:
 
 
 def _calm(turns: FloatArray, most_rad: float, fps: float, may: FloatArray) -> FloatArray:
-    """Return rotations (F, 4) that differ by at most ``most_rad`` from frame to frame, where the shares (F,) of change
-    that are allowed are 1; the same object if they do."""
+    """Smooth the rotations (F, 4) of a joint where they differ by more than ``most_rad`` from frame to frame. ``may``
+    (F,) is the allowed share of the change, 0..1; the same object is returned if nothing is too fast.
+    """
     for number in range(1, ROUNDS + 1):
         fast = angle(turns[:-1], turns[1:]) > most_rad
         if not fast.any():

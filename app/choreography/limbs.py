@@ -1,4 +1,4 @@
-"""Moves the ends of legs and arms of a motion to given positions, and limits knees."""
+"""Moves the ends of legs and arms of a motion to given positions, and limits the bend of knees and elbows."""
 
 from __future__ import annotations
 
@@ -52,8 +52,7 @@ def within_hinges(rotations: FloatArray, captured: FloatArray, ranges: FloatArra
     Parameters
     ----------
     captured : (F, 16, 4) float64
-        Rotations that these deviate from; from their bends it follows how far a joint is turned that has gone beyond
-        half a turn.
+        Rotations before they were changed; a bend beyond half a turn is continued from theirs.
     ranges : (4, 2) float64
         See `hinge_ranges`.
     """

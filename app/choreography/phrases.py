@@ -45,8 +45,8 @@ class ReturningPlaces:
 
 
 def returns_of_bars(rhythm: Rhythm) -> FloatArray:
-    """Matrix (B, B) of the values of `ReturningPlaces.worths` for all pairs of B bars; a bar lasts from one downbeat to
-    the next.
+    """For all pairs of B bars, the similarity (B, B) of a bar to an earlier one relative to the mean of the piece,
+    -1..1; 0 for bars that are not earlier. A bar lasts from one downbeat to the next.
     """
     alike = _along_passages(likeness_of_bars(rhythm))
     bars = len(alike)

@@ -56,8 +56,14 @@ def meets_of(
     falls_s: Sequence[FloatArray],
     accents: FloatArray,
 ) -> SegmentMeets:
-    """Collect the arrivals and footfalls within segments, relative to the segments' accents; parameters as of
-    `accents_s`.
+    """Collect the arrivals of the body and the footfalls within each of S segments.
+
+    Parameters
+    ----------
+    fps, arrivals, falls_s : sequence
+        By clip: frames per second, frames of arrivals, and times of footfalls in seconds.
+    accents : (S,) float64
+        Moment of each segment that is put on a beat, from `accents_s`; the result's times are relative to it.
     """
     own, at_accent = [], np.zeros(len(segments))
     for number, (one, accent_s) in enumerate(zip(segments, accents.tolist(), strict=True)):

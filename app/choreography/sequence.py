@@ -46,7 +46,7 @@ class Weights:
     join_per_m : float
         Cost of the distance at a join, per metre.
     speed : float
-        Cost of a motion at a limit of `SPEEDS`; quadratic between.
+        Cost of the slowest or fastest possible speed (`SPEEDS`); it grows quadratically from the captured speed.
     off_beat : float
         Cost of an accent between two beats.
     model : float

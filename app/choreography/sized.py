@@ -1,4 +1,6 @@
-"""Size of a dance: trunk and arms turn more or less far from their mean pose, within what joints of people do."""
+"""Scaling of a dance's size: rotations of trunk and arms are moved away from their mean or towards it, within the range
+of human joints.
+"""
 
 from __future__ import annotations
 
@@ -21,17 +23,16 @@ farther away already stays as it is there."""
 
 
 def sized(clip: MotionClip, size: float, hinges: FloatArray) -> MotionClip:
-    """Return the motion with trunk and arms turned more or less far from their mean pose; steps are unchanged.
+    """Scale the motion of trunk and arms by ``size``, as rotations from their mean pose; the steps are unchanged.
 
-    A larger motion grows least near its greatest angle, and where it is half a turn away, it has no direction to grow
-    in.
+    With a size above 1, angles near the limits of `REACHES_RAD` are increased least.
 
     Parameters
     ----------
     size : float
-        1 as captured.
+        Factor of angles from the mean pose; 1 as captured.
     hinges : (4, 2) float64
-        Ranges of knees and elbows, see `app.choreography.limbs.hinge_ranges`.
+        Ranges in radians of knees and elbows, see `app.choreography.limbs.hinge_ranges`.
     """
     if size == 1.0:
         return clip
@@ -50,7 +51,9 @@ def sized(clip: MotionClip, size: float, hinges: FloatArray) -> MotionClip:
 
 
 def _factor(angles_rad: FloatArray, size: float, reach_rad: float) -> FloatArray:
-    """Return factors (F,) of angles from the mean pose: the size near it, 1 at the farthest."""
+    """Factor (F,) of each angle from the mean pose: ``size`` near the mean; if that is above 1, it falls to 1 at the
+    limit ``reach_rad``, or at the largest angle if that is beyond.
+    """
     if size < 1.0:
         return np.full(len(angles_rad), size)
     share = np.minimum(angles_rad / max(reach_rad, float(angles_rad.max(initial=0.0))), 1.0)

@@ -42,7 +42,7 @@ _UP: Final = np.array([0.0, 1.0, 0.0])
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """Moment of the captured motion for each frame.
+    """Segment and moment of the captured motion that each of F output frames shows.
 
     Attributes
     ----------

@@ -114,11 +114,11 @@ class MoveCosts:
     before_s, after_s : (S,) float64
         Seconds from start to accent and from accent to end, as captured.
     speed : float
-        Cost of a motion at a limit of `SPEEDS`; quadratic between.
+        Cost of the slowest or fastest possible speed (`SPEEDS`); it grows quadratically from the captured speed.
     usual : (S,) float64
-        Value of each predecessor; those with high values are examined first.
+        Value of each segment as a predecessor; those with high values are examined first.
     meets : SegmentMeets
-        Arrivals and footfalls multiplied by their value.
+        Arrivals and footfalls of the segments, with their values in units of these costs.
     """
 
     base: FloatArray

@@ -145,8 +145,8 @@ def clean_notes(notes: Played, cleaning: Cleaning) -> Cleaned:
 
 
 def _is_sent(notes: Played, cleaning: Cleaning) -> BoolArray:
-    """Mask (N,) of notes that the player sent with breath, or so softly that their velocity shows the lack of breath;
-    False for notes that have no breath although their velocity is high.
+    """Mask (N,) of notes that the player meant to sound: the breath was up around them, or their velocity is so low
+    that it follows the breath itself. False for notes without breath whose velocity is high all the same.
     """
     breath = notes.curves.get("breath")
     if breath is None:

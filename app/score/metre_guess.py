@@ -105,7 +105,7 @@ _KINDS: Final = (
 
 
 class Line(NamedTuple):
-    """The notes of a channel, parallel: onsets and ends in ticks, and pitches."""
+    """The notes of a channel as parallel arrays: onsets and ends in ticks, and pitches."""
 
     onset_ticks: Sequence[int]
     end_ticks: Sequence[int]

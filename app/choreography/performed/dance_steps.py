@@ -1,4 +1,4 @@
-"""Steps of each dancer for the dance lane: basic motions in order, with corrections.
+"""Steps of each dancer, as shown in the timeline: basic motions in order, with the user's corrections.
 
 A correction belongs to the beat place nearest to its tick, as in `assignments_of`.
 """

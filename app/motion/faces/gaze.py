@@ -136,10 +136,12 @@ class Gaze:
 
 
 class Watching(NamedTuple):
-    """Influences on a gaze other than the plan.
+    """Settings of a player's gaze that are not part of the plan.
 
     Attributes
     ----------
+    seed : int
+        Seed of random choices.
     gaze, blink : float
         Frequency of looks away from the music, and of blinks; 1 is usual.
     """
