@@ -1,11 +1,11 @@
 """The journal of a running recording: lines of text that are only appended, so that a crash loses only unwritten lines.
 
-Line 1 is a JSON object, the header. Then, with moments of `time.perf_counter_ns`::
+Line 1 is a JSON object, the header. The other lines have times ``<ns>`` of `time.perf_counter_ns`::
 
-    e <ns> <hex>                      what was played: the bytes of one message
-    s <ns> <position in s> <pass>     at this moment that place of the piece sounded
-    lost <ns>, back <ns>              the device had gone, and was listened to again
-    end <ns>                          the take was ended, not torn off
+    e <ns> <hex>                      an event: the bytes of one MIDI message
+    s <ns> <position in s> <pass>     position of the piece that sounded then, and number of the pass of a loop
+    lost <ns>, back <ns>              the device was disconnected, and was connected again
+    end <ns>                          regular end of the recording; missing after a crash
 
 A line without a line feed was interrupted and is ignored.
 """

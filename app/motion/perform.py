@@ -66,9 +66,9 @@ class PerformanceCurves:
     felt_beats : tuple of (tick, ticks)
         Felt beat from each tick on.
     parameters : PlayerParameters
-        Parameters as set, with less sway for an instrument that rests.
+        Parameters as set, with less sway for an instrument that rests on the body or the floor.
     acting : Acting
-        Acting by these parameters, reduced for an instrument that rests or by a dance.
+        Acting by these parameters, reduced for an instrument that rests on the body or the floor, and by a dance.
     posture : Posture
         Posture with head and trunk turned to the instrument.
     expressions : dict of str to Expression

@@ -1,1 +1,1 @@
-"""Files of music to score: notes, tempo map, metres, controller curves, marks, parts."""
+"""Reading of music files as scores: notes, tempo map, metres, controller curves, marks and parts."""

@@ -4,23 +4,26 @@
 instrument, all notes (onset, length, pitch, velocity) and all controller steps; all percussion hits, on channel 10 with
 General MIDI numbers. MIDI cannot hold the following:
 
-- The notes of parts no one plays, the percussion aside; how long its notes were; ids of notes and parts, which count
-  tracks and note-ons. Voices that shared a track get one each. A part without notes is written and not read as one.
-- Who plays on, where a name says otherwise: a name beats everything else, so a "Violin" that the user gave to a flutist
-  is a violin again. A part of which notes sound together is shared among players again. Both are reported.
-- Which of two notes of one pitch ends first, where one sounds within the other: a note-off ends the oldest, so the two
-  exchange their ends. This is reported. (Notes that only overlap end as they did.)
-- More than fifteen parts of one name and program: two on one channel of which one ends before the other begins are
-  read as one.
-- A channel that another part has already, or that is the percussion's: the part gets a free one as long as there is
-  one; then channels repeat, and tracks keep the parts apart. Without a program a part gets its instrument's, for it
-  would sound like a piano elsewhere.
-- Fractions: tempi are whole microseconds per quarter, controllers have 128 steps, pitch bends 16384 of the range that
-  the file sets for them, its end the highest of them (8191/8192). Texts lose control characters and spaces around them.
-- A metre that only restates the one before at a bar line; a short first bar is read as a pickup.
+- Notes of parts without a player, except percussion; the lengths of percussion notes; ids of notes and parts, which are
+  counted anew when the file is read. Voices that shared a track get separate tracks. A part without notes gets a track,
+  which is not read as a part.
+- The user's choice of an instrument that differs from the part's name, since names have priority when a file is read: a
+  part named "Violin" that the user assigned to a flute becomes a violin part again. A part with notes that sound
+  together is divided among players again. Both are reported.
+- A note that lies within another one of the same pitch: a note-off ends the older of two notes, so the two exchange
+  their ends. This is reported. (Notes that only overlap keep their ends.)
+- More than fifteen parts of one name and program: two on one channel of which one ends before the other begins are read
+  as one.
+- A part's channel, if another part or the percussion uses it: the part gets a free channel; if there is none, channels
+  are used again, and only the tracks separate the parts. A part without a program gets its instrument's, since it would
+  otherwise sound like a piano in other programs.
+- Fractions: tempi are whole microseconds per quarter, controllers have 128 steps, and pitch bends have 16384 steps over
+  the range set in the file, of which the upper end is not quite reached (8191/8192). Texts lose control characters and
+  spaces around them.
+- A metre that only repeats the previous one at a bar line. A short first bar is read as a pickup.
 
-The bite is written to controller 16 ("general purpose controller 1"), which the standard leaves to devices: MIDI has no
-bite controller, and one with a meaning (1, modulation; 77, vibrato depth) would add vibrato to the one that was played.
+The bite is written to controller 16 ("general purpose controller 1"), since MIDI defines no controller for it; a
+receiver would answer a modulation controller (1) or vibrato depth (77) with an additional vibrato.
 """
 
 from __future__ import annotations

@@ -73,8 +73,9 @@ def leader_of(
 
 
 def _at_hand(leader: int, tick: int, parts: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...]) -> int:
-    """The leader's part that is being played at this entry: the one that starts there, else the last one that started
-    before it."""
+    """Index of the part of the leader's musician that is played at an entry at ``tick``: the one that begins there,
+    else the last one that began before it.
+    """
     musician = parts[leader].musician or parts[leader].player_id
     own = [index for index, part in enumerate(parts) if (part.musician or part.player_id) == musician]
     if len(own) == 1:

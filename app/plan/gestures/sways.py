@@ -196,8 +196,9 @@ def _shaped(
 
 @cache
 def _turns() -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
-    """Return tables (forms, units) of the shapes of swaying: weights of the previous position, the end and the turning
-    point, and the number of units of a swing."""
+    """Tables (forms, units) of the ways to divide a block into swings: for each unit the weights of the previous
+    block's end, this block's end and the turning point in the trunk's position, and the number of units of the swing.
+    """
     shape = (len(FORMS), BLOCK)
     before, after, between, parts = np.zeros(shape), np.zeros(shape), np.zeros(shape), np.zeros(shape, np.int64)
     for row, form in enumerate(FORMS):

@@ -62,7 +62,7 @@ class VelocityReading(msgspec.Struct, frozen=True):
     Attributes
     ----------
     ladder : str
-        Name of the program whose ladder was used; empty: none.
+        Name of the notation program whose table of velocities (ladder) fits the piece; empty: none.
     marked : bool
         Whether the ladder's levels are dynamics; False if everything is at the default level.
     usual : float
@@ -168,9 +168,9 @@ def read_dynamics(part: Velocities, reading: VelocityReading | None = None) -> t
     """Derive the dynamics of a part from its velocities alone: the loudness (N,) 0..1 of every note, and the row (N,)
     in `DYNAMICS` of the dynamic in force.
 
-    On a ladder each note has the loudness of its dynamic, slightly more with an accent, or a value between two in a
-    hairpin. Without a ladder, small differences between strokes are ignored: level and deviation count as far as the
-    velocities of several notes spread beyond them. Accents are no dynamics.
+    If a notation program wrote the velocities, each note has the loudness of its dynamic, slightly more with an accent,
+    or a value between two in a hairpin. Otherwise small differences between strokes are ignored: level and deviation
+    count as far as the velocities of several notes spread beyond them. Accents are no dynamics.
 
     Parameters
     ----------
@@ -195,8 +195,8 @@ def read_dynamics(part: Velocities, reading: VelocityReading | None = None) -> t
 
 
 def levels_in_force(part: Velocities, reading: VelocityReading | None = None) -> FloatArray:
-    """Return the loudness 0..1 of the dynamic in force at every note, if a notation program wrote it; empty without a
-    ladder.
+    """Return the loudness 0..1 of the dynamic in force at every note, if a notation program wrote the velocities;
+    otherwise empty.
 
     Parameters
     ----------

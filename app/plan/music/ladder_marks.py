@@ -1,5 +1,5 @@
-"""Recovers dynamics from the velocities of a notation program: which program wrote them, and the dynamic at each
-note.
+"""Recovers dynamics from the velocities of a notation program: which program wrote them, and the dynamic at each note.
+A ladder is the table of velocities with which a program writes dynamics.
 """
 
 from __future__ import annotations
@@ -142,7 +142,9 @@ def _range_cost(wrote: int | None, program: int | None) -> float:
 
 @lru_cache(maxsize=256)
 def _gains(name: str, program: int | None) -> tuple[float, ...]:
-    """Log likelihood ratio (128,) of each velocity 0..127 being on a ladder, against random velocities."""
+    """Log likelihood ratio (128,) of each velocity 0..127 having been written by the notation program ``name``, against
+    random velocities.
+    """
     ladder = ladder_of(name, program)
     likely = np.full(128, 0.2 / 60.0)
     for mark, velocity in ladder.steps:
@@ -193,8 +195,8 @@ _MARK_COST = _CHANGE_COST
 
 @lru_cache(maxsize=64)
 def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Cost and accent (128, S) of reading each velocity as each of the S steps of a ladder, and cost (S, S) of a change
-    between steps.
+    """Cost and accent (128, S) of reading each velocity as each of the S dynamics of a notation program's table
+    (ladder), and cost (S, S) of a change from one to another.
     """
     ladder = ladder_of(name, program)
     values = np.array([velocity for _, velocity in ladder.steps])
@@ -227,7 +229,7 @@ def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, Floa
 
 
 class LadderMarks(NamedTuple):
-    """Dynamics of a part recovered from a velocity ladder.
+    """Dynamics of a part, recovered from velocities that a notation program wrote.
 
     Attributes
     ----------
@@ -268,8 +270,8 @@ def ladder_marks(velocity: IntArray, name: str, program: int | None, whole_range
 
 @lru_cache(maxsize=128)
 def _along(velocities: bytes, name: str, program: int | None, whole_range: bool) -> LadderMarks:
-    """Read the dynamics of a part as the cheapest sequence of ladder steps, where each change of level has a cost;
-    cached, since most edits change no velocity.
+    """Read the dynamics of a part as the cheapest sequence of dynamics in the program's table of velocities, where each
+    change has a cost; cached, since most edits change no velocity.
     """
     velocity = np.frombuffer(velocities, np.uint8).astype(np.int64)
     program = _written_as(name, _levels(velocity), program, whole_range)
