@@ -19,11 +19,17 @@ from app.formats.scene import Clip, Scene
 
 ROTATION_RAD = float(np.radians(0.25))
 """Bound of a bone's rotation."""
-_CHAIN, _CURVED_CHAIN = 1.2, 2.0
+_CHAIN, _CURVED_CHAIN = 1.2, 1.3
 """Root of the sum of squares that the bones of a chain may have, as a multiple of the bound, with lines and with
 cubics: they are seldom all off at once and to the same side, and cubics are so at few frames of a span."""
 _BOX, _CURVED_BOX = float(np.sqrt(2.0)), 1.0
 """Each number of a rotation or place may be off by its tolerance over this."""
+_LIVELY, _CURVED_LIVELY = 2.0 / 3.0, 1.2
+"""Power of a bone's need of keys by which its share of the tolerance grows.
+
+2/3 gives the fewest keys of lines altogether. With cubics more goes to the bones that need most, which are the arms
+that an animator edits: measured on a trombonist, 4.0 instead of 4.2 keys a second, of all bones 2.8 instead of 2.6.
+"""
 _SAMPLES = 16
 _STILL = 1e-7
 
@@ -100,8 +106,9 @@ class KeyedMotion:
         place_changes = np.zeros(len(self.moving))
         for row, places_m in self.places_m.items():
             place_changes[row] = _changes(places_m[None])[0]
-        turned = np.cbrt(np.maximum(self.reach_m, _STILL) * changes**2)
-        placed = np.cbrt(place_changes**2)
+        lively = _CURVED_LIVELY if self.curved else _LIVELY
+        turned = np.cbrt(np.maximum(self.reach_m, _STILL)) * changes**lively
+        placed = place_changes**lively
         chain = np.sqrt(np.maximum(self.chains @ (turned**2 + placed**2), _STILL**2))
         least = np.where(self.chains, over * self.most_m / chain[:, None], np.inf).min(axis=0)
         tolerance = np.minimum(ROTATION_RAD, least * turned / np.maximum(self.reach_m, _STILL))

@@ -11,7 +11,8 @@ USD, Blender):
 The tolerance of a bone's rotation is its share of the tolerance of the points below it. Shares are chosen to minimise
 keys: the keys needed are proportional to the square root of the rate of change of direction over the square root of the
 tolerance; for a given sum of squares along a chain, the minimum has tolerances proportional to (change / reach) to the
-power 2/3. Remaining violations are corrected by additional keys.
+power 2/3. With cubics the bones that need most keys get more (`app.export.keyed_motion`). Remaining violations are
+corrected by additional keys.
 """
 
 from __future__ import annotations

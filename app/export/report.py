@@ -10,6 +10,7 @@ from app.contacts.bounds import Spread, allowed_mm
 from app.export.check_skeleton import SkeletonDifference
 from app.export.formats import Format
 from app.export.measure import PlayerMeasures
+from app.export.reduced_keys import ROTATION_DEG
 from app.export.rig_options import DEFAULT_RIG, RigOptions
 from app.export.scene_keys import KeyCount
 from app.export.target import SkeletonChoice
@@ -262,6 +263,14 @@ def _check_finite(value: object) -> None:
         raise ValueError("a report holds finite numbers only")
 
 
+def _allowed_beyond_deg(keys: KeyCount | None) -> float:
+    """Degrees by which a joint may be beyond its limit: with reduced keys, those a bone's rotation may be off.
+
+    A finger that rests at its limit plays to either side of it between fitted keys.
+    """
+    return 0.0 if keys is None or keys.written >= keys.every else ROTATION_DEG
+
+
 def failures(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
     """Return the names of those measures in a player's report that exceed their bounds; empty if all are met."""
     measures = player.measures
@@ -289,7 +298,7 @@ def failures(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
     ]
     failed += [f"{name} out of reach" for name, control in controls.items() if control.held_stopped_short]
     failed += [f"{name} held" for name, control in controls.items() if control.held_wrong]
-    if measures.limits.beyond:
+    if measures.limits.beyond and measures.limits.value > _allowed_beyond_deg(player.keys):
         failed.append(f"limits of {measures.limits.joint}")
     if measures.acceleration.beyond:
         failed.append(f"acceleration of {measures.acceleration.joint}")

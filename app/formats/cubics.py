@@ -19,9 +19,15 @@ _FIRST = 64
 """Frames of the spans that are tried at first."""
 _LONGEST = 192
 """Frames of a span: a hand that is still has one every few seconds."""
+_LENGTHS = np.unique([*range(1, 24), *range(24, 48, 2), *range(48, 96, 4), *range(96, _LONGEST + 1, 8)])
+"""Lengths of spans that are tried when a span is to be as long as possible."""
 _AT_ONCE = 2**20
 """Numbers worked on at once."""
 _PASSES = 8
+_BLOCK = 12
+"""Spans that are chosen anew together, each as long as possible."""
+_BLOCK_PASSES = 4
+"""Times that is done, with the blocks moved by half their length in between."""
 
 
 @cache
@@ -95,7 +101,8 @@ def cubic_keys(values: AnyFloatArray) -> BoolArray:
     Notes
     -----
     Spans are halved until each is accurate enough; those of equal length are processed together. Then keys are removed
-    while the result stays accurate enough: single keys, or two keys replaced by one in the middle.
+    while the result stays accurate enough: single keys, or two keys replaced by one in the middle. Finally the keys of
+    short stretches are chosen again, each span as long as possible.
     """
     lanes, frames, _ = values.shape
     kept = np.zeros((lanes, frames), bool)
@@ -108,6 +115,9 @@ def cubic_keys(values: AnyFloatArray) -> BoolArray:
         taken = sum(_without_every_second(values[moves], found, first) for first in (0, 1))
         taken += sum(_with_one_of_two(values[moves], found, first) for first in range(3))
         if not taken:
+            break
+    for number in range(_BLOCK_PASSES):
+        if not _with_longest_spans(values[moves], found, number % 2 * (_BLOCK // 2)):
             break
     kept[moves] = found
     return kept
@@ -165,6 +175,51 @@ def _with_one_of_two(values: AnyFloatArray, kept: BoolArray, first: int) -> int:
     kept[lanes[tried], frames[tried]] = kept[lanes[tried], frames[tried + 1]] = False
     kept[lanes[tried], middle] = True
     return len(tried)
+
+
+def _with_longest_spans(values: AnyFloatArray, kept: BoolArray, first: int) -> int:
+    """Choose the keys of each `_BLOCK` successive spans again, each span as long as possible, where that saves keys.
+
+    ``kept`` is changed in place. Borders between the blocks keep their keys; they are counted from the curve's key
+    number ``first``. Return the number of keys saved.
+    """
+    lanes, frames = np.nonzero(kept)
+    counts = np.bincount(lanes, minlength=len(kept))
+    rank = np.arange(len(lanes)) - np.repeat(np.cumsum(counts) - counts, counts)
+    borders = np.flatnonzero((rank == 0) | (rank == counts[lanes] - 1) | ((rank - first) % _BLOCK == 0))
+    begins = borders[:-1][lanes[borders[1:]] == lanes[borders[:-1]]]
+    ends = borders[1:][lanes[borders[1:]] == lanes[borders[:-1]]]
+    lane, end, spans = lanes[begins], frames[ends], ends - begins
+    longest = np.minimum(2 * np.maximum.reduceat(np.diff(frames, append=0), begins), _LONGEST)
+    here, chosen = frames[begins], np.zeros((len(begins), _BLOCK), np.intp)
+    for number in range(_BLOCK):
+        going = np.flatnonzero((here < end) & (number < spans))
+        if not len(going):
+            break
+        here[going] += _longest(values, lane[going], here[going], np.minimum(end[going] - here[going], longest[going]))
+        chosen[:, number] = here
+    used = np.argmax(chosen == end[:, None], axis=1) + 1
+    shorter = np.flatnonzero((here == end) & (used < spans))
+    for block in shorter.tolist():
+        kept[lane[block], frames[begins[block]] + 1 : end[block]] = False
+        kept[lane[block], chosen[block, : used[block]]] = True
+    return int((spans - used)[shorter].sum())
+
+
+def _longest(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, most: AnyIntArray) -> IntArray:
+    """Return for each of S spans from ``starts`` the greatest length that is accurate enough: ``most``, or the one of
+    `_LENGTHS` that bisection finds.
+    """
+    near = ~_far(values, lanes, starts, most)
+    result: IntArray = np.array(most, np.int64)
+    rest = np.flatnonzero(~near)
+    low, high = np.zeros(len(rest), np.intp), np.searchsorted(_LENGTHS, most[rest]) - 1
+    while (low < high).any():
+        tried = (low + high + 1) // 2
+        near = ~_far(values, lanes[rest], starts[rest], _LENGTHS[tried])
+        low, high = np.where(near, tried, low), np.where(near, high, np.maximum(tried - 1, low))
+    result[rest] = _LENGTHS[low]
+    return result
 
 
 def _far(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, lengths: AnyIntArray) -> BoolArray:

@@ -23,6 +23,7 @@ from app.export.report import (
     encode_report,
     failures,
 )
+from app.export.scene_keys import KeyCount
 
 
 def measures(**changes: object) -> PlayerMeasures:
@@ -66,6 +67,14 @@ def test_a_dancer_is_within_bounds_with_feet_that_stand_and_bones_that_keep_thei
 def test_within_all_bounds_is_no_failure() -> None:
     assert failures(player(measures())) == ()
     assert failures(player(None)) == ()
+
+
+def test_fitted_keys_may_be_beyond_a_joints_limit_by_as_much_as_they_may_turn_a_bone() -> None:
+    beyond = player(measures(limits=JointMeasure("x sideways", 0.2, 0.0, 3)))
+    assert failures(msgspec.structs.replace(beyond, keys=KeyCount(10, 100))) == ()
+    assert failures(msgspec.structs.replace(beyond, keys=KeyCount(100, 100))) == ("limits of x sideways",)
+    further = player(measures(limits=JointMeasure("x sideways", 0.3, 0.0, 3)))
+    assert failures(msgspec.structs.replace(further, keys=KeyCount(10, 100))) == ("limits of x sideways",)
 
 
 @pytest.mark.parametrize(

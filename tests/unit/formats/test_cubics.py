@@ -66,6 +66,30 @@ def test_keys_keep_every_number_within_its_bound_and_are_few() -> None:
     assert kept.sum(axis=1).max() < 0.12 * FRAMES
 
 
+def _fewest(values: np.ndarray) -> int:
+    """Keys of one curve (F, D) when every span is as long as it can be, frame by frame."""
+    keys, here = 1, 0
+    while here < len(values) - 1:
+        for length in range(1, len(values) - here):
+            own = values[here : here + length + 1]
+            share = np.arange(length + 1)[:, None] / length
+            bends = np.concatenate([share * (1.0 - share), share**2 * (1.0 - share)], axis=1)
+            off = own - own[0] - (own[-1] - own[0]) * share
+            fitted = bends @ np.linalg.lstsq(bends, off, rcond=None)[0]
+            if np.abs(off - fitted).max() > 1.0:
+                break
+            most = length
+        here, keys = here + most, keys + 1
+    return keys
+
+
+def test_spans_are_nearly_as_long_as_they_can_be() -> None:
+    values = _waves()
+    kept = cubic_keys(values).sum(axis=1)
+    fewest = [_fewest(lane) for lane in values]
+    assert (kept <= 1.04 * np.array(fewest) + 1.0).all(), (kept, fewest)
+
+
 def test_a_cubic_needs_its_ends_only() -> None:
     at = np.arange(129.0)
     values = (0.001 * at**3 - 0.2 * at**2 + at)[None, :, None]
