@@ -115,7 +115,7 @@ class FaceMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     emptying : dict of str to float
         Weights when the air of the last breath is used up.
     phrase : dict of str to float
-        Weights two thirds into a phrase with a direction.
+        Weights at the peak of a phrase, two thirds of the way through it.
     inhale : dict of str to float
         Weights in a full breath.
     brows, lids, nose : dict of str to float

@@ -107,7 +107,8 @@ class SegmentCandidates:
     before_s, after_s : (S,) float64
         Seconds from start to accent and from accent to end, as captured.
     joins_m : (S, S) float64
-        Distance in metres between the end of one and the start of another.
+        For each pair of segments, the distance in metres between the body at the end of the first and at the start of
+        the second, turned and moved to fit best.
     log_transition : (S, S) float64
         Log odds with which the state of the second segment follows that of the first.
     meets : SegmentMeets, optional

@@ -103,8 +103,8 @@ def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence
 
 
 def _other_sizes(parts: Sequence[Part], found: MapCandidates, instrument: Instrument) -> list[Message]:
-    """A warning for each other size or key of the instrument that was chosen because of its range; none where players
-    choose the key by the part.
+    """Return a warning for each map of another size or key that the range of the notes selected instead of the named
+    instrument. Empty for instruments such as the tuba, whose players choose the key for each part.
     """
     if not found.exact or instrument.key_by_part:
         return []
