@@ -18,15 +18,15 @@ from wardrobe_sewn import Sewn, gold, neck_band, plain, sewn_surface, throat
 
 SHIRT, BUTTONS = "shirt", "buttons"
 TUCK_M = 0.045
-"""How far below the top of the belt the shirt is cut off."""
+"""Depth of the hem below the top of the belt."""
 BLOUSED_M = 0.10
 """Height above the belt over which the shirt is gathered into it."""
 COLLAR_M = 0.075
-"""How far below the collar's seam the collar of an asset may reach."""
+"""Depth below the collar's seam that the collar of an asset reaches at most."""
 CLOSED_M, LIES_M = 0.010, 0.003
-"""How far the two edges of a closed front are off the middle, and how high cloth lies about the throat."""
+"""Distance of the edges of a closed front from the middle, and height of the cloth over the skin about the throat."""
 STRIP_M = 0.0025
-"""How high the buttoned strip lies over the front."""
+"""Height of the buttoned strip over the front."""
 
 
 def _tucked(wearer: Wearer, cloth: Cloth) -> Cloth:

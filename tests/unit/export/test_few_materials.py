@@ -50,7 +50,7 @@ def test_small_surfaces_share_materials_and_are_seen_as_before(id: str) -> None:
     before = character_named(id)
     after = with_few_materials(before)
     assert len(materials_of(after)) <= MOST < len(materials_of(before))
-    assert {material.name for material in materials_of(after)} == {"skin", "details", "hair"}
+    assert {material.name for material in materials_of(after)} == {"skin", "details", "hair", "shirt"}
     for own, shared in zip(before.meshes, after.meshes, strict=True):
         assert shared.positions_m is own.positions_m, "landmarks count vertices"
         assert shared.morphs is own.morphs
