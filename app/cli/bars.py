@@ -49,12 +49,12 @@ def requested_bars(performance: Performance, arguments: argparse.Namespace) -> t
 
 
 def requested_span(performance: Performance, arguments: argparse.Namespace, fps: Fraction) -> FrameSpan:
-    """Return the frames of the requested bars including the lead-in, or all frames.
+    """Return the range of frames of the requested bars including the lead-in, or of all bars.
 
     Raises
     ------
     UsageError
-        As `requested_bars`, or a lead-in is requested without a first bar.
+        If the piece lacks one of the bars, the last is before the first, or a lead-in is requested without a first bar.
     """
     from app.performance.span import bars_span
 

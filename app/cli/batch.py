@@ -57,7 +57,7 @@ class BatchOutcome(msgspec.Struct, frozen=True):
     reason : str
         Error or warning; empty if there is none.
     players, excluded, warnings : int
-        Number of players written, number of players left out, number of warnings.
+        Numbers of players written, of players left out, and of warnings.
     seconds : float
         Length of the motion in seconds.
     incomplete : str
@@ -74,7 +74,7 @@ class BatchOutcome(msgspec.Struct, frozen=True):
 
     @property
     def done(self) -> bool:
-        """True if files were written."""
+        """Return whether files were written."""
         return self.status in (DONE, PARTIAL)
 
     @property
@@ -84,7 +84,7 @@ class BatchOutcome(msgspec.Struct, frozen=True):
 
 
 class _Note(msgspec.Struct, frozen=True):
-    """Record of one exported piece: its inputs and its result."""
+    """Record of one exported piece in ``exported.json``: digest of its inputs, and its result."""
 
     digest: str
     outcome: BatchOutcome
@@ -165,7 +165,7 @@ def export_folder(arguments: argparse.Namespace) -> int:
 
 
 class _Results:
-    """Results of a run, stored in a file after each piece."""
+    """Results of a batch, stored in ``exported.json`` after each piece."""
 
     def __init__(
         self, file: Path, digests: Mapping[str, str], notes: dict[str, _Note], known: Mapping[str, BatchOutcome]
@@ -198,7 +198,7 @@ def folders_of(source: Path) -> dict[str, str]:
 
 
 def _is_music(path: Path) -> bool:
-    """Return whether a file's content agrees with its suffix, since many ``.xml`` files are no scores."""
+    """Return whether a file is music; an ``.xml`` file is, if its beginning is that of a score."""
     if path.suffix.casefold() != ".xml":
         return True
     try:
@@ -245,14 +245,14 @@ def export_piece(given: Sequence[str], piece: str, folder: str) -> BatchOutcome:
 
 
 class _Children:
-    """Running processes that export pieces."""
+    """Processes that are exporting pieces, so that all of them can be stopped."""
 
     _running: Final[set[subprocess.Popen[bytes]]] = set()
 
     @classmethod
     @contextmanager
     def started(cls, command: dict[str, Any]) -> Iterator[subprocess.Popen[bytes]]:
-        """Start a process that `end` can stop until the block ends."""
+        """Start a process, yield it, and let `end` stop it until the block ends."""
         child = subprocess.Popen(stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **command)
         cls._running.add(child)
         try:
@@ -262,7 +262,7 @@ class _Children:
 
     @classmethod
     def end(cls) -> None:
-        """Stop all processes, which then remove their unfinished files."""
+        """Stop all processes, which remove their unfinished files."""
         for child in list(cls._running):
             child.terminate()
         end_s = time.monotonic() + _STOP_S
@@ -275,8 +275,8 @@ class _Children:
 
 @contextmanager
 def _executor(scheduler: str | None, jobs: int | None) -> Iterator[Executor]:
-    """Yield an executor for `export_piece`: local threads that each wait for a process, or the workers of a Dask
-    scheduler.
+    """Yield an executor that runs `export_piece`: on local threads that each wait for a process, or on the workers of a
+    Dask scheduler.
     """
     if scheduler is None:
         threads = ThreadPoolExecutor(jobs or core_count())
@@ -293,7 +293,7 @@ def _executor(scheduler: str | None, jobs: int | None) -> Iterator[Executor]:
 
 
 def _outcome(future: Future[BatchOutcome]) -> BatchOutcome:
-    """Return the result of a piece, an error if its machine was lost."""
+    """Return the result of a piece; a failed result if its process or machine failed."""
     try:
         return future.result()
     except Exception as error:  # noqa: BLE001 - a scheduler's errors have no common base; one piece stops no other

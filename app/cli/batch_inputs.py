@@ -80,7 +80,8 @@ def piece_digest(piece: Path, arguments: argparse.Namespace, own: dict[str, str]
     Parameters
     ----------
     arguments : Namespace
-        Arguments of the command ``export``; those about place and speed are ignored.
+        Arguments of the command ``export``; those that only choose the output place or the speed of the export are
+        ignored.
     own : dict of str to str
         Result of `own_digests`.
     """

@@ -119,7 +119,9 @@ def _title(id: str, entry: CharacterEntry | None, speech: Speech) -> str:
 
 
 def _names(id: str) -> dict[str, str]:
-    """Return the names of a bundled character by language; empty for the user's own, who have a title."""
+    """Return the names of a bundled character by language; empty for a user's own character, which has a
+    title instead.
+    """
     name = our_name(id)
     return {} if name is None else {"en": name.en, "ja": name.ja}
 
@@ -146,7 +148,13 @@ def check_character(arguments: argparse.Namespace) -> None:
 
 
 def add_character(arguments: argparse.Namespace) -> None:
-    """Add a character and print its id. Raises FileError, UsageError."""
+    """Add the character in a file to the user's characters, and print its id.
+
+    Raises
+    ------
+    FileError, UsageError
+        If the file cannot be used, or an option does not fit it.
+    """
     from app.rig.characters.character_library import add_character as add
     from app.rig.characters.figure_build import at_height
     from app.rig.characters.load_character import read_character
@@ -167,7 +175,10 @@ def add_character(arguments: argparse.Namespace) -> None:
 
 
 def _left_out(reading: CharacterFigure, hidden: Collection[str]) -> tuple[Collection[str], Message | None]:
-    """Return the names of the hidden meshes including props in the hands, and a note about these props."""
+    """Return the names of the meshes to hide, with props held in the hands added, and a message about the added props.
+
+    The message is None if the hands hold none.
+    """
     from app.rig.characters.props import props_in_hands
 
     props = [name for name in props_in_hands(reading.figure, reading.joints.bones) if name not in hidden]
@@ -177,7 +188,13 @@ def _left_out(reading: CharacterFigure, hidden: Collection[str]) -> tuple[Collec
 
 
 def make_person(arguments: argparse.Namespace) -> None:
-    """Make a person from a bundled one, and print its id. Raises FileError, UsageError."""
+    """Make a person from a bundled one by the options, and print its id.
+
+    Raises
+    ------
+    FileError, UsageError
+        If the person cannot be written, or an option does not fit it.
+    """
     from app.rig.characters.character_library import add_person
 
     if arguments.like not in bundled_people():
@@ -228,9 +245,27 @@ def checked(
     *,
     keep_props: bool = False,
 ) -> dict[str, Any]:
-    """Read a figure's file, and return as JSON how its bones and morphs map to joints and expressions, with notes in
-    the language of ``speech``; ``joints`` and ``morphs`` are corrections by the user, ``hidden`` meshes to leave out.
-    Raises FileError if there is no figure."""
+    """Read a figure's file, and return as data for JSON how its bones and morphs map to joints and expressions, with
+    notes.
+
+    Parameters
+    ----------
+    joints, morphs : mapping
+        The user's corrections: bone names by joint, and weights of morphs by face shape.
+    height_m : float
+        Height of the figure in metres.
+    hidden : collection of str
+        Names of meshes to leave out.
+    speech : Speech
+        Language of the notes.
+    keep_props : bool
+        Whether to keep objects that the figure holds in its hands.
+
+    Raises
+    ------
+    FileError
+        If the file contains no figure.
+    """
     from app.rig.characters.figure_build import at_height, figure_height
     from app.rig.characters.figure_to_character import figure_character
     from app.rig.characters.joint_mapping import JointMapping

@@ -25,7 +25,8 @@ _BY_TCP: Final = ("tcp", "tls")
 
 @contextmanager
 def cluster_executor(address: str) -> Iterator[Executor]:
-    """Yield an executor on a scheduler's workers, all of which have the same program and user files.
+    """Yield an executor that runs on a Dask scheduler's workers, after checking that all have this program and these
+    user files.
 
     Raises
     ------
@@ -73,7 +74,7 @@ def _check_workers(client: Client, address: str) -> None:
 
 
 def check_worker(worker: str, answer: Mapping[str, Any] | BaseException) -> None:
-    """Raise UsageError if a worker's export would differ from this machine's.
+    """Raise UsageError if a worker would export files that differ from this machine's.
 
     Parameters
     ----------
@@ -93,14 +94,16 @@ def check_worker(worker: str, answer: Mapping[str, Any] | BaseException) -> None
 
 
 def machine_facts() -> dict[str, Any]:
-    """Return the facts that a worker of a cluster reports about its machine, so that only equal ones share work:
-    digests of its program and user files."""
+    """Return digests of the program and the user's files of this machine, since only machines with equal ones may share
+    work.
+    """
     return {"version": program_version(), "program": program_digest(), "own": own_digests()}
 
 
 def probe() -> Callable[[], dict[str, Any]]:
-    """Return a function that is sent to a worker by value, since the worker may lack this module, and that returns
-    `machine_facts`.
+    """Return a function that returns `machine_facts`.
+
+    It is sent to workers by value, since a worker may lack this module.
     """
 
     def facts() -> dict[str, Any]:

@@ -62,7 +62,7 @@ Actions: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 
 class _HelpFormatter(argparse.HelpFormatter):
-    """Breaks lines by the width of characters in columns."""
+    """Help formatter of argparse that breaks lines by the width of characters, since Japanese ones take two columns."""
 
     def _split_lines(self, text: str, width: int) -> list[str]:
         return super()._split_lines(text, width) if text.isascii() else wrapped(text, width)
@@ -79,8 +79,8 @@ class _HelpFormatter(argparse.HelpFormatter):
         groups: Iterable[argparse._MutuallyExclusiveGroup],
         prefix: str | None,
     ) -> str:
-        """Format the usage with a placeholder as wide as its first word, since argparse counts characters and not
-        columns.
+        """Return the usage text with lines indented by the width of its first word in columns, where argparse counts
+        characters.
         """
         words = argparse_words().get(_USAGE, _USAGE) if prefix is None else prefix
         place = "\1" * width(words)
@@ -88,21 +88,21 @@ class _HelpFormatter(argparse.HelpFormatter):
 
 
 class TopFormatter(_HelpFormatter):
-    """Keeps the line breaks of description and examples."""
+    """Help formatter that also keeps the line breaks of the description and examples."""
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         return "".join(indent + line for line in text.splitlines(keepends=True))
 
 
 class CommandParser(argparse.ArgumentParser):
-    """Parser that prints refused arguments and file names safely quoted.
+    """Parser whose errors quote refused arguments and file names safely.
 
     Parameters
     ----------
     declare : callable, optional
         Function that adds arguments and description when they are first needed.
     options
-        Options of `argparse`.
+        Further arguments of `argparse.ArgumentParser`.
     """
 
     def __init__(self, *, declare: Declare | None = None, **options: Any) -> None:
@@ -132,8 +132,8 @@ _USAGE: Final = "usage: "
 
 @cache
 def help_texts() -> dict[str, dict[str, dict[str, str]]]:
-    """Return the help texts by language: summary, description and options of each sub-command; shared ones under
-    `SHARED`.
+    """Return the help texts by language: summary, description and options of each sub-command; options shared by
+    several sub-commands are under the name `SHARED`.
     """
     paths = (_FOLDER / "help.toml", *sorted(_FOLDER.glob("*/help.toml")))
     return {name: texts for path in paths for name, texts in tomllib.loads(path.read_text("utf-8")).items()}
@@ -146,13 +146,15 @@ def _words_of(language: str) -> dict[str, str]:
 
 
 def argparse_words() -> dict[str, str]:
-    """Return translations of argparse's English words in the current language."""
+    """Return translations into the current language of the English words that argparse prints."""
     return _words_of(spoken().language)
 
 
 @contextmanager
 def worded_argparse() -> Iterator[None]:
-    """Make argparse use the current language, since gettext follows the system's locale and has no Japanese for it."""
+    """Make argparse print its words in the current language within a block, since gettext has no Japanese for them and
+    follows the system's locale.
+    """
     module: Any = argparse
     words, before = argparse_words(), (module._, module.ngettext)
     module._ = lambda english: words.get(english, english)
@@ -200,18 +202,20 @@ def add_commands(top: argparse.ArgumentParser) -> None:
 
 
 def add_actions(command: argparse.ArgumentParser, required: bool = False) -> Actions:
-    """Declare that a sub-command has sub-commands of its own, whose summaries are in the table."""
+    """Declare that a sub-command has sub-commands of its own, and return the object to which they are added."""
     return command.add_subparsers(title=said("cli.actions"), metavar="ACTION", required=required)
 
 
 def add_language_option(command: argparse.ArgumentParser) -> None:
-    """Declare the option for the language, unless the command has its own."""
+    """Declare the option for the language, unless the command declares one itself."""
     if LANGUAGE not in command._option_string_actions:
         command.add_argument(LANGUAGE, choices=tuple(LANGUAGES), default="")
 
 
 def add_pitch_options(command: argparse.ArgumentParser, of_players: bool = True) -> None:
-    """Declare the options for names of pitches; ``of_players`` adds the one for transposing instruments."""
+    """Declare the options for names of pitches; if ``of_players``, also the option for written pitches of transposing
+    instruments.
+    """
     command.add_argument(PITCH_NAMES, choices=PITCH_NAME_CHOICES, default=PITCH_NAME_CHOICES[0])
     command.add_argument(MIDDLE_C, choices=tuple(MIDDLE_C_OCTAVES), default="C4")
     if of_players:

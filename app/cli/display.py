@@ -22,7 +22,7 @@ _DISPLAY = re.compile(r"^(?:(?P<host>[^:/]*)(?:/\w+)?|(?P<path>/.*)):(?P<number>
 
 
 def virtual(command: str) -> str:
-    """Return advice on drawing to a file without a display."""
+    """Return advice on drawing without a display by running a command on a virtual display."""
     return said("cli.virtual_display", command=command)
 
 
@@ -37,7 +37,8 @@ def why_no_display(
     Parameters
     ----------
     what, instead : str
-        Name of the task that needs a display, and an alternative without one; by default the editor and other commands.
+        Name of the task that needs a display, and a command that needs none; by default the editor, and the other
+        commands.
     """
     if not platform.startswith("linux") or environment.get("QT_QPA_PLATFORM", "").partition(":")[0] in WITHOUT:
         return None
@@ -52,7 +53,7 @@ def why_no_display(
 
 
 def example_hint() -> str:
-    """Return a command that exports the example to files, for systems on which the editor cannot open."""
+    """Return a command line that exports the example to files, for systems on which the editor cannot open."""
     with as_file(files("resources") / "examples" / "quartet.mid") as path:
         command = f"suisou export {shlex.quote(str(path.absolute()))} --to out"
     return said("cli.example_hint", command=command)

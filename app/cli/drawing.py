@@ -49,7 +49,7 @@ def parsed_view(arguments: argparse.Namespace, project: Project) -> tuple[View, 
 
 
 def require_writable(path: Path, folder: Path) -> None:
-    """Raise FileError if a folder does not exist or cannot be written to."""
+    """Raise FileError if a folder does not exist or cannot be written to; the error names ``path``."""
     if not os.path.isdir(folder):
         raise FileError("file.cannot_write", file=str(path), reason=f"{shown(folder)} is not a folder")
     if not os.access(folder, os.W_OK):
@@ -57,7 +57,7 @@ def require_writable(path: Path, folder: Path) -> None:
 
 
 def nearest(path: Path) -> Path:
-    """Return the longest existing beginning of a path."""
+    """Return the longest beginning of a path that exists."""
     return next((place for place in (path, *path.parents) if os.path.exists(place)), path)
 
 

@@ -115,7 +115,7 @@ def add_rig_options(command: argparse.ArgumentParser) -> None:
 
 
 def texture_size_text(px: int) -> str:
-    """Return a size of textures as typed: pixels or ``off``."""
+    """Return the text by which a size of textures is typed as an option: a number of pixels, or ``off`` for 0."""
     return str(px) if px else "off"
 
 
@@ -148,7 +148,15 @@ def face_parts(text: str) -> tuple[FacePart, ...]:
 
 
 def _names(text: str, possible: Collection[str], refusal: str) -> list[str]:
-    """Return the names between commas; refuse an impossible one with the message ``refusal``."""
+    """Return the names in a text that separates them by commas.
+
+    Parameters
+    ----------
+    possible : collection of str
+        Names that are allowed.
+    refusal : str
+        Id of the error message for other names.
+    """
     names = [name.strip().casefold() for name in text.split(",")]
     unknown = [name for name in names if name not in possible]
     if unknown:
@@ -202,7 +210,8 @@ def export(arguments: argparse.Namespace) -> int:
 
 
 def say_what_is_there(request: ExportRequest, unreal: Path | None) -> None:
-    """Print the files that an export will replace or remove and their differing content, before anything is written.
+    """Print the existing files that an export will replace or remove, and how their content differs, before anything is
+    written.
 
     Parameters
     ----------
@@ -212,7 +221,7 @@ def say_what_is_there(request: ExportRequest, unreal: Path | None) -> None:
     Raises
     ------
     FileError
-        The Unreal project contains files of another program under the same names.
+        If the Unreal project contains files of another program under the same names.
     """
     performance, source, bars = request.performance, request.source, request.bars
     ids = (*(one.id for one in request.players), *(one.id for one in request.dancers))
@@ -239,7 +248,7 @@ def say_what_is_there(request: ExportRequest, unreal: Path | None) -> None:
 
 
 def _some(files: Sequence[str]) -> str:
-    """The first of some files, for a line."""
+    """Return file names joined by commas, with ``…`` in place of all but the first few."""
     return ", ".join([*files[:MOST_NAMED], *(["…"] if len(files) > MOST_NAMED else [])])
 
 
@@ -250,7 +259,7 @@ def _request(
     folder: Path,
     skeleton: SkeletonChoice,
 ) -> ExportRequest:
-    """Return the export request that the command's options describe."""
+    """Return the export request that the command's options describe, for files in a folder."""
     project = performance.project
     names = [*(player.name for player in project.players), *(dancer.name for dancer in project.dancers)]
     chosen = select_players(arguments.players, names)

@@ -83,14 +83,14 @@ def _size_text(size: tuple[int, int]) -> str:
 
 @dataclass(frozen=True, eq=False)
 class _Film:
-    """Settings of a film: contents and output file.
+    """Settings of a film: the performance, the view, the moments and the output file.
 
     Attributes
     ----------
     kind : str
         ``sheet``, ``mp4`` or ``folder``.
     player_ids : tuple of str
-        Players that the view is about; empty for all.
+        Ids of the players at whom the camera is directed; empty for all.
     columns : int
         Number of columns of a contact sheet.
     """
@@ -106,13 +106,13 @@ class _Film:
 
     @property
     def path(self) -> Path:
-        """The video file or the folder of pictures to write, from the command's options."""
+        """Return the path of the video file or of the folder of pictures to write."""
         path: Path = self.arguments.sheet or self.arguments.to
         return path
 
     @property
     def step_s(self) -> float:
-        """Time between frames in seconds."""
+        """Return the time between frames in seconds."""
         return float(1 / self.span.fps)
 
     @property
@@ -157,7 +157,7 @@ def film(arguments: argparse.Namespace) -> int:
 
 
 def _draw(film: _Film, stop_requested: StopRequested) -> int:
-    """Render every frame of a film and write it to the video file. Returns the exit status of the command."""
+    """Draw the frames of a film and write them to the output, and return the exit status of the command."""
     # All of Qt.
     from app.performance.cast import require_players
     from widgets.viewport.offscreen import offscreen
@@ -219,13 +219,13 @@ def _check_options(arguments: argparse.Namespace, kind: Kind) -> None:
 
 
 def shown_span(performance: Performance, arguments: argparse.Namespace, kind: Kind) -> FrameSpan:
-    """Return the frames of a film or the pictures of a sheet. The first is at the start of the bars, whatever the
-    distance between pictures.
+    """Return the range of frames of a film, or of the pictures of a sheet; the first is at the start of the requested
+    bars.
 
     Raises
     ------
     UsageError
-        As `app.cli.bars.requested_bars`, or a lead-in is requested without a first bar.
+        If the piece lacks one of the bars, the last is before the first, or a lead-in is requested without a first bar.
     """
     fps = performance.project.fps
     if kind != "sheet":
@@ -312,7 +312,9 @@ _WRITERS: Final = {"mp4": _mp4, "folder": _frames, "sheet": _sheet}
 
 
 def caption_texts(performance: Performance, times_s: Sequence[float], language: str) -> list[tuple[str, str]]:
-    """Return the time, frame number (of an export at the project's frame rate) and score position of each moment."""
+    """Return two caption texts for each moment: its time with the frame number at the project's frame rate, and its
+    score position.
+    """
     metres, fps = performance.project.score.metre_map, float(performance.project.fps)
     found = []
     for time_s in times_s:

@@ -196,8 +196,9 @@ def _dancer(dancer: Dancer) -> Table:
 
 
 class _Reasons:
-    """Reasons as sentences with pitches, bars, beats and names of keys; cached, since many events have equal
-    reasons.
+    """Makes sentences of the reasons for events, in which pitches, bars, beats and keys are named.
+
+    Results are cached, since many events have equal reasons.
     """
 
     def __init__(self, score: Score, part_id: str, instrument: InstrumentMap, speech: Speech) -> None:
@@ -275,7 +276,15 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap,
 def _of_some_players(
     plan: PlayerPlan, clock: TempoMap, reason: _Reasons, origins: Mapping[Mark, str], source: str
 ) -> Table:
-    """Return the lists that only some players have: marks, poses, mutes, styles, additive curves."""
+    """Return those lists of a plan that are often empty: marks, poses, mutes, styles, additive curves.
+
+    Parameters
+    ----------
+    origins : mapping of Mark to str
+        Origin of each mark.
+    source : str
+        Origin of the mutes.
+    """
     table: Table = {}
     if origins:
         table["marks"] = [_mark(mark) | {"source": origin} for mark, origin in origins.items()]
@@ -300,7 +309,7 @@ def _mark(mark: Mark) -> Table:
 
 
 def _tongued(event: TongueEvent | None, reason: _Reasons) -> Table:
-    """Return the start of a note: slurred, or the tongue stroke and its reason."""
+    """Return the articulation at the start of a note as a table: slurred, or the tongue stroke with its reason."""
     if event is None:
         return {"articulation": "slurred", "tongue": "", "tongue_reason": ""}
     return {"articulation": event.articulation, "tongue": event.stroke, "tongue_reason": reason(event.reason)}
@@ -331,7 +340,15 @@ def _events(
     what: str,
     *fields: str,
 ) -> list[Table]:
-    """Return events as tables: id, kind, times in seconds and beats, some fields, and the reason."""
+    """Return events as tables: the kind, times in seconds and beats, the named fields, and the reason.
+
+    Parameters
+    ----------
+    what : str
+        Name of the attribute with the kind; empty if the events have none.
+    fields : str
+        Names of the attributes to include.
+    """
     return [
         span | {"reason": reason(event.reason)}
         for event, span in zip(events, _spans(events, clock, what, *fields), strict=True)
@@ -344,7 +361,7 @@ def _spans(
     what: str,
     *fields: str,
 ) -> list[Table]:
-    """Return events as tables with their times but without reasons."""
+    """Return events as tables like `_events`, but without reasons."""
     seconds = np.array([(event.start_s, event.end_s) for event in events]).reshape(-1, 2)
     beats = clock.ticks(seconds) / clock.ticks_per_quarter
     return [

@@ -77,7 +77,7 @@ def _row(player: Table) -> tuple[str, ...]:
 
 
 def _sources_row(player: Table) -> tuple[str, ...]:
-    """Return the number of facts by source, the most common first."""
+    """Return a table row for a player: the name, and how many facts come from each source, the most common first."""
     facts = ([note["sources"][fact] for note in player["notes"]] for fact in FACTS)
     breaths = [breath["source"] for breath in player["breaths"] if BREATH_KINDS[breath["kind"]].draws_air]
     counts = (Counter(sources).most_common() for sources in (*facts, breaths))
@@ -87,7 +87,7 @@ def _sources_row(player: Table) -> tuple[str, ...]:
 
 
 def _fingerings(labels: list[str]) -> str:
-    """Return labels as text; fewer and with commas if labels have several words."""
+    """Return fingering labels as one text; only the first few, with commas, if a label has several words."""
     if not any(" " in label for label in labels):
         return " ".join(labels)
     return ", ".join(labels[:FIRST_WORDS])

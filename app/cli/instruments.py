@@ -92,7 +92,7 @@ def word_of_tag(tag: str) -> str:
 
 
 def transposition(semitones: int) -> str:
-    """Return the interval from sounding to written pitch: ``"+2"``, ``"as it sounds"``."""
+    """Return the interval from sounding to written pitch as text: ``"+2"``, or "as it sounds" for none."""
     return f"{semitones:+d}" if semitones else said("instruments.as_it_sounds")
 
 

@@ -62,7 +62,9 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def list_all() -> None:
-    """Print every table (name, title, whether it is the user's own), then the folders and the faults."""
+    """Print every table of metadata (name, title, whether it is the user's own), then the folders and their faulty
+    files.
+    """
     from app.formats.user_folder import Shelf
     from metadata.library import FOLDERS, metadata_library
 
@@ -88,7 +90,7 @@ def list_all() -> None:
 
 
 def _described(folder: str, description: str, name: str) -> str:
-    """Return a description in the user's language if it is that of a bundled table."""
+    """Return the description of a table, in the user's language if the table is bundled."""
     id = f"metadata.described_{folder}_{name}"
     return said(id) if id in WORDINGS and wording(id, "en") == description else description
 
@@ -160,7 +162,13 @@ def load(piece: Path, file: Path) -> None:
 
 
 def diff(piece: Path, file: Path) -> None:
-    """Print the differences. Raises InvalidMetadataError if there are any."""
+    """Print the differences between the metadata of the piece in a project file and that in ``file``.
+
+    Raises
+    ------
+    InvalidMetadataError
+        If there are differences.
+    """
     from app.project.piece_metadata import differences, load_metadata, metadata_of
     from app.project.storage import load
 

@@ -40,12 +40,12 @@ N = TypeVar("N", int, float, Fraction)
 
 
 def bounded_number(least: N, most: N, quantity: str, parse: Callable[[str], N]) -> Callable[[str], N]:
-    """Return the type of an option that takes a number within bounds; used for every numeric option.
+    """Return a function that parses an option's value as a number within bounds.
 
     Parameters
     ----------
     least, most : number
-        Bounds, both allowed. NaN and infinity are always refused.
+        Bounds, which are allowed themselves. NaN and infinity are always refused.
     quantity : str
         Text id that describes the number in errors, such as "a number of seconds".
     parse : callable
@@ -72,12 +72,12 @@ def bounded_number(least: N, most: N, quantity: str, parse: Callable[[str], N]) 
 
 
 def _cut(typed: str) -> str:
-    """Return the beginning of a typed text for an error that quotes it."""
+    """Return a typed text for an error that quotes it, shortened if it is long."""
     return typed if len(typed) <= _MOST_SHOWN else f"{typed[:_MOST_SHOWN]}..."
 
 
 def _plain(number: float | Fraction) -> str:
-    """Return a bound as text: a whole number with all digits, or a fraction."""
+    """Return a bound of an option as text, without needless digits."""
     return f"{number:g}" if isinstance(number, float) else str(number)
 
 
@@ -102,7 +102,10 @@ seconds = bounded_number(-LONGEST_S, LONGEST_S, "quantity.seconds", float)
 
 
 def picture_size(least_px: tuple[int, int], most_px: tuple[int, int]) -> Callable[[str], tuple[int, int]]:
-    """Return a parser for option values such as ``1600x1000`` that refuses sizes (pixels) outside the bounds."""
+    """Return a parser for option values such as ``1600x1000`` that refuses sizes outside the bounds.
+
+    Both bounds are (width, height) in pixels.
+    """
 
     def parsed(text: str) -> tuple[int, int]:
         width, _, height = text.partition("x")
@@ -119,12 +122,14 @@ def picture_size(least_px: tuple[int, int], most_px: tuple[int, int]) -> Callabl
 
 
 def felt_beat(text: str) -> float | str:
-    """Return a beat in quarters, or `AUTOMATIC` for the beat of metre and tempo."""
+    """Parse the typed felt beat: a note value as a number of quarters, or `AUTOMATIC` to derive it from metre and
+    tempo.
+    """
     return AUTOMATIC if text.strip().casefold() == AUTOMATIC else _felt_quarters(text)
 
 
 def conductor(text: str) -> ConductorPlace | str:
-    """Return a place on the stage, `USUAL_CONDUCTOR` or `NO_CONDUCTOR`."""
+    """Parse the typed place of the conductor: a place on the stage, `USUAL_CONDUCTOR` or `NO_CONDUCTOR`."""
     place = text.strip().casefold()
     if place in (NO_CONDUCTOR, USUAL_CONDUCTOR):
         return place
@@ -135,7 +140,7 @@ def conductor(text: str) -> ConductorPlace | str:
 
 
 def text_encoding(text: str) -> str:
-    """Return the name of an encoding that converts bytes to text."""
+    """Return the typed name of a text encoding, if Python knows it."""
     if not is_encoding(text):
         raise argparse.ArgumentTypeError(said("cli.no_encoding", typed=text))
     return text
@@ -180,7 +185,7 @@ def add_ignored_option(command: argparse.ArgumentParser) -> None:
 
 
 def add_title_option(command: argparse.ArgumentParser) -> None:
-    """Declare the title, for commands that write one."""
+    """Declare the option for the piece's title, for commands that write it."""
     fill_help(command.add_argument("--title", metavar="TEXT"), most=limits.MOST_NAME)
 
 
@@ -190,9 +195,10 @@ def add_rate_option(command: argparse.ArgumentParser) -> None:
 
 
 def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
-    """Return the project in a file, or a MIDI file with its players cast, with the options applied. Faulty instruments
-    of the user are reported and excluded, as are parts of a MIDI file without an instrument; the report includes a
-    command that assigns instruments to these parts.
+    """Return the project in a file, or a new one for a MIDI file or score, with the command's options applied.
+
+    Faulty instruments of the user, and parts of a MIDI file without an instrument, are reported and excluded; the
+    report includes a command that assigns instruments to these parts.
 
     Parameters
     ----------
@@ -202,8 +208,8 @@ def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
     Raises
     ------
     AppError
-        The file cannot be read, the options do not fit it, no part has an instrument, or there are no players although
-        the command needs them.
+        If the file cannot be read, the options do not fit it, no part has an instrument, or there are no players
+        although the command needs them.
     """
     known = library()
     maps = known.maps
@@ -228,8 +234,8 @@ def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
 
 
 def _piece(arguments: argparse.Namespace, project: Project) -> PieceSettings:
-    """Return the settings of the piece with the typed options applied; each command declares only the options relevant
-    to it.
+    """Return the piece's settings changed by the typed options; options that the command does not declare change
+    nothing.
     """
     asked = {
         "title": getattr(arguments, "title", None),
@@ -264,8 +270,13 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
 
 
 def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> tuple[Project, Message | None]:
-    """Open a project or import a MIDI file; returns the project, and a message about parts without a bundled
-    instrument."""
+    """Open a project or import a MIDI file.
+
+    Returns
+    -------
+    (Project, Message or None)
+        The project, and a message about parts without an instrument.
+    """
     if is_project_file(arguments.file):
         return _saved_project(arguments), None
     contents, choices = read_contents(arguments.file, encoding=arguments.encoding), map_choices(maps.values())

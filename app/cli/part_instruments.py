@@ -30,7 +30,7 @@ _SPECIAL: Final = re.compile(r'["$`\\!]')
 
 
 class Unassigned(NamedTuple):
-    """A part with an unknown instrument, which is not played or played by the instrument of the best fitting range.
+    """A part of a MIDI file whose instrument is unknown: it is not played, or by an instrument with a suitable range.
 
     Attributes
     ----------
@@ -137,10 +137,10 @@ def _option(value: str) -> tuple[str, ...]:
 
 
 def _joined(words: Sequence[str]) -> str:
-    """Return words joined so that the shell of this system splits them again."""
+    """Return command-line words joined to one text that the shell of this system splits into the same words."""
     return subprocess.list2cmdline(words) if os.name == "nt" else " ".join(map(_quoted, words))
 
 
 def _quoted(word: str) -> str:
-    """Return a word in the most readable quotes."""
+    """Return a word of a command line in the most readable quotes of this system's shell."""
     return f'"{word}"' if "'" in word and not _SPECIAL.search(word) else shlex.quote(word)

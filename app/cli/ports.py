@@ -25,7 +25,7 @@ class NoDevice(AppError):
 
 
 class PortMonitor:
-    """A recorder that listens to a port and passes on its messages as they arrive."""
+    """A connection to the MIDI recorder's process, which passes on what it reports about the devices."""
 
     def __init__(self) -> None:
         self._news = threading.Event()
@@ -40,7 +40,7 @@ class PortMonitor:
         self.link.close()
 
     def until(self, end_s: float) -> Iterator[News]:
-        """Yield news until a moment of `time.monotonic`."""
+        """Yield the recorder's reports as they arrive, until a moment of `time.monotonic`."""
         while True:
             self._news.clear()
             yield from self.link.poll()

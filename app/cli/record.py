@@ -50,7 +50,7 @@ _bars = bounded_number(0, 16, "quantity.bars", int)
 
 
 class RecordError(AppError):
-    """Error: a recording could not be made."""
+    """Error: a recording from a MIDI device could not be made."""
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
@@ -89,19 +89,22 @@ def record(arguments: argparse.Namespace) -> int:
 
 
 def second_place(target: Path) -> Path:
-    """Return another folder for a recording whose own folder is full or not writable."""
+    """Return a path in another folder for a recording whose own folder is full or not writable."""
     return second_folder(target.parent, platformdirs.user_state_path("suisou", appauthor=False) / "recordings")
 
 
 def _beside_none(folder: Path, name: str) -> Path:
-    """Return a path in a folder that does not exist yet, from a name."""
+    """Return a path in a folder that does not exist yet; a number is added to the name if necessary."""
     stem, _, suffix = name.partition(".")
     names = (name if number == 1 else f"{stem} ({number}).{suffix}" for number in count_from(1))
     return next(folder / one for one in names if not os.path.lexists(folder / one))
 
 
 def _listen(arguments: argparse.Namespace, journal: Path) -> Path:
-    """Record into a journal until the time is over or Ctrl+C is pressed, and return the path of the journal."""
+    """Record into a journal file until the time is over or Ctrl+C is pressed, and return the path of the journal.
+
+    The path differs from ``journal`` if the recorder had to change to another folder.
+    """
     with PortMonitor() as listening:
         port = _open(listening, arguments.port)
         count_in_s = arguments.count_in * _BEATS_IN_BAR * 60.0 / arguments.tempo
@@ -134,20 +137,20 @@ def _listen(arguments: argparse.Namespace, journal: Path) -> Path:
 
 
 class _Moves:
-    """Follows the journal when it moves to another folder, and reports the move."""
+    """Keeps the path of the journal file of a recording, and reports it when the recorder changes to another folder."""
 
     def __init__(self, journal: Path) -> None:
         self.journal = journal
 
     def follow(self, reported: Moved) -> None:
-        """Continue in the journal that the recorder moved to, and report its path."""
+        """Note the new path of the journal, and print it with the reason."""
         former, self.journal = self.journal, Path(os.fsdecode(reported.path))
         files = {"file": str(former), "journal": str(self.journal)}
         warn(said("record.goes_on_elsewhere", reason=reported.reason, **files))
 
 
 def _open(listening: PortMonitor, requested: str) -> str:
-    """Open the device of a name, or the only one whose name contains the text."""
+    """Open the MIDI device named ``requested``, or the only device whose name contains it, and return its name."""
     inputs = listening.ports().inputs
     if not inputs:
         raise NoDevice("capture.no_ports")
@@ -184,7 +187,7 @@ def _count_in(listening: PortMonitor, bars: int, tempo: float, begin_ns: int, mo
 
 
 def _report_until(listening: PortMonitor, end_s: float, moves: _Moves) -> None:
-    """Report the device's connection until a moment of `time.monotonic`."""
+    """Print when the MIDI device is disconnected or connected again, until a moment of `time.monotonic`."""
     for reported in listening.until(end_s):
         match reported:
             case Moved():
@@ -208,8 +211,9 @@ def _finished(listening: PortMonitor, moves: _Moves) -> None:
 
 
 def _write(target: Path, path: Path, tempo: float) -> int:
-    """Write the MIDI file from the journal, and delete the journal. If the folder takes no file, another one is used.
-    Returns the exit status.
+    """Write a MIDI file from the journal file of a recording, delete the journal, and return the exit status.
+
+    If ``target`` cannot be written, another folder is used. ``tempo`` is in beats per minute.
     """
     journal = read_journal(path)
     taken = passes(journal)
@@ -244,5 +248,5 @@ def _write(target: Path, path: Path, tempo: float) -> int:
 
 
 def _monotonic_s(ns: int) -> float:
-    """Convert a moment of `time.perf_counter_ns` to one of `time.monotonic`."""
+    """Convert a moment of `time.perf_counter_ns` in nanoseconds to one of `time.monotonic` in seconds."""
     return time.monotonic() + (ns - time.perf_counter_ns()) / 1e9

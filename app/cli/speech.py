@@ -28,29 +28,29 @@ _SAMPLE: Final = "あ"
 
 
 class InLanguages(Protocol):
-    """Texts of a table by language."""
+    """Interface of texts that a table has in several languages."""
 
     @property
     def en(self) -> str:
-        """English text."""
+        """Return the English text."""
 
     @property
     def ja(self) -> str:
-        """Japanese text; empty if there is none."""
+        """Return the Japanese text; empty if there is none."""
 
 
 @dataclass(frozen=True)
 class Speech:
-    """Language and pitch notation.
+    """Language of printed sentences and notation of pitches.
 
     Attributes
     ----------
     language : str
-        One of `LANGUAGES`.
+        Code of the language, one of `LANGUAGES`.
     names : str
-        One of `PITCH_NAME_CHOICES`.
+        Names of pitches, one of `PITCH_NAME_CHOICES`.
     middle_c_octave : int
-        Octave of middle C.
+        Number of the octave that begins with middle C.
     written : bool
         Whether a player's pitches are written as in the player's part.
     """
@@ -101,7 +101,7 @@ def sentence(message: Message) -> str:
 
 
 def said(id: str, **arguments: Argument) -> str:
-    """The sentence of a message's id, filled with its arguments."""
+    """Return the text with an id in the language of the command line, filled with the arguments."""
     return sentence(Message(id, arguments))
 
 
@@ -125,14 +125,16 @@ def requested_speech(arguments: Sequence[str]) -> Speech:
 
 
 def command_first(arguments: Sequence[str]) -> list[str]:
-    """Return the command line with a language option in front of the command moved to the end."""
+    """Return the command line with a language option that precedes the sub-command moved to the end."""
     first = arguments[0] if arguments else ""
     taken = 2 if first == LANGUAGE else 1 if first.startswith(f"{LANGUAGE}=") else 0
     return [*arguments[taken:], *arguments[:taken]]
 
 
 def _value(arguments: Sequence[str], option: str) -> str:
-    """Return the last value of an option, after a space or an equals sign; empty if it is not given."""
+    """Return the last value of an option in a command line, given as ``--option VALUE`` or ``--option=VALUE``; empty if
+    there is none.
+    """
     found = ""
     for place, argument in enumerate(arguments):
         if argument == "--":

@@ -138,7 +138,9 @@ def stream(arguments: argparse.Namespace) -> int:
 
 
 def _beside(performance: Performance, one: Player | Dancer, made: Mapping[str, Performer]) -> tuple[Performer, ...]:
-    """Return the performers of the other instruments that a streamed musician plays besides the player ``one``."""
+    """Return those other instruments of a streamed musician, besides that of the player ``one``, whose figures could be
+    made.
+    """
     if not isinstance(one, Player):
         return ()
     return tuple(
@@ -157,7 +159,7 @@ def _first_frame(span: FrameSpan, from_s: float | None) -> int:
 
 
 class _Streamed:
-    """A player or dancer with motion and format of the messages."""
+    """A player or dancer that is streamed, with the motion and the encoder of the messages."""
 
     def __init__(
         self,
@@ -208,8 +210,9 @@ class _Streamed:
 
 
 def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: int, loop: bool) -> None:
-    """Send every frame of a span at its time, from frame ``first`` and again from the start if ``loop``; late frames
-    are dropped."""
+    """Send every frame of a range at its time, from frame ``first`` and again from the start if ``loop``; late frames
+    are dropped.
+    """
     fps, frames = float(span.fps), span.count
     began_s = time.perf_counter()
     sounding_s, inaudible, sent = began_s, False, 0

@@ -52,7 +52,7 @@ def _from_start(time_s: float) -> str:
 
 
 def share_of_keys(report: Report) -> float:
-    """Return the number of written keys divided by the number of keys with one on every frame."""
+    """Return the written animation keys as a share of those that a key in every frame would give."""
     counts = [player.keys for player in report.players] + [dancer.keys for dancer in report.dancers]
     counts += [double.keys for player in report.players for double in player.doubles]
     known = [count for count in counts if count is not None]
@@ -146,7 +146,7 @@ def _judgement(report: Report) -> list[str]:
 
 
 def look_at(warnings: Sequence[str], ignored: int = 0) -> list[str]:
-    """Return warnings after an empty line, and the number of ignored problems; empty if there are none."""
+    """Return lines of text with the warnings and the number of ignored problems; empty if there are none."""
     lines = [said("export_report.look_at"), *(f"  {warning}" for warning in warnings)] if warnings else []
     if ignored:
         lines.append(f"{said('problem.ignored', count=ignored)} (--ignored)")
@@ -154,13 +154,14 @@ def look_at(warnings: Sequence[str], ignored: int = 0) -> list[str]:
 
 
 def heads(id: str) -> tuple[str, ...]:
-    """Return the column headings in a text that separates them by vertical bars."""
+    """Return the column headings of a table, which are one text with vertical bars between them."""
     return tuple(said(id).split("|"))
 
 
 def columns(rows: Iterable[tuple[str, ...]], of_numbers: bool = True, names: int = 1) -> list[str]:
-    """Return rows as columns two spaces apart; columns after the first ``names`` are aligned right if they are
-    ``of_numbers``.
+    """Return the rows of a table as lines, with columns two spaces apart.
+
+    The columns after the first ``names`` are aligned right if ``of_numbers`` is set.
     """
     table = [tuple(map(shown, row)) for row in rows]
     widths = [max(width(row[column]) for row in table) for column in range(len(table[0]))]

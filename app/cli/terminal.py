@@ -1,8 +1,8 @@
 """Output of the command line in one place; only `app.cli.progress` prints otherwise.
 
-Names of files and texts in them come from anywhere. The terminal would execute an escape sequence in them, and a line
-feed would start a line that looks like the program's. So everything printed consists of lines, and invisible characters
-in them are escaped (`app.encoding.shown`).
+Names of files and their texts are untrusted: a terminal would execute an escape sequence in them, and a line feed would
+begin a line that looks like the program's own. So everything printed consists of lines, and invisible characters are
+escaped (`app.encoding.shown`).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def say(*lines: str, stream: TextIO | None = None) -> None:
 
 
 def warn(sentence: str) -> None:
-    """Print an error or warning on standard error."""
+    """Print an error or a warning on standard error."""
     say(f"suisou: {sentence}", stream=sys.stderr)
 
 
@@ -47,7 +47,7 @@ def count(number: int, *, is_last: bool) -> None:
 
 @contextmanager
 def interrupted_by(number: signal.Signals) -> Iterator[None]:
-    """Convert a signal (Ctrl-C, or a request to end) to KeyboardInterrupt within a block, so that no half-written file
+    """Turn a signal, such as a request to end, into KeyboardInterrupt within a block, so that no half-written file
     remains.
     """
     before = signal.signal(number, signal.default_int_handler)

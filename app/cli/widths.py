@@ -42,8 +42,8 @@ def cut(text: str, columns: int) -> str:
 
 
 def wrapped(text: str, columns: int) -> list[str]:
-    """Break a text into lines of at most a number of columns, at blanks and between Japanese characters; punctuation
-    stays with the preceding character. A word longer than a line gets a line of its own.
+    """Return a text broken into lines of at most a number of columns, at blanks and between Japanese characters;
+    punctuation stays with the preceding character. A word longer than a line gets a line of its own.
     """
     lines, line = list[str](), ""
     for piece in _unbroken(" ".join(text.split())):

@@ -34,7 +34,7 @@ STYLE_BARS = 2
 
 
 def add_breaths(session: Session, places: Places) -> None:
-    """Add a breath before the first note at or after each place."""
+    """Add a breath before the first note at or after each of the given ticks."""
     _add(
         session,
         "edit.add_breath",
@@ -43,8 +43,8 @@ def add_breaths(session: Session, places: Places) -> None:
 
 
 def toggle_mark(session: Session, notes: Mapping[str, Sequence[Note]], kind: str, text: str = "") -> None:
-    """Write a mark over notes, by player, or remove it if all have it; the status line shows why if this is
-    impossible.
+    """Write a mark over the given notes of each player, or remove it if all of them have it; if that is impossible, say
+    why in the status line.
     """
     try:
         marked = toggle_marks(session.project, notes, kind, text)
@@ -58,7 +58,15 @@ def toggle_mark(session: Session, notes: Mapping[str, Sequence[Note]], kind: str
 
 
 def tell_reach(session: Session, places: Iterable[tuple[str, int]], text: str) -> None:
-    """Report the end of a dynamic written for players at these ticks; the last end if there are several."""
+    """Report in the status line the place up to which a written dynamic holds.
+
+    Parameters
+    ----------
+    places : iterable of (str, int)
+        Player id and tick at which the dynamic was written; of several, the latest end is reported.
+    text : str
+        Text of the dynamic, such as ``mf``.
+    """
     project, ends = session.project, []
     for player_id, tick in places:
         there = player_marks(project, player_id)
@@ -73,7 +81,7 @@ def tell_reach(session: Session, places: Iterable[tuple[str, int]], text: str) -
 
 
 def add_cues(session: Session, places: Places) -> None:
-    """Add a cue to the first entry at or after each place."""
+    """Add a cue to the first entry of notes at or after each of the given ticks."""
     _add(
         session,
         "edit.add_cue",
@@ -140,8 +148,11 @@ def change_styles(session: Session, style: str) -> None:
 
 
 def bars_of(session: Session, player_ids: Iterable[str], tick: float) -> list[tuple[PlayerPlan, int, int]]:
-    """Return player plan, first and last tick for each player: the selected range if it contains ``tick``, else the bar
-    at ``tick`` and the next one."""
+    """Return a range in which to add something for each player, as the player's plan with the first and last tick.
+
+    It is the selected range if that contains ``tick``, else the bar at ``tick`` and the next one. Players without a
+    plan are left out.
+    """
     metres, span = session.project.metre_map, session.selection.span
     if span is None or not span[0] <= tick < span[1]:
         at = max(round(tick), 0)

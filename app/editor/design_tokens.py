@@ -46,7 +46,7 @@ class Tokens(msgspec.Struct, frozen=True):
     players: tuple[str, ...]
 
     def player(self, index: int) -> str:
-        """Return the theme's colour of the player with an index; colours repeat in larger ensembles."""
+        """Return the colour of the player with an index; the theme's colours repeat in larger ensembles."""
         return self.players[index % len(self.players)]
 
 

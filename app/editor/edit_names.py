@@ -1,4 +1,4 @@
-"""History names of edits, with the kind of notes or events, the players and the place."""
+"""Names of edits for the history, which say the kind of the edited notes or events, their players and their place."""
 
 from __future__ import annotations
 
@@ -28,7 +28,10 @@ _MOST_NAMES: Final = 2
 
 
 class PlannedPiece(Protocol):
-    """The part of the session with the places of events; timeline models, which do not use Qt, have this interface."""
+    """The part of the session that knows the planned ticks of events, as needed for naming edits.
+
+    Models of the timeline, which do not use Qt, have this interface too.
+    """
 
     @property
     def project(self) -> Project: ...
@@ -49,7 +52,9 @@ def edit_of_events(session: PlannedPiece, name: str, keys: Collection[EventKey])
 
 
 def edit_at_events(session: PlannedPiece, name: str, keys: Collection[EventKey]) -> Message:
-    """Return the name of an edit with one name for all kinds of events, with their players and range."""
+    """Return the name of an edit of some events, with their players and range; ``name`` is the same for all kinds of
+    events.
+    """
     of = (_named(session.project, {key.player_id for key in keys}), _places(session, keys))
     return Message(name, {"of": " · ".join(filter(None, of))})
 
@@ -74,7 +79,13 @@ def edit_of_notes(
 def edit_at(
     project: Project, name: str, count: int, player_ids: Collection[str], ticks: Iterable[int], **more: Argument
 ) -> Message:
-    """Return the name of an edit of a number of items of some players, with the range of these ticks."""
+    """Return the name of an edit of ``count`` items of some players, with the range of the given ticks.
+
+    Parameters
+    ----------
+    more : Argument
+        Further arguments of the message ``name``.
+    """
     of = " · ".join(filter(None, (_named(project, player_ids), _range(project, ticks))))
     return Message(name, {**more, "count": count, "of": of})
 
@@ -111,7 +122,9 @@ def _places(session: PlannedPiece, keys: Iterable[EventKey]) -> str:
 
 
 def _tick(session: PlannedPiece, player: Player, event_id: str) -> int | None:
-    """The planned start tick of an event, else the tick of the note or place in its id."""
+    """Return the planned start tick of an event, or the tick of the note or place in its id if it is not planned; None
+    if there is neither.
+    """
     performance = session.performance
     plan = performance.plans.get(player.id) if performance.planned else None
     placed = placed_events(plan, (event_id,)) if plan is not None else ()

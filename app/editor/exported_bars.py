@@ -11,9 +11,9 @@ class ExportedBars(NamedTuple):
     Attributes
     ----------
     bars : (int, int) or None
-        First and last bar; None: the whole piece.
+        First and last bar; None for the whole piece.
     lead_in_beats : float
-        Felt beats of lead-in.
+        Number of felt beats before the first bar.
     """
 
     bars: tuple[int, int] | None = None

@@ -49,12 +49,12 @@ Then = Callable[[], None]
 
 
 class Files(QObject):
-    """File of the session's project: new, open, save and recovery.
+    """Opens, saves and recovers the session's project, and knows its file.
 
     Parameters
     ----------
     autosave : Autosave or None
-        None: no autosave.
+        Writes unsaved work to recovery files; None to write none.
 
     Signals
     -------
@@ -63,20 +63,20 @@ class Files(QObject):
     opened()
         A project was opened or closed.
     left()
-        The open piece is about to be replaced, or was just saved: the current view should be stored.
+        The open piece is about to be replaced, or was just saved, so that listeners can store the current view.
     found(Recoverable)
         Unsaved work was found for the opened file, or for a piece without a file.
     missing(Path)
         The recording of the opened project does not exist at its path.
     elsewhere(tuple of str)
-        The project refers to files on other computers, which are not accessed before `agree_to` is called.
+        The opened project refers to these files on other computers, which are not read before `agree_to` is called.
     silent(Path)
         A MIDI file without players and dancers was opened.
     unsaveable(Message)
-        A value named in the message cannot be saved. The rest was autosaved, or nothing could be saved.
-    overtaken(Path, Then or None)
-        The project was not saved, because its file was changed by another program since it was opened. `save_over`
-        replaces that.
+        A value of the project, named in the message, cannot be stored in a file.
+    overtaken(Path, callable or None)
+        The project was not saved, because another program has changed its file since it was opened; `save_over`
+        overwrites it. The callable is the ``then`` of `save`.
     """
 
     changed = Signal()
@@ -119,7 +119,7 @@ class Files(QObject):
 
     @property
     def name(self) -> str:
-        """Name of the project for the window title."""
+        """Return the name of the project for the window title."""
         if self.path is not None:
             return shown(self.path.name)
         score, source = self.session.project.score, self.session.project.source
@@ -129,25 +129,25 @@ class Files(QObject):
 
     @property
     def stem(self) -> str:
-        """Proposed file name of the project, without suffix."""
+        """Return the proposed file name of the project, without suffix."""
         return shown(self.path.stem) if self.path is not None else file_stem(self.name)
 
     @property
     def is_saved(self) -> bool:
-        """True if closing loses nothing."""
+        """Return whether the project can be closed without losing changes."""
         return not self.is_open or self.session.document.is_saved
 
     @property
     def folder(self) -> str:
-        """Return the initial folder of file dialogs."""
+        """Return the folder in which file dialogs start."""
         if self.path is not None:
             return str(self.path.parent)
         return self.settings.folder or str(Path.home())
 
     @property
     def recovery_stems(self) -> tuple[Path, ...]:
-        """Paths, without suffix, of this project's unsaved work: this editor's, and that of editors whose work was
-        recovered.
+        """Return the paths, without suffix, of the recovery files of this project: those of this editor, and those of
+        editors whose work was recovered.
         """
         if self.autosave is None:
             return ()
@@ -156,7 +156,7 @@ class Files(QObject):
 
     @property
     def unwritten(self) -> bool:
-        """True if the project has changes that are neither saved nor autosaved."""
+        """Return whether the project has changes that are neither saved nor autosaved."""
         project = self.session.project
         return not self.session.document.is_saved and (self.autosave is None or not self.autosave.has(project))
 
@@ -175,8 +175,8 @@ class Files(QObject):
         ask : bool
             Whether to show the import dialog for a MIDI file or score.
         at_start : bool
-            True if the editor starts with this file, so that no start page has shown unsaved work; unsaved work without
-            a file is then searched too.
+            Whether the editor starts with this file. Then unsaved work without a file is searched too, since no start
+            page has shown it.
         """
         agree(path)
         path = path.absolute()
@@ -226,7 +226,9 @@ class Files(QObject):
         self.session.attempt(Message("edit.set_video"), lambda project: set_video(project, path))
 
     def locate(self, missing: Path, path: Path | None) -> None:
-        """Set the new path of a recording or reference video that was not found; its offset stays. None: remove it."""
+        """Set the new path of a recording or reference video that was not found, keeping its offset; None
+        removes it.
+        """
         audio, video = self.session.project.audio, self.session.project.video
         is_audio = audio is not None and audio.path == os.fspath(missing)
         others = video is not None and video.path == os.fspath(missing)
@@ -237,8 +239,7 @@ class Files(QObject):
         self.session.attempt(done, lambda project: relocate(project, missing, path))
 
     def agree_to(self, paths: tuple[str, ...]) -> None:
-        """Allow the project to open the media files at these paths, which it names but the user has not yet opened on
-        this computer."""
+        """Allow the open project to read these media files on other computers."""
         for path in paths:
             agree(path)
         self.session.media_agreed.emit()
@@ -251,7 +252,9 @@ class Files(QObject):
             self.session.notice(problem, Severity.WARNING)
 
     def _ask_about_files(self) -> None:
-        """Ask about the project's files on other computers, or else about a missing one."""
+        """Emit `elsewhere` if the project has files on other computers, or else `missing` if a media file is
+        missing.
+        """
         project = self.session.project
         paths, lost = storage.elsewhere(project), storage.missing_media(project)
         if paths:
@@ -378,7 +381,7 @@ class Files(QObject):
     # Letting go
 
     def let_go(self, then: Then) -> None:
-        """Run an action that closes the open project, after its changes are saved or discarded."""
+        """Run a function that closes the open project, after its changes are saved or discarded."""
         if self.is_saved:
             then()
             return
@@ -399,7 +402,7 @@ class Files(QObject):
         self.changed.emit()
 
     def end(self) -> None:
-        """End the editor's file handling; nothing remains to recover."""
+        """End autosaving when the editor closes, and delete the recovery file."""
         self.left.emit()
         self._timer.stop()
         if self.autosave is not None:
@@ -409,8 +412,9 @@ class Files(QObject):
     # Saving
 
     def save(self, then: Then | None = None) -> None:
-        """Save to the project's file; a new project asks for a path, and changes by other programs are not
-        overwritten.
+        """Save to the project's file; ask for a path for a new project, and do not overwrite changes by other programs.
+
+        ``then`` is called after saving.
         """
         if self.path is None:
             self.save_as(then)
@@ -418,12 +422,12 @@ class Files(QObject):
             self._save(self.path, then, over=(self._base, ""))
 
     def save_over(self, then: Then | None = None) -> None:
-        """Save to the project's file, overwriting changes by other programs."""
+        """Save to the project's file, overwriting changes by other programs; ``then`` is called after saving."""
         if self.path is not None:
             self._save(self.path, then)
 
     def save_as(self, then: Then | None = None) -> None:
-        """Save to another file, which becomes the project's."""
+        """Ask for another file, save to it, and keep it as the project's file; ``then`` is called after saving."""
         proposal = str(Path(self.folder) / f"{self.stem}{storage.SUFFIX}")
         path = self.questions.save_file(
             tr("files.save_project"),
@@ -435,7 +439,7 @@ class Files(QObject):
             self._save(path, then)
 
     def _save(self, path: Path, then: Then | None, over: tuple[str, ...] | None = None) -> None:
-        """Save to a file; with `over` only if its content hash is one of these."""
+        """Save to a file; if ``over`` is given, only if the file's content hash is one of these."""
         project = self.session.project
 
         def work(progress: Progress, stop_requested: StopRequested) -> str | None:
@@ -471,11 +475,11 @@ class Files(QObject):
 
     @property
     def can_leave_out(self) -> bool:
-        """Return whether the project could be saved without some of its values."""
+        """Return whether the project could be saved after removing the values that cannot be stored."""
         return salvaged(self.session.project) is not None
 
     def leave_out(self) -> None:
-        """Remove the values that cannot be saved, as an edit; does nothing if that is impossible."""
+        """Remove the values that cannot be saved, as an undoable edit; do nothing if that does not help."""
         rest = salvaged(self.session.project)
         if rest is not None:
             self.session.apply(Message("edit.leave_out"), rest.project)
@@ -494,7 +498,15 @@ class Files(QObject):
     # Unsaved work
 
     def _begin_autosave(self, former: storage.Autosaved | None = None, held: Path | None = None) -> None:
-        """Start autosaving for a project equal to its file, or to the recovered file `held`."""
+        """Start autosaving for the project just opened.
+
+        Parameters
+        ----------
+        former : Autosaved, optional
+            Recovery file of an ended editor that this project was recovered from.
+        held : Path, optional
+            Recovery file whose content equals the project.
+        """
         self.risk = None
         self._timer.stop()
         self._report(lambda autosave: autosave.opened(self.path, self._base, former, held))
@@ -522,7 +534,13 @@ class Files(QObject):
             self._schedule()
 
     def write_now(self) -> None:
-        """Autosave immediately, because the program may end. Raises FileError."""
+        """Autosave immediately, because the program may end.
+
+        Raises
+        ------
+        FileError
+            If the recovery file cannot be written.
+        """
         writing = self._taken()
         if writing is None or self.autosave is None:
             return
@@ -579,7 +597,7 @@ class Files(QObject):
         self.session.tasks.run(Message("work.autosave"), work, done, failed, ended=ended)
 
     def warn_once(self, message: Message) -> bool:
-        """Show a warning about a repeated autosave problem; returns whether it was shown for the first time."""
+        """Show a warning about autosaving once, and return whether it was shown now for the first time."""
         if message.id in self._warned:
             return False
         self._warned.add(message.id)
@@ -595,7 +613,7 @@ class Files(QObject):
             self.warn_once(error.message)
 
     def find_recoverable(self, found: Callable[[tuple[Recoverable, ...]], None]) -> None:
-        """Search for unsaved work of ended editors, in the background."""
+        """Search in the background for unsaved work of ended editors, and call ``found`` with it."""
         if self.autosave is None:
             found(())
             return
@@ -643,6 +661,6 @@ Opened = tuple[Project, Recoverable | None, str]
 
 
 def _read_own() -> None:
-    """Load the user's instruments and characters, before a piece that may use them."""
+    """Load the user's instruments and characters before a piece is opened that may use them."""
     reload()
     reload_characters()

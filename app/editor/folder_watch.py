@@ -19,14 +19,14 @@ several times."""
 
 
 class FolderWatch(QObject):
-    """Emits a signal when something in a folder changes.
+    """Watches a folder, and emits a signal when a file in it changes.
 
     Parameters
     ----------
     folder : callable
-        Returns the folder, which may not exist yet.
+        Function that returns the folder, which need not exist yet.
     suffixes : collection of str
-        Suffixes of relevant files.
+        Suffixes of the files to watch; others are ignored.
     """
 
     changed = Signal()
@@ -42,7 +42,7 @@ class FolderWatch(QObject):
         self.look()
 
     def look(self) -> None:
-        """Watch the folder and its current files; a missing folder is watched through its parent."""
+        """Watch the folder and its files; if the folder does not exist, watch its parent."""
         folder = self._folder()
         requested = {str(next(place for place in (folder, *folder.parents) if os.path.isdir(place)))}
         with contextlib.suppress(FileError):  # Who reads the folder says that it cannot be listed.

@@ -14,9 +14,9 @@ _LARGE_BYTES: Final = 2**20
 
 
 def give_back() -> None:
-    """Return free memory to the system, which glibc on Linux otherwise keeps for every thread.
+    """Return free memory to the operating system, which glibc on Linux otherwise keeps for every thread.
 
-    Takes some milliseconds without blocking other Python threads. Other systems do this by themselves.
+    Takes some milliseconds without blocking other Python threads. Systems other than Linux do this by themselves.
     """
     trim = _of_c_library("malloc_trim")
     if trim is not None:
@@ -24,9 +24,9 @@ def give_back() -> None:
 
 
 def share_memory() -> None:
-    """Make all threads started from now on share few memory arenas, so that memory freed by one serves the next. Python
-    threads rarely run in parallel, so contention is small. Large blocks are allocated separately and returned to the
-    system immediately.
+    """Make all threads started from now on share few memory arenas, so that memory freed by one thread is used by the
+    next. Python threads rarely run in parallel, so contention is small. Large blocks are allocated separately and
+    returned to the system immediately.
     """
     option = _of_c_library("mallopt")
     if option is not None:
@@ -35,5 +35,5 @@ def share_memory() -> None:
 
 
 def _of_c_library(name: str) -> Any:
-    """A function of glibc; None if the C library lacks it."""
+    """Return a function of the C library by name; None if the library lacks it or the system is not Linux."""
     return getattr(ctypes.CDLL(None), name, None) if sys.platform == "linux" else None

@@ -1,8 +1,4 @@
-"""Updates plans and motion after every edit, in the background, newest first.
-
-Small changes are planned immediately, others on a thread that yields to the window; the same thread computes the
-motion, visible frames first.
-"""
+"""Updates plans and motion after every edit, in the background, the newest edit first."""
 
 from __future__ import annotations
 
@@ -44,7 +40,7 @@ def _goes_on() -> bool:
 
 
 class Generator(QObject):
-    """Computes performance and motion of a session's project until it is closed.
+    """Plans the performance of a session's project and computes its motion after each edit, until `close`.
 
     Parameters
     ----------
@@ -56,7 +52,8 @@ class Generator(QObject):
     motion_changed()
         Poses were added or changed.
     front_changed()
-        The front player shows an edit's effect; emitted before panels update to the new plans, which takes longer.
+        The active player's pose was updated after an edit; emitted before panels update to the new plans, which takes
+        longer.
     ready_changed(float)
         Share 0..1 of the motion that is computed.
     """
@@ -107,7 +104,9 @@ class Generator(QObject):
 
     @property
     def up_to_date(self) -> bool:
-        """True if the session's plans belong to its project and to the current instruments, characters and metadata."""
+        """Return whether the session's plans belong to its project and to the current instruments, characters and
+        metadata.
+        """
         performance = self._session.performance
         now = performance.library is library() and performance.characters is character_library()
         now = now and performance.metadata.is_still(metadata_library())
@@ -115,7 +114,7 @@ class Generator(QObject):
 
     @property
     def ready_share(self) -> float:
-        """Share 0..1 of the motion that is computed."""
+        """Return the computed share of the motion, 0..1."""
         return self.live.ready_share
 
     def close(self) -> None:
@@ -175,8 +174,9 @@ class Generator(QObject):
                 self._session.set_performance(performance)
 
     def _make_now(self, performance: Performance) -> None:
-        """Compute the front player's pose at the playhead before drawing, so that the first picture is right; skipped
-        during a drag and if players with other figures must be loaded first.
+        """Compute the active player's pose at the playhead before the next picture is drawn, so that it shows the edit.
+
+        Does nothing during a drag, or if the players or the library of figures have changed.
         """
         before, done = self._session.performance, self._session.document.done
         same_figures = performance.project.players is before.project.players and performance.library is before.library
@@ -187,7 +187,11 @@ class Generator(QObject):
             self.front_changed.emit()
 
     def _hold_reported(self, performance: Performance) -> None:
-        """Compute missing grips while other players continue; after a cancellation the next edit tries again."""
+        """Compute in the background the hand grips of players for whom they are missing, while other players are shown
+        already.
+
+        If the user cancels this, the next edit starts it again.
+        """
         requested = frozenset((player.character_id, player.instrument_id) for player in performance.unheld)
         if requested <= self._holding and not self._hold_stopped():
             return
@@ -238,8 +242,14 @@ class Generator(QObject):
         )
 
     def _move_everyone(self, performance: Performance, number: int, stopped: StopRequested) -> None:
-        """Plan an excerpt around the playhead and wait until all its players have a motion; runs on the planning
-        thread.
+        """Plan all players in a short excerpt around the playhead, and wait until their motion in it is computed.
+
+        Called on the planning thread when a piece is opened.
+
+        Parameters
+        ----------
+        number : int
+            Number of the planning request; older requests show nothing.
         """
         excerpt = PerformanceExcerpt(performance, self._session.playhead_s)
         excerpt.prepare(stopped)
@@ -263,7 +273,7 @@ class Generator(QObject):
             self._show_front()
 
     def _show_front(self) -> None:
-        """Show the front players of an opened piece while the others are still being planned."""
+        """Show the selected players of an opened piece while the others are still being planned."""
         coming = self._coming
         if coming is not None:
             musicians = [coming.project.player(one) for one in self._session.players if coming.is_planned(one)]
@@ -306,5 +316,5 @@ class Generator(QObject):
         self._session.set_broken(broken)
 
     def _fell(self, fault: BaseException) -> None:
-        """Re-raise an unexpected exception of the worker, so that it is reported like one in the window."""
+        """Raise again an unexpected exception of the worker thread, so that it is reported like one in the window."""
         raise fault

@@ -25,9 +25,9 @@ class LibraryWatch(QObject):
     Parameters
     ----------
     read_again : str, optional
-        Id of the message shown after reloading.
+        Id of the message shown after reloading changed files.
     family : str, optional
-        First part of the session's signal names, if it differs from the library's name.
+        The ``name`` in these signals, if it differs from the library's name.
     """
 
     def __init__(self, session: Session, library: UserFolder[Any, Any], read_again: str = "", family: str = "") -> None:
@@ -56,7 +56,7 @@ class LibraryWatch(QObject):
         self._session.tasks.run(said, work, self._took, key=self._library.name)
 
     def _saved(self) -> None:
-        """Announce a written item immediately if it has been read already."""
+        """Reload the library after the program itself wrote into its folder, without waiting for the watcher."""
         self._take(self._library.now())
         self.read()
 

@@ -23,7 +23,7 @@ class RecordedTake:
     Attributes
     ----------
     player_id, take_id : str
-        Player and take; ``take_id`` is empty for the part before the first take.
+        Ids of the player and the take; ``take_id`` is empty for the notes from before the first take.
     alone : bool
         Whether all other players are muted.
     """
@@ -55,16 +55,16 @@ class Listening(State):
     waveform : Peaks or None
         Waveform of the project's recording, once it is read.
     ready : float
-        Share 0..1 of the score that is synthesised.
+        Share 0..1 of the score whose sound the synthesiser has rendered.
     take : RecordedTake or None
-        Auditioned take, in place of its player's part until playback stops.
+        Take that is played in place of its player's part until playback stops.
 
     Signals
     -------
     changed()
         One of the settings has changed.
     waveform_changed()
-        Another recording was chosen, or it was read.
+        Another recording was chosen, or the recording was read.
     """
 
     waveform_changed = Signal()
@@ -83,14 +83,14 @@ class Listening(State):
         self.take: RecordedTake | None = None
 
     def set(self, **values: Any) -> None:
-        """Change some attributes, clipped to their ranges; emits `changed` once if any changes."""
+        """Change some attributes, clipped to their ranges; `changed` is emitted once if any of them has changed."""
         for name, (least, most) in {"speed": (LEAST_SPEED, MOST_SPEED), "volume": (0.0, 1.0)}.items():
             if name in values:
                 values[name] = min(max(values[name], least), most)
         super().set(**values)
 
     def set_waveform(self, waveform: Peaks | None) -> None:
-        """Set the waveform of the recording; None without a recording or before it is read."""
+        """Set the waveform of the recording; None if there is no recording, or before it is read."""
         if waveform is not self.waveform:
             self.waveform = waveform
             self.waveform_changed.emit()

@@ -26,7 +26,7 @@ class LivePlayer(QObject):
     Parameters
     ----------
     chosen : callable
-        Returns the id of that player, or None.
+        Function that returns the id of the player to be recorded, or None.
     """
 
     def __init__(self, session: Session, chosen: Callable[[], str | None], parent: QObject) -> None:
@@ -62,7 +62,7 @@ class LivePlayer(QObject):
             self._rest.start()
 
     def _rested(self) -> None:
-        """Return the player to the performance, unless a take is running or a note is held."""
+        """Show the player as in the performance again, unless a take is running or a note is held."""
         if self._play_along is None:
             return
         if self._session.recording.running or self._session.recording.pitch is not None:
@@ -72,7 +72,9 @@ class LivePlayer(QObject):
         self._play_along, self._of = None, ()
 
     def _ready(self) -> PlayAlong | None:
-        """The live performance; made again if the player, the instrument or the body has changed."""
+        """Return the object that computes the live pose of the player to be recorded, replaced if the player, the
+        instrument or the body has changed; None if the player cannot be shown.
+        """
         player_id, performance = self._chosen(), self._session.performance
         player = next((player for player in performance.project.players if player.id == player_id), None)
         if player is None or player.id not in performance.plans or player.id in performance.waiting:

@@ -24,8 +24,9 @@ BLEND_S: Final = 0.2
 
 @dataclass(frozen=True)
 class _Blend:
-    """A transition 0..1 between generated and live motion of a player: from the weight ``before`` to ``after``,
-    starting at ``since_s``."""
+    """A gradual transition of a player's pose between generated (0) and live (1) motion: from the weight ``before`` to
+    1 or 0 (``after``), starting at the time ``since_s``.
+    """
 
     since_s: float
     before: float
@@ -41,12 +42,12 @@ class LivePlayers(QObject):
 
     The controller's listener creates a `PlayAlong`, registers it with `begin`, passes each message (with a time of
     ``time.perf_counter``) to `receive` and removes it with `end`. After a change of player, instrument or body another
-    one replaces it.
+    `PlayAlong` replaces it.
 
     Signals
     -------
     changed()
-        Other players are live, or one in another way.
+        A player became live or no longer is, or the object that computes a player's live pose was replaced.
     struck()
         A note began or ended: redraw at once.
     """
@@ -65,18 +66,18 @@ class LivePlayers(QObject):
 
     @property
     def playing(self) -> Mapping[str, PlayAlong]:
-        """The objects that follow live players' instruments, by player id."""
+        """Return the objects that compute the poses of the live players, by player id."""
         return MappingProxyType(self._playing)
 
     @property
     def is_shown(self) -> bool:
-        """True if a player is live, or is blending back to the performance."""
+        """Return whether a player is live, or is changing back gradually to the performance."""
         with self._lock:
             now_s = perf_counter()
             return bool(self._playing) or any(blend.at(now_s) > 0.0 for blend in self._blends.values())
 
     def begin(self, play_along: PlayAlong) -> None:
-        """Show a player live from now on."""
+        """Show the player of ``play_along`` live from now on."""
         with self._lock:
             self._playing[play_along.player_id] = play_along
             self._poses.pop(play_along.player_id, None)
@@ -93,7 +94,7 @@ class LivePlayers(QObject):
             self.changed.emit()
 
     def receive(self, player_id: str, time_s: float, raw: str, mapping: ControllerMapping) -> None:
-        """Pass a MIDI message in hexadecimal to a live player; see `PlayAlong.receive`."""
+        """Pass a MIDI message in hexadecimal from the controller to a live player; see `PlayAlong.receive`."""
         with self._lock:
             play_along = self._playing.get(player_id)
             struck = play_along is not None and play_along.receive(time_s, raw, mapping)
@@ -103,14 +104,15 @@ class LivePlayers(QObject):
             self.struck.emit()
 
     def lying(self, player_id: str, other_id: str) -> tuple[SingleArray, SingleArray] | None:
-        """Return position (3,) and rotation (4,) of another instrument of the musician while this one is played; None
-        if the player is not live.
+        """Return position in metres (3,) and rotation quaternion (4,) of another instrument of a musician, while the
+        musician plays the one of ``player_id`` live; None if that player is not live.
         """
         play_along = self._playing.get(player_id)
         return None if play_along is None else play_along.lying.get(other_id)
 
     def pose(self, player_id: str, at_s: float) -> tuple[Pose, float] | None:
-        """A player's current live pose, and its blend weight 0..1; None for players that are not live.
+        """Return a player's current live pose and its weight 0..1 relative to the performance; None if the player is
+        not live.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Poses of the performance, replaced by live poses and by a face being edited."""
+"""Poses of the performance in which live poses and a face being edited replace the planned ones."""
 
 from __future__ import annotations
 
@@ -13,14 +13,16 @@ from app.performance.chunks import Pose
 
 
 class LivePoses:
-    """Poses of the performance, with live poses for players in `session.live_players`. Thread-safe."""
+    """Source of poses that shows players in `session.live_players` live, and all others as in the performance.
+    Thread-safe.
+    """
 
     def __init__(self, session: Session, poses: PoseSource) -> None:
         self._session, self._poses = session, poses
 
     @property
     def is_live(self) -> bool:
-        """True if a player is live, or has just been."""
+        """Return whether a player is live, or is changing back gradually to the performance."""
         return self._session.live_players.is_shown
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
@@ -39,8 +41,10 @@ class LivePoses:
         return live if performed is None or share >= 1.0 else blended(performed, live, share)
 
     def _beside(self, player_id: str, performed: Pose | None, time_s: float) -> Pose | None:
-        """Pose of a player whose instrument is put aside while the musician plays another one live: the body is the
-        live one.
+        """Return the pose of a player while the musician plays another of their instruments live: the live body, with
+        this player's instrument laid aside.
+
+        ``performed`` is the pose in the performance, which is returned if nothing is played live.
         """
         live, project = self._session.live_players, self._session.project
         own = next((player for player in project.players if player.id == player_id), None)
@@ -61,17 +65,19 @@ class LivePoses:
         return performed
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """Pose of a player in the performance, without live input; see `PoseSource.pose_now`."""
+        """Return the pose of a player in the performance, without live input; see `PoseSource.pose_now`."""
         return self._poses.pose_now(player_id, time_s)
 
 
 class WornFaces:
-    """Poses in which the front player shows the session's `preview_morphs`, if set.
+    """Source of poses in which the active player's face shows the session's `preview_morphs`, if set.
 
     Parameters
     ----------
     session : Session
+        Session with the selected players and the morphs.
     poses : PoseSource
+        Source of the poses without the previewed face.
     """
 
     def __init__(self, session: Session, poses: PoseSource) -> None:

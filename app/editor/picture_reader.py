@@ -25,7 +25,9 @@ class PictureReader:
     Parameters
     ----------
     path : str
+        Path of the video file.
     facts : VideoFacts
+        Frame rate, duration and size of the video.
     size : (int, int)
         Width and height of the frames in pixels.
     arrived : callable
@@ -58,8 +60,9 @@ class PictureReader:
         self._thread.start()
 
     def request(self, number: int) -> Picture | None:
-        """Return a frame if it is cached; otherwise request it, and `arrived` is called later. None beyond the
-        video.
+        """Return a frame if it is cached; otherwise request it, so that `arrived` is called later, and return None.
+
+        None is returned for frames after the end of the video too.
         """
         with self._condition:
             if number != self._sought:
@@ -94,7 +97,7 @@ class PictureReader:
             self._failed(error)
 
     def _awaited(self) -> int | None:
-        """Wait for the next frame to read, and return its number; None to end."""
+        """Wait for a request, and return the number of the next frame to read; None when the thread should end."""
         with self._condition:
             while not self._closed:
                 first = max(self._sought, 0)

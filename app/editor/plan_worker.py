@@ -46,7 +46,7 @@ REST_WHILE_PLAYING = 1.0
 
 
 class _Clock(Protocol):
-    """Protocol of the clocks in module `time`, which has no class to refer to."""
+    """Interface of a clock of the module `time`, which has no class to refer to."""
 
     def monotonic(self) -> float: ...
 
@@ -59,8 +59,21 @@ class _Clock(Protocol):
 
 @dataclass(frozen=True)
 class Reports(Generic[T]):
-    """Functions by which the planning worker reports to the window, called on its thread: plan finished, motion
-    changed, progress, and broken contacts found."""
+    """Functions by which the planning worker reports to the window, called on the worker's thread.
+
+    Attributes
+    ----------
+    planned : callable
+        A plan is finished (with its number), or failed with an error.
+    moved : callable
+        Motion was computed.
+    worked : callable
+        A share 0..1 of the motion is computed.
+    broken : callable
+        The broken contacts found in the motion, as problems by player id.
+    fell : callable
+        An unexpected exception ended the worker.
+    """
 
     planned: Callable[[T, Performance, int, AppError | None], None]
     moved: Callable[[T], None]
@@ -70,8 +83,8 @@ class Reports(Generic[T]):
 
 
 class PlanWorker(Generic[T]):
-    """Worker thread that computes plans first, then motion. It holds no objects of the window, so it may end at any
-    time.
+    """Worker thread that computes plans first, then motion. It has no reference to objects of the window, so it may end
+    at any time.
     """
 
     def __init__(self, live: LiveMotion, report: Reporter[T], says: Reports[T], clock: _Clock = time) -> None:
@@ -114,23 +127,23 @@ class PlanWorker(Generic[T]):
             self._changed.notify()
 
     def drop(self) -> None:
-        """Discard the plans in progress."""
+        """Discard the requested plans that are not finished."""
         with self._changed:
             self._pending = None
             self._dropped.set()
 
     def wake(self) -> None:
-        """Interrupt waiting because there is a new request."""
+        """Wake the thread if it waits, because there is a new request."""
         with self._changed:
             self._requests += 1
             self._changed.notify()
 
     def pause(self) -> None:
-        """Pause motion after the current chunk, until `go_on`."""
+        """Pause the computation of motion after the chunk in progress, until `go_on` is called."""
         self._paused = True
 
     def go_on(self) -> None:
-        """Resume after `pause`."""
+        """Continue the computation of motion after `pause`."""
         with self._changed:
             self._paused = False
             self._changed.notify()
@@ -227,7 +240,7 @@ class PlanWorker(Generic[T]):
             self._rest(min(GIVE_WAY * (now_s - start_s), MOST_REST_S), requests)
 
     def _rest(self, rest_s: float, requests: int) -> None:
-        """Wait until the request changes, at most ``rest_s`` seconds."""
+        """Wait at most ``rest_s`` seconds, and less if there is a new request after number ``requests``."""
         with self._changed:
             self._changed.wait_for(
                 lambda: self._closed or self._pending is not None or self._requests != requests, timeout=rest_s

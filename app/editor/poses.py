@@ -12,7 +12,7 @@ from app.performance.chunks import Pose, between
 
 
 def blended(one: Pose, other: Pose, share: float) -> Pose:
-    """Interpolate between two poses: share 0 is the first, 1 the second."""
+    """Return a pose interpolated between two poses: ``share`` 0 gives ``one``, 1 gives ``other``."""
 
     def mixed(before: Mapping[str, float], after: Mapping[str, float]) -> dict[str, float]:
         names = {**before, **after}
@@ -52,7 +52,12 @@ class PoseSource(Protocol):
     """Source of poses by player and time."""
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
-        """Poses of players at a time, in order; None for those not computed yet. Returns immediately."""
+        """Return the poses of players at a time, in the order of the ids; None for a pose that is not computed yet.
+
+        Returns immediately.
+        """
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """Pose of a player, computed immediately if missing, for pictures that must be right."""
+        """Return the pose of a player, computing it immediately if it is missing, for pictures that must be
+        complete.
+        """

@@ -25,7 +25,7 @@ class ProblemFilter(NamedTuple):
     Attributes
     ----------
     kind : str
-        Kind as in `kind_of`; empty: all kinds.
+        Kind of problem as in `kind_of`; empty for all kinds.
     of_selected : bool
         Whether to show only those of selected players.
     """
@@ -39,6 +39,6 @@ class ProblemFilter(NamedTuple):
 
 
 def kind_of(problem: Problem) -> str:
-    """Kind of a problem by its subject, such as ``fingering`` or ``breath``."""
+    """Return the kind of a problem by its subject, such as ``fingering`` or ``breath``."""
     room = problem.message.id.partition(".")[0]
     return _KINDS.get(room, room)

@@ -22,7 +22,7 @@ class ProblemFix(NamedTuple):
     Attributes
     ----------
     text_id : str
-        Text id of its button; the text may contain ``count``.
+        Id of the text of the button for the fix; the text may contain ``{count}``.
     edit : callable
         Function from a project, a player and problems of the kind to the edited project, or the same project if none is
         resolved.
@@ -43,7 +43,7 @@ def fixes_of(project: Project, player_id: str, problems: Sequence[Problem]) -> t
 
 
 def fixed(project: Project, fix: ProblemFix, by_player: Sequence[tuple[str, Sequence[Problem]]]) -> Project:
-    """Return the project with a fix applied to the problems of each player."""
+    """Return the project with a fix applied to each player's problems (player id and problems)."""
     for player_id, problems in by_player:
         project = fix.edit(project, project.player(player_id), problems)
     return project
@@ -94,7 +94,7 @@ def _shorten(project: Project, player: Player, problems: Sequence[Problem]) -> P
 
 
 def _erase(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
-    """Delete the notes of a problem, which cannot sound together with others of the player."""
+    """Delete the notes of a problem that a player cannot play together with other notes."""
     return edit.erase(project, [note.id for note in _named(project, player, problems)])
 
 

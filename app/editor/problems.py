@@ -1,4 +1,4 @@
-"""Navigation to problems and selected notes: time, front performer, and a suitable camera view."""
+"""Navigation to problems and selected notes: playhead, active performer, and a suitable camera view."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def view_of(problem: Problem) -> View:
 
 
 def view_of_event(event_id: str) -> View | None:
-    """The view that shows an event of a plan; None if there is none."""
+    """Return the camera view in which an event of a plan can be seen; None if no view suits it."""
     kind = EventId.parse(event_id).kind
     if kind in BREATH_KINDS:
         return "mouth" if BREATH_KINDS[kind].draws_air else _OTHER_VIEW
@@ -58,7 +58,8 @@ def view_of_event(event_id: str) -> View | None:
 
 
 def go_to_problem(session: Session, performer_id: str, problem: Problem) -> None:
-    """Show a problem: front performer, selected note, playhead, timeline and camera.
+    """Show a problem: activate its performer, select its note, and move the playhead, the timeline and the camera to
+    it.
 
     Other selected players stay selected if the problem's player is among them.
     """
@@ -83,7 +84,7 @@ def go_to_problem(session: Session, performer_id: str, problem: Problem) -> None
 
 
 def forget_problems(session: Session) -> None:
-    """From now on, clear the current problem once it is gone or something else is selected."""
+    """From now on, clear the problem on display once it is solved or something else is selected."""
 
     def leave() -> None:
         session.set_problem(None)
@@ -106,7 +107,9 @@ def forget_problems(session: Session) -> None:
 
 
 def show_mended(session: Session, performer_id: str, problems: Sequence[Problem]) -> None:
-    """Select and show the notes of fixed problems: those near the current problem, else the first."""
+    """Select and show the notes of problems that were just fixed: those near the problem on display, or else the first
+    ones.
+    """
     gone_to = session.problem[1] if session.problem is not None else None
     start_s = (gone_to if gone_to is not None and gone_to in problems else problems[0]).start_s
     if performer_id in {player.id for player in session.project.players} and performer_id not in session.players:
@@ -139,7 +142,7 @@ def follow_selection(session: Session) -> None:
 
 
 def _note(session: Session, note_id: str) -> Note | None:
-    """Note of an id in any part; None if there is none."""
+    """Return the note with an id from any part; None if there is none."""
     for part in session.project.score.parts:
         if note_id in part.note_ids:
             return next(note for note in part.notes if note.id == note_id)

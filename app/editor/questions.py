@@ -18,26 +18,30 @@ ReadAgain: TypeAlias = Callable[[str | None], PieceContents]
 
 
 class Questions(Protocol):
-    """Interface for asking the user, which keeps dialogs out of the editor's services."""
+    """Interface by which the editor's services ask the user, without depending on dialogs."""
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
-        """Ask for an existing file; None if the user cancels."""
+        """Ask for an existing file, and return its path; None if the user cancels."""
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
-        """Ask for a file to write, with one of the suffixes and confirmation before replacing; None if the user
-        cancels.
+        """Ask for a file to write, and for confirmation before one is replaced; return its path with one of the
+        suffixes.
+
+        None if the user cancels.
         """
 
     def unsaved(self, name: str) -> Answer:
-        """Ask whether unsaved changes should be saved, discarded or kept."""
+        """Ask whether to save unsaved changes, to discard them or to cancel, and return the answer."""
 
     def stop_writing(self, works: tuple[Message, ...]) -> bool:
-        """Ask whether to quit while files are still being written (by these tasks), which would stop that."""
+        """Ask whether to quit although the listed tasks are still writing files; return True to stop them and quit."""
 
     def import_midi(
         self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
     ) -> ImportRequest | None:
-        """Ask for the players of a MIDI file, and whether to add a dancer; None if the user cancels."""
+        """Ask for the players of a MIDI file, and whether to add a dancer, and return the decisions; None if the user
+        cancels.
+        """
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
-        """Ask whether to delete a character used by these players."""
+        """Ask whether to delete a character that the named players have; return True to delete it."""

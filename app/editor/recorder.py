@@ -1,8 +1,8 @@
 """Recording in the editor: the device, the running take, and adding it to the project.
 
-A separate process stamps and writes the events (`app.capture.recorder`); it continually receives the playback position.
-When its journal is finished, the passes become takes of the project in one edit; the journal is kept until they are
-saved.
+A separate process (`app.capture.recorder`) records the MIDI events with their times into a file, the journal, and is
+told the playback position continually. When recording ends, the passes of the journal become takes of the project in
+one edit; the journal is kept until the takes are saved.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ MakeLink = Callable[[Callable[[], None]], RecorderLink]
 
 @dataclass
 class _Running:
-    """A take that is being recorded: its files, player and start."""
+    """A take that is being recorded: its journal files, its player and its start."""
 
     path: Path
     second_path: Path
@@ -100,15 +100,16 @@ class Recorder(QObject):
     sound : EditorSound
         Sound that plays the count-in and continues past the end of the piece.
     make_link : callable
+        Makes the connection to the recorder's process.
     now_ns : callable
-        Clock of the events.
+        Clock by which events get their times, in nanoseconds.
     make_playback : callable
         Creates a playback for a beep or clicks in addition to the performance.
 
     Signals
     -------
     device_missing()
-        A take was requested without a device.
+        The user started a take although no device is chosen or connected.
     """
 
     device_missing = Signal()
@@ -151,7 +152,7 @@ class Recorder(QObject):
     # The device
 
     def begin(self) -> None:
-        """Look for devices, unless already done."""
+        """Start looking for MIDI devices, unless this was done before."""
         if self._link is not None:
             return
         ask = window_calls().ask
@@ -160,12 +161,12 @@ class Recorder(QObject):
             self._link.open(self._state.port)
 
     def begin_where_remembered(self) -> None:
-        """Look for the device used last; without one nothing is started."""
+        """Look for the MIDI device that was used last; do nothing if none was used."""
         if self._state.port:
             self.begin()
 
     def choose(self, port: str) -> None:
-        """Record from this device from now on, also after it is reconnected; empty: none."""
+        """Record from a MIDI device from now on, also after it is reconnected; an empty name records from none."""
         self.begin()
         if port == self._state.port:
             return
@@ -192,7 +193,7 @@ class Recorder(QObject):
         self._state.set(count_in_bars=bars)
 
     def set_controller(self, controller: str) -> None:
-        """Set the kind of controller of the device."""
+        """Set the preset (see ``metadata/controllers``) of the MIDI controller that is connected."""
         self._settings.set_midi_device(self._state.port, "controller", controller)
         self._settings.set_midi_device(self._state.port, "breath", "")
         self._know(self._state.port)
@@ -209,7 +210,7 @@ class Recorder(QObject):
         self._know(self._state.port)
 
     def _know(self, port: str) -> None:
-        """Load the stored settings of a device."""
+        """Set the state to the settings stored for a device: preset, latency and mapping."""
         controllers = load_controllers()
         controller = self._settings.midi_device(port, "controller")
         if controller not in controllers:
@@ -225,7 +226,9 @@ class Recorder(QObject):
         )
 
     def _mapping(self, port: str, controller: Controller) -> ControllerMapping:
-        """Return the controllers that send breath and bite: as set for the device, else as usual for its kind."""
+        """Return the mapping of MIDI messages to breath and bite: the one set for the device, else that of
+        its preset.
+        """
         said = {name: self._settings.midi_device(port, name) for name in ("channel", "breath", "bite")}
         try:
             return msgspec.convert({**said, "channel": int(said["channel"])}, ControllerMapping)
@@ -236,7 +239,7 @@ class Recorder(QObject):
     # News
 
     def poll(self) -> None:
-        """Receive the events of the recorder's process."""
+        """Receive and handle the messages of the recorder's process."""
         if self._link is None:
             return
         for reported in self._link.poll():
@@ -278,7 +281,7 @@ class Recorder(QObject):
                 self._finished(Path(os.fsdecode(reported.path)))
 
     def _refused(self, reason: Message) -> None:
-        """Report a failure of the recorder's process, such as opening the device."""
+        """Report a failure of the recorder's process, such as a device that cannot be opened."""
         state = self._state
         if reason.id == "capture.port_not_here":
             # It is waited for; a window that opens without it need not warn.
@@ -309,7 +312,7 @@ class Recorder(QObject):
         self._state.received.emit(events)
 
     def _silence(self) -> None:
-        """End sounding notes after the device was lost or changed."""
+        """End the notes of the player that still sound, after the device was lost or changed."""
         self._sounding.end_all()
         self._state.set_played(0.0, None)
         self._live.silence()
@@ -317,7 +320,7 @@ class Recorder(QObject):
     # A take
 
     def toggle(self) -> None:
-        """Start recording, or end the take."""
+        """Start recording a take, or end the take that is being recorded."""
         if self._state.running:
             self.stop()
         else:
@@ -371,15 +374,15 @@ class Recorder(QObject):
         self._sync_timer.start()
 
     def recorded_player(self) -> str | None:
-        """Return the id of the player to record: the armed one, else the one in front."""
+        """Return the id of the player to record: the armed player, else the active one; None without players."""
         ids = {player.id for player in self._session.project.players}
         if self._state.armed in ids:
             return self._state.armed
         return self._session.player.id if self._session.player is not None else None
 
     def count_in_from_s(self, start_s: float) -> float:
-        """Return the start of the count-in for a take: whole bars before the bar of the take's start, so that the first
-        click is a downbeat.
+        """Return the time in seconds at which the count-in of a take begins: whole bars before the bar in which the
+        take starts, so that the first click is on a downbeat.
         """
         if self._state.count_in_bars == 0:
             return start_s
@@ -419,7 +422,13 @@ class Recorder(QObject):
         running.last_ns, running.last_s = ns, position_s
 
     def _turn(self, running: _Running, ns: int, position_s: float, speed: float) -> None:
-        """Begin a new pass, after the loop restarted or playback jumped."""
+        """Begin a new pass in the journal, after the loop has restarted or playback has jumped.
+
+        Parameters
+        ----------
+        ns : int
+            Time of the recorder's clock at which playback was at ``position_s``.
+        """
         assert self._link is not None
         if running.loop_s is not None and position_s < running.last_s:
             begin_s, end_s = running.loop_s
@@ -447,7 +456,11 @@ class Recorder(QObject):
     # What becomes of it
 
     def _moved(self, path: Path, reason: str) -> None:
-        """Note that the journal of a take continues at its second place, because the disk is full."""
+        """Use the new path of a take's journal, which the recorder moved because it could not write to the first one,
+        and warn the user.
+
+        ``reason`` says why.
+        """
         for running in (*self._adopting, *([self._running] if self._running is not None else ())):
             if running.second_path == path:
                 said: dict[str, Argument] = {"file": str(running.path), "reason": reason, "journal": str(path)}
@@ -481,7 +494,17 @@ class Recorder(QObject):
     def _adopt(
         self, path: Path, player_id: str, takes: tuple[Take, ...], punch: tuple[int, int] | None, brought: bool = True
     ) -> bool:
-        """Add takes to the project and use the last one in the part; returns whether that succeeded."""
+        """Add takes to the project and use the last complete one in the part; return whether that succeeded.
+
+        Parameters
+        ----------
+        path : Path
+            Journal of the takes, deleted once they are saved.
+        punch : (int, int) or None
+            Range of ticks in which the part uses the take; None for all of it.
+        brought : bool
+            Whether the part uses a take at all.
+        """
         if player_id not in {player.id for player in self._session.project.players}:
             self._session.notice(Message("record.player_gone", {"file": str(path)}), Severity.ERROR)
             return False
@@ -505,7 +528,7 @@ class Recorder(QObject):
         return True
 
     def _files_changed(self) -> None:
-        """Delete journals whose takes are saved."""
+        """Delete the journals whose takes are saved in the project's file."""
         if not self._adopted or self._files.unwritten:
             return
         document = self._session.document
@@ -518,7 +541,7 @@ class Recorder(QObject):
         self._adopted.clear()
 
     def _project_opened(self) -> None:
-        """Add takes interrupted by a crash to the opened project."""
+        """Add to the opened project the takes whose recording was interrupted by a crash."""
         if self._state.running:
             self.stop()
         # What was played for another project waits beside that one's file until it is opened again.
@@ -533,7 +556,7 @@ class Recorder(QObject):
             self._recover_elsewhere()
 
     def _recover_elsewhere(self) -> None:
-        """Add takes of the open file whose journals continued at a second place."""
+        """Add to the open project its takes whose journals were moved to another folder."""
         document = self._files.path
         if document is None:
             return
@@ -560,7 +583,7 @@ class Recorder(QObject):
             self._session.notice(Message("record.recovered", {"count": len(takes)}))
 
     def close(self) -> None:
-        """End the recorder; a running take is finished on disk."""
+        """End the recorder's process; a take that is being recorded is completed in its journal."""
         self._sync_timer.stop()
         if self._link is not None:
             link, self._link = self._link, None
@@ -575,14 +598,14 @@ def _names(project: Project, player_id: str) -> tuple[str, ...]:
 
 
 def _first_tick(take: Take) -> float:
-    """Tick at which a take begins, slightly earlier if its first note was struck just before."""
+    """Return the tick at which a take begins, slightly earlier if its first note was struck just before the start."""
     onsets_s, start_s = take.played.onsets_s, take.start_us / 1e6
     early_s = onsets_s[(onsets_s >= start_s - EARLY_S) & (onsets_s < start_s)]
     return take.tempo_map.ticks(float(early_s[0]) if len(early_s) else start_s)
 
 
 def _whole(takes: tuple[Take, ...]) -> int:
-    """Index of the take to use in the part: the last one that covers the whole loop, else the last."""
+    """Return the index of the take to use in the part: the last one that covers nearly all of the loop."""
     longest_us = max(take.end_us - take.start_us for take in takes)
     whole = [index for index, take in enumerate(takes) if take.end_us - take.start_us > 0.9 * longest_us]
     return whole[-1]

@@ -28,26 +28,26 @@ NO_DEVICE: Final = frozenset(
 
 
 class RecordingState(State):
-    """State of the recording.
+    """State of recording: device, armed player, running take and settings.
 
     Attributes
     ----------
     ports : tuple of str
         Available devices.
     port : str
-        The chosen device, available or not; empty: none.
+        The chosen device, whether available or not; empty if none is chosen.
     refusal : Message or None
         Reason why the device, or all devices, are unavailable.
     controller : str
-        Id of the preset in ``metadata/controllers``.
+        Id of the device's preset in ``metadata/controllers``.
     mapping : ControllerMapping
-        Controllers that carry breath and bite.
+        MIDI messages by which the device sends breath and bite.
     armed : str
-        Id of the player to record; empty: the active one.
+        Id of the player to record; empty for the active one.
     running : bool
         Whether a take is being recorded or counted in.
     start_s, counted_from_s : float
-        Performance times at which the take and its count-in began, while `running`.
+        Times in the performance, in seconds, at which the take and its count-in began, while `running`.
     passes : int
         Number of the pass through the loop, from 1, while `running`.
     events : int
@@ -55,15 +55,15 @@ class RecordingState(State):
     count_in_bars : int
         Bars of count-in, 0..4.
     punch : bool
-        Whether only the punch range is used in the part.
+        Whether the part uses only the punch range of a new take.
     punch_ticks : (int, int) or None
-        The punch range, half-open.
+        First tick of the punch range and the tick after its last one; None if no range is set.
     breath : float
         Current breath value, 0..1.
     pitch : int or None
-        Pitch of the current note, concert pitch.
+        Concert pitch of the note being played; None if none is.
     latency_s : float
-        Latency of the device, subtracted from every event.
+        Latency of the device in seconds, subtracted from the time of every event.
 
     Signals
     -------

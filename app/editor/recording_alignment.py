@@ -21,7 +21,13 @@ SAME_TEMPO = 0.002
 
 
 def take_estimate(session: Session, estimate: Estimate, unasked: bool, with_tempo: bool) -> None:
-    """Set an estimated offset, and optionally the tempo, as one edit; report their confidence."""
+    """Set an estimated offset of the recording, and optionally the estimated tempo, as one edit; report the confidence.
+
+    Parameters
+    ----------
+    unasked : bool
+        Whether the recording was just added: an uncertain offset is then reported but not set.
+    """
     percent = round(100 * estimate.confidence)
     if estimate.confidence < SURE and (unasked or with_tempo):
         session.notice(Message("audio.not_recognised", {"percent": percent}), Severity.WARNING)

@@ -19,7 +19,7 @@ UNPLANNED: Final = ("vary", "additive", MARK)
 
 
 class EventKey(msgspec.Struct, frozen=True, order=True):
-    """Key of an event in a player's plan."""
+    """Key of an event in a player's plan: the player's id and the event's id."""
 
     player_id: str
     event_id: str
@@ -31,11 +31,12 @@ class Selection(msgspec.Struct, frozen=True):
     Attributes
     ----------
     notes : frozenset of str
-        Note ids, unique in the score.
+        Ids of the selected notes, unique in the score.
     span : (int, int) or None
-        A range of ticks, half-open.
+        The selected range of time: its first tick and the tick after its last one.
     take : str or None
-        Take of the front player; empty: the part before the first take.
+        Id of the selected take of the active player; empty for the notes from before the first take, None if none is
+        selected.
     """
 
     notes: frozenset[str] = frozenset()
@@ -47,7 +48,7 @@ class Selection(msgspec.Struct, frozen=True):
         return bool(self.notes or self.events or self.span or self.take is not None)
 
     def within(self, project: Project) -> Selection:
-        """The part of the selection that exists in `project`; `self` if all of it does."""
+        """Return the part of the selection that exists in ``project``; ``self`` if all of it does."""
         notes = self.notes
         if notes:
             notes = frozenset().union(*(notes & part.note_ids for part in project.score.parts))
@@ -61,7 +62,7 @@ class Selection(msgspec.Struct, frozen=True):
         return self if kept == self else kept
 
     def planned(self, plans: Mapping[str, PlayerPlan]) -> Selection:
-        """The part of the selection that exists in the plans, by player; `self` if all of it does."""
+        """Return the part of the selection that exists in the players' plans; ``self`` if all of it does."""
         known = {
             player_id: events_of(plans[player_id])
             for player_id in {key.player_id for key in self.events} & plans.keys()

@@ -70,37 +70,38 @@ class Session(QObject):
         `performance` has changed: there are new plans. It may lag behind the project by a moment.
     problems_changed()
         `problems` of some players have changed, the plans have not: the motion was made and judged.
-    selection_changed(), players_changed(), playhead_changed(float), playing_changed(bool), loop_changed(),
-    grid_changed(), theme_changed(), time_display_changed(), follow_changed(), language_changed()
-        The value of that name has changed.
+    Signals named after a property, such as selection_changed(), players_changed(), playhead_changed(float),
+    playing_changed(bool), loop_changed(), grid_changed(), theme_changed(), time_display_changed(), follow_changed(),
+    language_changed()
+        The property of this name has changed.
     problem_changed()
-        Another problem is gone to, or none any more.
+        Another problem is on display, or none.
     dancer_changed()
         Another dancer is selected, in the same project.
     folded_changed(), groups_players_changed()
-        Another part of a panel is folded; the list of players is in sections, or no longer.
+        A part of a panel was folded or unfolded; the list of players was divided into sections or joined.
     preview_changed()
-        The face that is being made has changed.
+        The morphs that preview an expression on the active player's face have changed.
     noticed(object, object)
         A notice for the user: a `Message` and a `Severity`.
     revealed(float)
-        This time (seconds) should come into view.
+        Request to scroll the timeline to this time in seconds.
     instruments_changed()
-        Some instrument has changed or is gone (`instrument_maps.library`).
+        An instrument was changed or removed (`instrument_maps.library`).
     instruments_saved()
-        A map was written into the user's own folder.
+        An instrument was written into the user's own folder.
     characters_changed()
-        Some character has changed or is gone (`app.rig.characters.character_library`).
+        A character was changed or removed (`app.rig.characters.character_library`).
     characters_saved()
         A character was written into the user's own folder, or removed from it.
     choreographies_changed()
-        A choreography's file was written; dancers may dance it.
+        The file of a choreography was written, so that dancers can use it.
     media_agreed()
-        The user agreed to computers that the project's files are on: what was left alone may be read now.
+        The user allowed reading the project's media files on other computers.
     metadata_changed()
-        Some style, habit or expression has changed or is gone (`metadata.library`).
+        A style, habit, expression or other table was changed or removed (`metadata.library`).
     metadata_saved()
-        One of them was written into the user's own folder, or removed from it.
+        Such a table was written into the user's own folder, or removed from it.
     """
 
     changed = Signal(object)
@@ -165,17 +166,20 @@ class Session(QObject):
 
     @property
     def project(self) -> Project:
-        """The project being edited, after the last edit."""
+        """Return the project being edited, after the last edit."""
         return self.document.project
 
     @property
     def performance(self) -> Performance:
-        """The current performance, of `project` or of a slightly older version (compare ``performance.project``)."""
+        """Return the newest planned performance: of `project`, or of a slightly older version (compare
+        ``performance.project``).
+        """
         return self._performance
 
     def set_performance(self, performance: Performance) -> None:
-        """Replace the planned performance, which everything displayed and heard depends on; emits
-        ``performance_changed`` if it is another one."""
+        """Replace the planned performance, which everything displayed and heard depends on; emit
+        ``performance_changed`` if it is another one.
+        """
         if performance is not self._performance:
             self._performance = performance
             self.performance_changed.emit()
@@ -184,17 +188,19 @@ class Session(QObject):
 
     @property
     def plans(self) -> Mapping[str, PlayerPlan]:
-        """The current plan of every player by id; empty before planning."""
+        """Return the current plan of every player by id; empty before planning."""
         return self._performance.plans if self._performance.planned else {}
 
     @property
     def plan(self) -> PlayerPlan | None:
-        """The plan of the front player; None without one."""
+        """Return the plan of the active player; None if there is none."""
         return self.plans.get(self._players[0]) if self._players else None
 
     def problems(self, player_id: str) -> tuple[Problem, ...]:
-        """Problems of a player by time, without ignored ones, including those of the motion computed so far; the same
-        tuple until they change, and empty before planning. For a dancer, the problems of the dance.
+        """Return the problems of a player or dancer in the order of time, without ignored ones.
+
+        They include broken contacts in the motion computed so far. The same tuple is returned until they change; it is
+        empty before planning.
         """
         return self._split_problems(player_id)[0]
 
@@ -219,7 +225,7 @@ class Session(QObject):
         return known[1], known[2]
 
     def set_broken(self, broken: Mapping[str, tuple[Problem, ...]]) -> None:
-        """Set the broken contacts by player, as found by the worker."""
+        """Set the broken contacts found in the motion, as problems by player id."""
         if broken != self._broken:
             self._broken = broken
             self.problems_changed.emit()
@@ -227,7 +233,7 @@ class Session(QObject):
     def apply(
         self, name: Message, project: Project, gesture: object | None = None, origin: object | None = None
     ) -> bool:
-        """Edit the document (see `Document.apply`); returns whether it succeeded, and shows the reason if not."""
+        """Edit the document (see `Document.apply`); return whether it succeeded, and show the reason if not."""
         try:
             self.document.apply(name, project, gesture, origin)
         except UsageError as error:
@@ -242,7 +248,7 @@ class Session(QObject):
         gesture: object | None = None,
         origin: object | None = None,
     ) -> bool:
-        """Edit with a function that may raise an AppError, which is shown; returns whether it succeeded."""
+        """Edit the document with a function that may raise an AppError, which is shown; return whether it succeeded."""
         try:
             project = edit(self.project)
         except AppError as error:
@@ -281,32 +287,34 @@ class Session(QObject):
 
     @property
     def players(self) -> tuple[str, ...]:
-        """Ids of the selected players; the first is the active player, the one that panels show."""
+        """Return the ids of the selected players; the first is the active player, the one that panels show."""
         return self._players
 
     @property
     def player(self) -> Player | None:
-        """The active player, the first of the selected ones, shown in the panels; None without players."""
+        """Return the active player, the first of the selected ones, which panels show; None if there are no players."""
         return self.project.player(self._players[0]) if self._players else None
 
     @property
     def in_front(self) -> tuple[str, ...]:
-        """Ids of the selected players, front player first; without players, of the selected dancer."""
+        """Return the ids of the selected players, the active one first; if there are no players, that of the selected
+        dancer.
+        """
         return self._players or ((self._dancer_id,) if self._dancer_id else ())
 
     def set_players(self, players: tuple[str, ...]) -> None:
-        """Select players; the first one becomes the front player."""
+        """Select players; the first one becomes the active player."""
         if players != self._players:
             self._players = players
             self.players_changed.emit()
 
     @property
     def dancer(self) -> Dancer | None:
-        """The selected dancer; None if no dancer exists."""
+        """Return the selected dancer; None if no dancer exists."""
         return self.project.dancer(self._dancer_id) if self._dancer_id else None
 
     def set_dancer(self, dancer_id: str) -> None:
-        """Select the dancer with an id, whom the dancers' section shows."""
+        """Select the dancer with an id, who is then shown in the dancers' section."""
         if dancer_id != self._dancer_id:
             self._dancer_id = dancer_id
             self.dancer_changed.emit()
@@ -323,11 +331,11 @@ class Session(QObject):
 
     @property
     def selection(self) -> Selection:
-        """Everything that is selected (notes, events, marks, time range), always within the current project."""
+        """Return all that is selected (notes, events, marks, time range), always within the current project."""
         return self._selection
 
     def select(self, selection: Selection) -> None:
-        """Select the existing part of a selection; panels may lag behind the project."""
+        """Select notes, events and the like, leaving out those that no longer exist in the project."""
         selection = selection.within(self.project)
         if selection != self._selection:
             self._selection = selection
@@ -379,11 +387,13 @@ class Session(QObject):
 
     @property
     def folded(self) -> Mapping[str, bool]:
-        """Return the folded state of panel parts by name; parts the user never folded are missing."""
+        """Return whether each foldable part of the panels is folded, by name; parts the user never folded or unfolded
+        are missing.
+        """
         return self._folded
 
     def set_folded(self, name: str, folded: bool) -> None:
-        """Set the folded state of a panel part."""
+        """Fold or unfold a part of a panel, given by name."""
         if self._folded.get(name) is not folded:
             self._folded[name] = folded
             self.folded_changed.emit()

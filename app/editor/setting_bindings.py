@@ -1,4 +1,4 @@
-"""Bindings of settings to the session's values they are restored to and stored from."""
+"""Bindings of stored settings to values of the session, from which they are stored and to which they are restored."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from app.editor.session import Session
 
 @dataclass(frozen=True)
 class SettingBinding:
-    """Functions that read and change one stored setting in a session, and the signal of its changes."""
+    """Functions that read and set the session's value of one stored setting, and the signal of its changes."""
 
     get: Callable[[Session], Any]
     set: Callable[[Session, Any], object]
@@ -22,7 +22,9 @@ class SettingBinding:
 
 
 def within(state: str, name: str) -> SettingBinding:
-    """Binding to an attribute of the session's state ``listening``, ``pitch_display``, ``video`` or ``viewport``."""
+    """Return a binding to the attribute ``name`` of one of the session's states: ``"listening"``, ``"pitch_display"``,
+    ``"video"`` or ``"viewport"``.
+    """
     return SettingBinding(
         lambda session: getattr(getattr(session, state), name),
         lambda session, value: getattr(session, state).set(**{name: value}),

@@ -189,27 +189,27 @@ class Settings(StoredSettings):
     # Values that are several
 
     def midi_device(self, port: str, name: str) -> str:
-        """Return the stored value of a property ``name`` of the MIDI device at a port; empty if none is stored."""
+        """Return a stored property of a MIDI device, such as its latency; empty if it is not stored."""
         return self._midi_devices.get(port, {}).get(name, "")
 
     def set_midi_device(self, port: str, name: str, value: str) -> None:
-        """Store the value of a property ``name`` of the MIDI device at a port; without effect if the port is empty."""
+        """Store a property of a MIDI device; do nothing if ``port`` is empty."""
         if port:
             devices = self._midi_devices
             self._midi_devices = {**devices, port: {**devices.get(port, {}), name: value}}
 
     def rename_midi_device(self, before: str, port: str) -> None:
-        """Copy the stored properties of a device to its new name, without overwriting."""
+        """Copy the stored properties of a device to its new port name, unless that has properties already."""
         devices = self._midi_devices
         if before in devices:
             self._midi_devices = {**devices, port: {**devices[before], **devices.get(port, {})}}
 
     def workspace_state(self, workspace_id: str) -> dict[str, str]:
-        """Stored layout of a workspace, by panel; empty: the default layout."""
+        """Return the stored layout of a workspace as a text for each part; empty for the default layout."""
         return dict(self._workspaces.get(workspace_id, {}))
 
     def set_workspace_state(self, workspace_id: str, **parts: str) -> None:
-        """Store parts of the layout of a workspace, keeping its other parts."""
+        """Store some parts of the layout of a workspace, keeping its other parts."""
         known = self._workspaces
         self._workspaces = {**known, workspace_id: {**known.get(workspace_id, {}), **parts}}
 
@@ -218,11 +218,11 @@ class Settings(StoredSettings):
         self._workspaces = {id: state for id, state in self._workspaces.items() if id != workspace_id}
 
     def piece_view(self, path: str) -> str:
-        """Stored view of a piece by its file; empty: none."""
+        """Return the stored view of the piece in a file; empty if none is stored."""
         return self._pieces.get(encoding.stored(path), "")
 
     def set_piece_view(self, path: str, view: str) -> None:
-        """Store the view of a piece; the oldest ones are dropped."""
+        """Store the view of the piece in a file; the oldest stored views are dropped."""
         path = encoding.stored(path)
         pieces = {other: text for other, text in self._pieces.items() if other != path} | {path: view}
         sizes = [len(f"{other}{text}") for other, text in pieces.items()]
@@ -232,7 +232,7 @@ class Settings(StoredSettings):
 
     @property
     def recent(self) -> tuple[str, ...]:
-        """Paths of the recently opened files, newest first."""
+        """Return the paths of the recently opened files, the newest first."""
         return tuple(path for text in self._recent[:MOST_RECENT] if (path := encoding.restored(text)))
 
     def add_recent(self, path: Path) -> None:
@@ -246,11 +246,13 @@ class Settings(StoredSettings):
         self._recent = tuple(encoding.stored(other) for other in self.recent if other != path)
 
     def shortcut(self, action_id: str) -> str | None:
-        """The user's shortcuts of an action, separated by ``;``, empty for none; None: the default."""
+        """Return the user's shortcuts of an action, separated by ``;`` (empty for no shortcut); None if the user
+        changed none.
+        """
         return self._shortcuts.get(action_id)
 
     def set_shortcut(self, action_id: str, keys: str | None) -> None:
-        """Set a user's shortcuts for an action; None: the default."""
+        """Store the user's shortcuts of an action; None to use the default ones again."""
         others = {id: own for id, own in self._shortcuts.items() if id != action_id}
         self._shortcuts = others if keys is None else {**others, action_id: keys}
 

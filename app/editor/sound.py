@@ -49,7 +49,7 @@ class EditorSound(QObject):
     session : Session
         Session that gets the playback and becomes the parent.
     playback : Playback, optional
-        Playback to use; None: one on the system's device.
+        Playback to use; by default one that plays on the system's audio device.
     audible : bool
         Whether sound can be played; otherwise the recording is only read for its waveform.
     """
@@ -98,12 +98,12 @@ class EditorSound(QObject):
 
     @property
     def recording(self) -> AudioRecording | None:
-        """The audio recording of the project, decoded; None until it is read."""
+        """Return the decoded audio recording of the project; None if there is none or it is not read yet."""
         return self._recording
 
     @property
     def is_busy(self) -> bool:
-        """True if some of the sound is not rendered yet."""
+        """Return whether some of the sound is not rendered yet."""
         return self._stems.is_busy
 
     # The playhead
@@ -145,7 +145,7 @@ class EditorSound(QObject):
     # Takes
 
     def listen(self, take: RecordedTake, from_s: float) -> None:
-        """Audition a take as soon as its beginning is rendered, until playback stops."""
+        """Play a take from a time as soon as its beginning is rendered, until playback stops."""
         self.playback.stop()
         self._session.set_playhead(from_s)
         self._session.listening.set(take=take)
@@ -168,7 +168,7 @@ class EditorSound(QObject):
             self.playback.play(self._session.playhead_s)
 
     def _sounding_project(self) -> Project:
-        """The project with the auditioned take in place of the part."""
+        """Return the project as it is to be heard, with the take being auditioned in place of its player's part."""
         project, take = self._session.project, self._session.listening.take
         recorded = project.takes.get(take.player_id) if take is not None else None
         if take is None or recorded is None or (take.take_id and all(take.take_id != t.id for t in recorded.takes)):
@@ -216,7 +216,7 @@ class EditorSound(QObject):
             self._take()
 
     def _take(self) -> None:
-        """Play the project as it is now, after an edit."""
+        """Prepare the sound of the project as it is after an edit."""
         project = self._sounding_project()
         self._set_span(project)
         path = project.audio.path if project.audio is not None else ""
@@ -227,13 +227,15 @@ class EditorSound(QObject):
         self._set_mix()
 
     def _go_on(self) -> None:
-        """Synthesise what was deferred until the piece was planned or played."""
+        """Start the synthesis that was deferred until the piece is planned or played."""
         if self._held_back:
             self._held_back = False
             self._take()
 
     def set_recording(self, counted_s: tuple[float, float] | None) -> None:
-        """Set the span of a count-in while recording, with playback continuing past the end; None: not recording."""
+        """Set the time range in seconds of a recording's count-in, while recording; playback then continues past the
+        end of the piece. None when nothing is being recorded.
+        """
         self._counted_s = counted_s
         self._set_span(self._sounding_project())
         self._set_mix()
@@ -287,7 +289,7 @@ class EditorSound(QObject):
     # The recording
 
     def _read_agreed(self) -> None:
-        """Read a recording on another computer after the user has agreed."""
+        """Read the recording, after the user has allowed reading it from another computer."""
         if self._recording is None:
             self._path = ""
             self._take()
@@ -365,7 +367,7 @@ def _is_large(project: Project) -> bool:
 
 
 def span_of(project: Project) -> TimeFrame:
-    """Time span of the performance, available before its plans."""
+    """Return the time frame of the performance, which is known before the players are planned."""
     parts = [project.part(player) for player in project.players]
     first_tick = min((part.notes[0].onset_tick for part in parts if part.notes), default=0)
     last_tick = max((part.end_tick for part in parts), default=0)

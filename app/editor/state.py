@@ -11,18 +11,18 @@ T = TypeVar("T")
 
 
 class State(QObject):
-    """Attributes with a common signal of change.
+    """Base of objects whose attributes share one signal of change.
 
     Signals
     -------
     changed()
-        One of them has changed.
+        One of the attributes has changed.
     """
 
     changed = Signal()
 
     def set(self, **values: Any) -> None:
-        """Change some attributes; emits `changed` once if any changes."""
+        """Change some attributes; `changed` is emitted once if any of them has changed."""
         different = [name for name, value in values.items() if getattr(self, name) != value]
         for name in different:
             setattr(self, name, values[name])
@@ -31,13 +31,14 @@ class State(QObject):
 
 
 class Watched(Generic[T]):
-    """A value that is read as an attribute and set by its `setter`.
+    """Descriptor of a value that is read as an attribute, and set by a method that emits a signal.
 
     Parameters
     ----------
     signal : str
         Name of the object's signal for a change of the value.
     initial : object
+        Value at first.
     is_sent : bool
         Whether the signal carries the value.
     """
@@ -64,7 +65,7 @@ class Watched(Generic[T]):
         return self if holder is None else cast("T", vars(holder).get(self._name, self._initial))
 
     def put(self, holder: QObject, value: T) -> bool:
-        """Set the value without emitting; returns whether it changed."""
+        """Set the value without emitting the signal, and return whether the value changed."""
         before = self.__get__(holder, type(holder))
         vars(holder)[self._name] = value
         return bool(before != value)

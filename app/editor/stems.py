@@ -32,19 +32,21 @@ _AHEAD_S = 20.0
 
 @dataclass(frozen=True, eq=False)
 class _Made:
-    """The phrases of a player or of the percussion, with the sources they were made from."""
+    """The rendered phrases of a player or of the percussion, with the objects from which they were rendered."""
 
     sources: tuple[object, ...]
     phrases: tuple[RenderedPhrase, ...]
 
     def is_of(self, sources: tuple[object, ...]) -> bool:
-        """Return whether the phrases are up to date, comparing sources by identity."""
+        """Return whether the phrases were rendered from the same objects as ``sources``."""
         return all(one is other for one, other in zip(self.sources, sources, strict=True))
 
 
 @dataclass(eq=False)
 class _Job:
-    """A rendering of single players' sound in progress; written by the worker, read on the window's thread."""
+    """A rendering in progress of the sound of single players; written by the worker thread, read on the window's
+    thread.
+    """
 
     project: Project
     made: dict[str, _Made] = field(default_factory=dict)
@@ -60,7 +62,7 @@ class _Job:
 
 
 class Stems(QObject):
-    """Rendered tracks of the players.
+    """Rendered sound of every player and of the percussion, one track for each.
 
     Parameters
     ----------
@@ -129,14 +131,18 @@ class Stems(QObject):
         self._job, self._requested, self._made, self._tracks, self.ready = None, None, {}, {}, 0.0
 
     def covers(self, at_s: float) -> bool:
-        """Return whether the sound after a time is rendered or being rendered."""
+        """Return whether the sound from a time on is rendered or being rendered."""
         if self._job is None:
             return True
         start_s, end_s = self._job.window_s
         return start_s <= at_s and (at_s + _AHEAD_S < end_s or end_s == inf)
 
     def tracks(self, project: Project, percussion: bool = True) -> list[MixTrack]:
-        """Audible players and, if requested, percussion, as far as rendered; unchanged tracks stay the same objects."""
+        """Return the rendered tracks of the audible players and, if requested, of the percussion, as far as they are
+        complete.
+
+        Unchanged tracks are the same objects as before.
+        """
         tracks, kept = [], {}
         for player_id, gains in player_gains(project).items():
             if player_id == PERCUSSION and not percussion:
@@ -154,7 +160,7 @@ class Stems(QObject):
         return tracks
 
     def _render(self) -> None:
-        """Render missing sound, in the order of playback."""
+        """Start to render the missing sound, in the order in which it is played."""
         if self._requested is None:
             return
         project, from_s = self._requested
@@ -190,7 +196,7 @@ class Stems(QObject):
         self._tasks.run(Message("work.synthesise"), work, lambda _: self._look(), key=self._key)
 
     def _look(self) -> None:
-        """Add newly rendered sound."""
+        """Add the sound rendered since the last call to the tracks."""
         job = self._job
         if job is None:
             return
@@ -209,7 +215,18 @@ class Stems(QObject):
 def _next_phrases(
     phrases: Sequence[tuple[str, RenderedPhrase]], from_s: float
 ) -> tuple[tuple[tuple[str, RenderedPhrase], ...], tuple[float, float]]:
-    """Phrases of as many players as fit in memory, in the order of playback, and the time span that they cover."""
+    """Choose the phrases to render next: as many as fit in memory, in the order of playback.
+
+    Parameters
+    ----------
+    phrases : sequence of (str, RenderedPhrase)
+        Id of the player and phrase.
+
+    Returns
+    -------
+    (tuple, (float, float))
+        Chosen phrases with their ids, and the time range in seconds that they complete.
+    """
     ordered = sorted(phrases, key=lambda item: (item[1].end < from_s * RATE_HZ, item[1].start))
     taken = 0
     for index, (_, phrase) in enumerate(ordered):
@@ -222,7 +239,7 @@ def _next_phrases(
 
 
 def _voices(project: Project) -> dict[str, Player | None]:
-    """Return everything that sounds, by id; None is the percussion."""
+    """Return all that sounds in a project, by id: the players, and None for the percussion."""
     voices: dict[str, Player | None] = {player.id: player for player in project.players}
     return voices | {PERCUSSION: None} if project.score.percussion else voices
 

@@ -23,19 +23,20 @@ WRITE_MS: Final = 300
 
 
 class Setting(Generic[T]):
-    """Declaration of one setting, an attribute of `StoredSettings`: default, label and options. Restoring, storing and
-    preferences are derived from it.
+    """Declaration of one setting, an attribute of `StoredSettings`: default, label and options.
+
+    It defines how the setting is restored, stored and shown in the preferences.
 
     Parameters
     ----------
     key : str
-        ``section/name``, or a whole section.
+        Place of the setting in the file: ``section/name``, or a whole section.
     kind : type, optional
-        Allowed type for msgspec; by default the type of the default.
+        Type by which msgspec checks the value; by default that of the default value.
     held : SettingBinding, optional
-        Binding from which it is stored, and to which it is restored.
+        Binding to the value of the session that the setting stores and restores.
     label : str
-        Text id of its label in the preferences; empty: not shown.
+        Text id of the label in the preferences; empty if they do not show the setting.
     options : tuple of (value, word)
         Allowed values with their text ids, if limited to these.
     """
@@ -61,7 +62,7 @@ class Setting(Generic[T]):
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Ids of the texts of a setting: its label, then its options."""
+        """Return the ids of all texts of a setting: its label, then its options."""
         return (self.label, *(word for _, word in self.options))
 
     @overload
@@ -78,7 +79,13 @@ class Setting(Generic[T]):
         settings.store(self.keys, self.written(value))
 
     def read(self, stored: object, file: str) -> T:
-        """Decode a stored value; MapError if it is invalid."""
+        """Decode a stored value.
+
+        Raises
+        ------
+        MapError
+            If the value is invalid; the error names ``file``.
+        """
         value: T = shaped(stored, self._kind, file)
         possible = [one for one, _ in self.options]
         if possible and value not in possible:
@@ -91,7 +98,7 @@ class Setting(Generic[T]):
 
 
 class BytesSetting(Setting[QByteArray]):
-    """Setting with Qt bytes, stored as base64."""
+    """A setting whose value is bytes of Qt, stored as base64."""
 
     def __init__(self, key: str) -> None:
         super().__init__(key, QByteArray(), str)
@@ -107,7 +114,7 @@ class BytesSetting(Setting[QByteArray]):
 
 
 class FilePathSetting(Setting[str]):
-    """Setting with a path, including names that are not valid UTF-8."""
+    """A setting whose value is a path, including names that are not valid UTF-8."""
 
     def read(self, stored: object, file: str) -> str:
         return encoding.restored(super().read(stored, file))
@@ -150,11 +157,11 @@ class StoredSettings(QObject):
 
     @classmethod
     def declared(cls) -> tuple[Setting[Any], ...]:
-        """All settings that the class declares as attributes."""
+        """Return all settings that the class declares as attributes."""
         return tuple(value for value in vars(cls).values() if isinstance(value, Setting))
 
     def stored(self, keys: tuple[str, str]) -> object:
-        """Return a stored value by section and name; None: none."""
+        """Return the stored value of a setting by its section and name; None if none is stored."""
         section, name = keys
         values = self._table.get(section)
         return values if not name else values.get(name) if isinstance(values, dict) else None
@@ -169,8 +176,9 @@ class StoredSettings(QObject):
             self._timer.start()
 
     def sync(self) -> None:
-        """Write changes to disk now, merged with those of other editors; an unreadable file is not replaced, and the
-        changes wait.
+        """Write changes to disk now, merged with those of other editors.
+
+        A file that cannot be read is not replaced; the changes are written later.
         """
         self._timer.stop()
         if not self._changes:
@@ -216,7 +224,7 @@ class StoredSettings(QObject):
 
 
 def _put(table: dict[str, Any], keys: tuple[str, str], value: object) -> None:
-    """Put a value into nested tables; None removes it."""
+    """Put a value into a table by section and name; None removes the value."""
     section, name = keys
     if not name:
         table[section] = value

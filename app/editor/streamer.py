@@ -49,7 +49,7 @@ _SECOND_S: Final = 1.0
 
 
 class Streamer(QObject):
-    """Streams as set in `session.streaming`.
+    """Sends poses to other programs as set in `session.streaming`.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class Streamer(QObject):
     settings : Settings
         Settings that store the destination, but not whether streaming was on.
     poses : PoseSource
-        Poses of the performance, read on the thread.
+        Source of the poses, read on the sending thread.
     """
 
     def __init__(self, session: Session, settings: Settings, poses: PoseSource) -> None:
@@ -103,7 +103,7 @@ class Streamer(QObject):
 
     @property
     def _broadcast(self) -> bool:
-        """True if the host is a confirmed broadcast address."""
+        """Return whether the host is a broadcast address that the user has confirmed."""
         return self._state.broadcast == self._state.host
 
     def _changed(self) -> None:
@@ -123,7 +123,7 @@ class Streamer(QObject):
             self._request()
 
     def _look_up(self) -> None:
-        """Resolve the host name, which may take seconds."""
+        """Look up the address of the host name in the background, since this may take seconds."""
         asked = host, port, broadcast = self._state.host, self._state.port, self._broadcast
         self.close()
         self._asked = asked
@@ -162,7 +162,7 @@ class Streamer(QObject):
         self._state.set(state="off", lines=(), sent_hz=0, trouble=None)
 
     def _request(self, *_: object) -> None:
-        """Update the performers to send, and the receiver."""
+        """Tell the sending thread the performers to send and the address of the receiver."""
         if self._address is None or self._thread is None:
             return
         state, project = self._state, self._session.project
@@ -192,7 +192,7 @@ class Streamer(QObject):
         self.moved()
 
     def moved(self, *_: object) -> None:
-        """Record that something moves."""
+        """Tell the sending thread the playback position, because it has changed or something in the viewport moves."""
         if self._thread is None:
             return
         session, playback = self._session, self._session.playback
@@ -209,21 +209,30 @@ class Streamer(QObject):
         self._state.set(state=state, sent_hz=sent_hz, trouble=None)
 
     def _fail(self, message: Message) -> None:
-        """Report a failure once; sending is retried while streaming is on and the host is resolved."""
+        """Report a failure to send once; sending is tried again while streaming is on."""
         if self._state.trouble != message:
             self._session.notice(message, Severity.ERROR)
         self._state.set(state="failed", trouble=message, sent_hz=0)
 
     def _fell(self, fault: BaseException) -> None:
-        """End streaming after an unexpected exception of the thread."""
+        """End streaming after an unexpected exception of the sending thread."""
         self._state.set(on=False)
         raise fault
 
 
 @dataclass(frozen=True)
 class _Request:
-    """Request to the streaming thread: address, performers and their ports; ``beside`` are the other instruments of
-    each performer."""
+    """Request to the sending thread: receiver's address, performers, and a port for each.
+
+    Attributes
+    ----------
+    beside : tuple of tuple of Player
+        Players of the other instruments that each performer (a musician) plays.
+    stages : tuple of StagePosition
+        Position of each performer on the stage.
+    faces : FaceNames
+        Names under which the curves of faces are sent.
+    """
 
     address: Address
     performers: tuple[Player | Dancer, ...]
@@ -237,8 +246,7 @@ class _Request:
 
 @dataclass(frozen=True)
 class _Anchor:
-    """Known point of the playback: position and speed at a time of `time.perf_counter`, from which later positions
-    follow."""
+    """Position and speed of playback at a moment of `time.perf_counter`, from which later positions are computed."""
 
     position_s: float
     at_s: float
@@ -246,7 +254,9 @@ class _Anchor:
     loop_s: tuple[float, float] | None
 
     def position(self, now_s: float) -> float:
-        """Return the current position, at most the end of the loop."""
+        """Return the position of playback in seconds at a moment of `time.perf_counter`, at most the end of
+        the loop.
+        """
         position_s = self.position_s + min(now_s - self.at_s, ALONE_S) * self.speed
         if self.loop_s is not None and self.position_s < self.loop_s[1]:
             return min(position_s, self.loop_s[1])
@@ -254,7 +264,7 @@ class _Anchor:
 
 
 class _Thread:
-    """Thread that sends frames at a rate. It holds no objects of the window."""
+    """Thread that sends frames of poses at a rate. It has no reference to objects of the window."""
 
     def __init__(self, poses: LivePoses, say: Reporter[Streamer]) -> None:
         self._poses, self._say = poses, say
@@ -307,7 +317,7 @@ class _Thread:
             self._close_senders()
 
     def _step(self, due_s: float) -> float:
-        """Send what is due; returns the time of the next frame."""
+        """Send the frame that is due, and return the time of the next one."""
         with self._changed:
             moved_s = self._moved_s
             # Woken early where something moves again, or something else is requested.
@@ -338,7 +348,7 @@ class _Thread:
         return time.perf_counter() - moved_s > SETTLED_S
 
     def _send(self, request: _Request, time_s: float, now_s: float) -> bool:
-        """Send the current poses of all performers; returns whether no receiver answers."""
+        """Send the poses at the time ``time_s`` of all performers; return True if no receiver answers."""
         for port in self._senders.keys() - set(request.ports):
             self._senders.pop(port).close()
         everything = [*(one.id for one in request.performers), *(one.id for played in request.beside for one in played)]
@@ -367,7 +377,9 @@ class _Thread:
         return bool(outcomes) and all(outcome is SendOutcome.NO_RECEIVER for outcome in outcomes)
 
     def _sent_of(self, performer: Player | Dancer, faces: FaceNames, beside: Sequence[Player]) -> Sent:
-        """Stream of a performer; made again after a change of character, instrument or curve names."""
+        """Return the encoder of a performer's stream, replaced after a change of character, instruments or
+        curve names.
+        """
         instrument = performer.instrument_id if isinstance(performer, Player) else None
         of = (character_named(performer.character_id), instrument, faces, tuple(one.instrument_id for one in beside))
         known = self._sent.get(performer.id)

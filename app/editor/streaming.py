@@ -23,14 +23,14 @@ USUAL_RATE_HZ: Final = 60
 
 @dataclass(frozen=True)
 class StreamTarget:
-    """A performer whose motion is streamed, and the UDP port it is sent to."""
+    """A performer whose motion is streamed, and the UDP port to which it is sent."""
 
     player_id: str
     port: int
 
 
 class Streaming(State):
-    """State of streaming.
+    """State of the live stream of poses: settings and success.
 
     Attributes
     ----------
@@ -39,17 +39,18 @@ class Streaming(State):
     host : str
         Name or address of the receiving computer.
     broadcast : str
-        Broadcast host that the user has confirmed, although every computer on the network can receive it.
+        Broadcast address that the user has confirmed; every computer on the network can receive the stream then.
     port : int
-        Port of the active player; of several players, the first port.
+        UDP port of the active player; if all performers are sent, the port of the first.
     everyone : bool
-        Whether all performers are sent, each to its own port, at their stage places; otherwise the front one, centred.
+        Whether all performers are sent, each to its own port and at its stage position; otherwise only the active
+        player is sent, at the centre of the stage.
     rate_hz : int
         Frames per second while something moves.
     lines : tuple of StreamTarget
         Destination of each performer.
     sent_hz : int
-        Frames of one performer sent in the last second.
+        Number of frames sent of one performer in the last second.
     trouble : Message or None
         Reason why nothing can be sent.
     """

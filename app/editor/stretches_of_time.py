@@ -1,4 +1,4 @@
-"""Time ranges: limits of typed positions and of scrolling, the whole piece, and the selection."""
+"""Ranges of time: limits of typed positions and of scrolling, the whole piece, and the selection."""
 
 from __future__ import annotations
 
@@ -16,20 +16,25 @@ LEAST_BARS = 4
 
 
 def place_limits(session: Session) -> tuple[float, float]:
-    """First and last second at which something can be placed: the performance with its pre-roll, and free room after
-    it."""
+    """Return the first and last second at which something can be placed: from the beginning of the pre-roll to some
+    time after the end.
+    """
     start_s, end_s = _performance_s(session)
     return start_s, max(end_s + max(ROOM_S, ROOM_SHARE * end_s), LEAST_S)
 
 
 def scroll_limits(session: Session) -> tuple[float, float]:
-    """Scroll range of the timeline in seconds: allowed positions, and a margin before them."""
+    """Return the range of seconds to which the timeline can scroll: the positions of `place_limits` and a margin before
+    them.
+    """
     start_s, end_s = place_limits(session)
     return start_s - MARGIN_S, end_s
 
 
 def whole_piece(session: Session) -> tuple[float, float]:
-    """Range in seconds that shows the whole piece, at least some bars; everything for an empty piece."""
+    """Return the range of seconds that shows the whole piece and at least some bars; all that can be shown for an empty
+    piece.
+    """
     limits_s = scroll_limits(session)
     score = session.project.score
     if not score.sounding_end_tick:
@@ -40,7 +45,9 @@ def whole_piece(session: Session) -> tuple[float, float]:
 
 
 def _performance_s(session: Session) -> tuple[float, float]:
-    """First and last second of the performance; before planning, of the notes with the usual pre-roll."""
+    """Return the first and last second of the performance; before planning, those of the notes with the usual
+    pre-roll.
+    """
     score = session.project.score
     end_s = score.tempo_map.seconds(float(score.end_tick))
     performance = session.performance
@@ -51,8 +58,9 @@ def _performance_s(session: Session) -> tuple[float, float]:
 
 
 def selected_span(session: Session) -> tuple[float, float] | None:
-    """Start and end in seconds of everything selected (a time range, notes, events); None if nothing with a time is
-    selected."""
+    """Return start and end in seconds of all that is selected (a time range, notes, events); None if nothing with a
+    time is selected.
+    """
     selection, project = session.selection, session.project
     tempo = project.score.tempo_map
     places: list[tuple[float, float]] = []

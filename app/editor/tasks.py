@@ -23,7 +23,9 @@ T = TypeVar("T")
 
 
 class Tasks(Protocol):
-    """Runs work in the background, with name and progress in the status line, where it can be cancelled."""
+    """Interface for running work in the background, with name and progress in the status line, where the user can
+    cancel it.
+    """
 
     def run(
         self,
@@ -59,13 +61,13 @@ class Tasks(Protocol):
 
     @property
     def writing(self) -> tuple[Message, ...]:
-        """Names of running tasks that write files the user requested, oldest first."""
+        """Return the names of running tasks that write files the user requested, the oldest first."""
         ...
 
 
 @dataclass(eq=False)
 class Task:
-    """Running work.
+    """Work that runs in the background.
 
     Attributes
     ----------
@@ -96,18 +98,18 @@ class Task:
 
 
 class ThreadTasks(QObject):
-    """The editor's task runner.
+    """Runs the editor's background work, each on a thread of its own.
 
     Signals
     -------
     changed()
         Work began or ended.
     failed(AppError)
-        Work without a ``failed`` of its own met an error that the user can act on.
+        Work that was started without ``failed`` raised an error for the user.
     cancelled(Message)
         Work of this name was cancelled by the user.
     unexpected(BaseException)
-        Work met a fault of the program.
+        Work raised an unexpected exception, a fault of the program.
     """
 
     changed = Signal()
@@ -122,17 +124,17 @@ class ThreadTasks(QObject):
 
     @property
     def running(self) -> tuple[Task, ...]:
-        """Tasks that run and have not been asked to stop, oldest first."""
+        """Return the tasks that run and have not been asked to stop, the oldest first."""
         return tuple(task for task in self._running if not task.stop.is_set())
 
     @property
     def writing(self) -> tuple[Message, ...]:
-        """Names of running tasks that write files the user requested, oldest first."""
+        """Return the names of running tasks that write files the user requested, the oldest first."""
         return tuple(task.name for task in self.running if task.writes)
 
     @property
     def is_idle(self) -> bool:
-        """True if no thread is running, including stopped ones."""
+        """Return whether no thread is running, including those of stopped tasks."""
         return not self._running
 
     def run(
@@ -160,7 +162,7 @@ class ThreadTasks(QObject):
         self.changed.emit()
 
     def cancel(self, task: Task) -> None:
-        """Cancel work; it is no longer shown, and its result is dropped."""
+        """Cancel a task: it is no longer shown, and its result is dropped."""
         task.is_cancelled = True
         task.stop.set()
         self.changed.emit()
@@ -202,7 +204,7 @@ class ThreadTasks(QObject):
 
 
 def _work(task: Task, ask: Ask) -> None:
-    """Run a task; called on its thread."""
+    """Run a task on its thread, keep its result or error, and announce its end to the window's thread."""
 
     def progress(share: float) -> None:
         task.share = min(max(share, 0.0), 1.0)
@@ -216,7 +218,7 @@ def _work(task: Task, ask: Ask) -> None:
 
 
 def _take_back(task: Task) -> None:
-    """Release a task's references on the window's thread, after its thread has finished."""
+    """Report the end of a task on the window's thread, after the task's thread has finished."""
     if task.thread is not None:
         task.thread.join()
     runner = task.runner()
@@ -225,6 +227,6 @@ def _take_back(task: Task) -> None:
 
 
 def _is_there(callback: Callable[..., None]) -> bool:
-    """Return whether the receiver of a callback still exists."""
+    """Return whether the Qt object to which a callback belongs still exists; True for other callbacks."""
     reported = getattr(callback, "__self__", None)
     return not isinstance(reported, QObject) or isValid(reported)

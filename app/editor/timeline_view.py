@@ -18,7 +18,7 @@ class Tool(Enum):
 
 
 class Ghosts(Enum):
-    """Display of other players' notes behind those of the front player."""
+    """Choice of the other players' notes that the timeline shows behind those of the active player."""
 
     GHOSTS = "ghosts"
     SELECTED = "selected"

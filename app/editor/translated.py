@@ -1,4 +1,4 @@
-"""Translates texts by their ids into the editor's language."""
+"""Translation of texts, by their ids, into the editor's language."""
 
 from __future__ import annotations
 
@@ -8,12 +8,17 @@ from app.messages import LANGUAGES
 
 
 def tr(text_id: str) -> str:
-    """The text of an id; the id itself if it is unknown. Qt objects have the same function as method ``tr``."""
+    """Return the text with an id in the editor's language; the id itself if it is unknown.
+
+    Qt objects have the same function as the method ``tr``.
+    """
     return QCoreApplication.translate("", text_id)
 
 
 def system_language() -> str:
-    """First language of the system's list that the editor supports; English if none."""
+    """Return the first language of the system's list of languages that the editor supports; English if it supports
+    none.
+    """
     for name in QLocale.system().uiLanguages():
         code = name.split("-")[0].split("_")[0]
         if code in LANGUAGES:

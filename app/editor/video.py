@@ -53,7 +53,7 @@ class ReferenceVideo(QObject):
         session.video.changed.connect(self._state_changed)
 
     def refresh(self) -> None:
-        """Show the frame at the playhead."""
+        """Show the frame of the video at the playhead."""
         video, facts, reader = self._session.project.video, self._facts, self._reader
         if video is None or facts is None or reader is None:
             return
@@ -64,7 +64,7 @@ class ReferenceVideo(QObject):
             self._session.video.set_picture(picture)
 
     def close(self) -> None:
-        """Stop reading."""
+        """Stop reading the video, and end the reading thread."""
         reader, self._reader = self._reader, None
         if reader is not None:
             reader.close()
@@ -85,7 +85,7 @@ class ReferenceVideo(QObject):
             self.refresh()
 
     def _read_agreed(self) -> None:
-        """Read a video on another computer after the user has agreed."""
+        """Read the video, after the user has allowed reading it from another computer."""
         if self._facts is None:
             self._take(self._path)
 

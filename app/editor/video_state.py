@@ -21,7 +21,7 @@ class VideoState(State):
     Attributes
     ----------
     placement : str
-        Next to the players, behind them, or hidden.
+        Where the video is shown: ``"beside"`` the players, behind them, or hidden.
     opacity : float
         Opacity 0..1 behind the players.
     picture : uint8 array, shape (height, width, 3), or None
@@ -29,7 +29,7 @@ class VideoState(State):
     ratio : float
         Width divided by height; 0.0 until known.
     fault : Message or None
-        Reason why it cannot be shown.
+        Reason why the video cannot be shown; None if it can.
 
     Signals
     -------
@@ -50,7 +50,7 @@ class VideoState(State):
         self.fault: Message | None = None
 
     def set_picture(self, picture: Picture | None) -> None:
-        """Set the decoded picture of the reference video at the playhead; emits ``pictured`` if it is another one."""
+        """Set the decoded picture of the reference video at the playhead; emit ``pictured`` if it is another one."""
         if picture is not self.picture:
             self.picture = picture
             self.pictured.emit()

@@ -28,16 +28,16 @@ class ViewportCamera(Protocol):
 
 
 class ViewportState(State):
-    """The chosen view, and the optional things drawn.
+    """The chosen camera view, and the optional items that are drawn.
 
     Attributes
     ----------
     follows_selection : bool
         Whether the playhead moves to selected notes.
     camera : ViewportCamera or None
-        The camera for commands; set by the panel.
+        The viewport's camera, for commands; set by the viewport.
     camera_follows : str
-        When the camera moves to selected or corrected things: one of `FOLLOWS`.
+        When the camera moves by itself to selected or corrected notes and events: one of `FOLLOWS`.
     bookmarks : tuple of str
         Names of camera bookmarks used in this piece, the latest first.
 
@@ -46,13 +46,13 @@ class ViewportState(State):
     changed()
         A display option has changed.
     viewed()
-        A view was requested, possibly the same again.
+        A camera view was requested, possibly the present one again.
     framed(bool)
-        The camera should frame the selected players (True) or the ensemble.
+        Request to frame the selected players (True) or the ensemble (False).
     turned()
-        The camera should change to the opposite side.
+        Request to move the camera to the opposite side.
     dollied(float)
-        The camera should move nearer by a number of wheel steps.
+        Request to move the camera nearer by a number of wheel steps.
     """
 
     viewed = Signal()
@@ -94,7 +94,7 @@ class ViewportState(State):
 
     @property
     def posing(self) -> bool:
-        """True if the pose tool is active."""
+        """Return whether the tool that drags poses is active."""
         return self._posing
 
     def set_posing(self, posing: bool) -> None:
@@ -104,7 +104,7 @@ class ViewportState(State):
             self.changed.emit()
 
     def use_bookmark(self, name: str) -> None:
-        """Record that a bookmark was stored, renamed or recalled."""
+        """Put a camera bookmark first in `bookmarks`, since it was stored, renamed or recalled."""
         self.set(bookmarks=(name, *(other for other in self.bookmarks if other != name)))
 
     def turn(self) -> None:

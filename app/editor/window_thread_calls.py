@@ -24,7 +24,7 @@ Ask = Callable[[Call], None]
 
 
 class _Bell:
-    """Wakes the window from any thread, while it exists."""
+    """Wakes the window's event loop from any thread, as long as the window exists."""
 
     def __init__(self) -> None:
         self.near, self._far = socket.socketpair()
@@ -46,7 +46,7 @@ class _Bell:
 
 
 class Calls(QObject):
-    """Runs calls on the window's thread, one per turn of its event loop. Must be created on that thread."""
+    """Runs calls on the window's thread, one in each turn of its event loop. Must be created on that thread."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -80,7 +80,7 @@ _calls: Calls | None = None
 
 
 def window_calls() -> Calls:
-    """The process-wide instance, created on first use, which must be on the window's thread."""
+    """Return the program's only `Calls`, created on first use, which must be on the window's thread."""
     global _calls
     if _calls is None or not isValid(_calls):
         _calls = Calls(QCoreApplication.instance())
@@ -94,7 +94,7 @@ class Reporter(Generic[T]):
         self._ask, self._listener, self._is_awaited = window_calls().ask, weakref.ref(listener), is_awaited
 
     def __call__(self, say: Callable[[T], None]) -> None:
-        """Call the listener soon with a report."""
+        """Call ``say`` with the listener soon, on the window's thread."""
         listening, is_awaited = self._listener, self._is_awaited
 
         def call() -> None:

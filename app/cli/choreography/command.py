@@ -43,7 +43,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 @dataclass(frozen=True)
 class PairFiles:
-    """Paths of a pair of motion and music, with the options typed for it."""
+    """A pair of files with motion and its music (paths), and the options typed for this pair."""
 
     motion: Path
     music: Path
@@ -56,7 +56,7 @@ class PairFiles:
 
 
 class _AddPair(argparse.Action):
-    """Action of the option ``--pair MOTION PIECE``."""
+    """Handles the option ``--pair MOTION PIECE`` of argparse: appends a pair."""
 
     def __call__(
         self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: str | None = None
@@ -65,7 +65,7 @@ class _AddPair(argparse.Action):
 
 
 class _OfPair(argparse.Action):
-    """Action of an option about the preceding pair."""
+    """Handles an option of argparse that applies to the ``--pair`` typed before it: sets a field of that pair."""
 
     def __call__(
         self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: str | None = None
@@ -79,7 +79,7 @@ class _OfPair(argparse.Action):
 
 
 class _CorrectBone(argparse.Action):
-    """Action of ``--bone JOINT=NAME`` about the preceding pair."""
+    """Handles ``--bone JOINT=NAME`` of argparse: corrects a bone of the ``--pair`` typed before it."""
 
     def __call__(
         self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: str | None = None
@@ -130,7 +130,7 @@ def learn(arguments: argparse.Namespace) -> int:
     Raises
     ------
     AppError
-        No pair could be used; the error of the first is raised.
+        If no pair could be used; the error of the first pair is raised.
     """
     from app.choreography.learn import learn as learned
     from app.choreography.model_file import write_model
@@ -171,8 +171,13 @@ def learn(arguments: argparse.Namespace) -> int:
 
 
 def _read_pairs(files: Sequence[PairFiles], progress: Progress) -> tuple[list[ReadPair], list[tuple[str, AppError]]]:
-    """Read pairs of motion and music. Returns those that could be read, and the name of each other motion with its
-    error."""
+    """Read pairs of motion and music.
+
+    Returns
+    -------
+    (list, list)
+        The pairs that could be read; and for each other pair the name of its motion with the error.
+    """
     from app.choreography.learn import require_usable
     from app.choreography.read_pair import read_pair
 
@@ -200,7 +205,7 @@ def _read_pairs(files: Sequence[PairFiles], progress: Progress) -> tuple[list[Re
 
 
 def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float]) -> list[str]:
-    """Return a table of the learned material with the yield and offset of each pair.
+    """Return lines of a table: what was learned from each pair, and the pair's offset in seconds.
 
     Offsets are times in the input files; the clips of the model may start later.
     """
@@ -324,7 +329,13 @@ def generated_table(model: ChoreographyModel, files: Sequence[Path], dances: Seq
 
 
 def _source(model: ChoreographyModel, name: str | None) -> int | None:
-    """Return the index of a source by the name of its motion."""
+    """Return the index of a source of the choreography by the name of its motion; None if no name is given.
+
+    Raises
+    ------
+    UsageError
+        If there is no such source.
+    """
     if name is None:
         return None
     names = [source.motion_name for source in model.sources]

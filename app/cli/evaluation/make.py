@@ -56,7 +56,7 @@ _length = bounded_number(LEAST_S, MOST_S, "quantity.seconds", float)
 
 
 def variants(typed: str) -> tuple[Variant, ...]:
-    """Return the variants of a text of names separated by commas."""
+    """Return the variants of performances named in a text, separated by commas."""
     names = [name.strip().casefold() for name in typed.split(",") if name.strip()]
     found = tuple(variant for variant in VARIANTS if variant in names)
     unknown = [name for name in names if name not in VARIANTS]

@@ -1,4 +1,4 @@
-"""Process that makes an evaluation for the editor's window (counterpart of `app.evaluation.process`)."""
+"""Worker process that makes an evaluation for the editor's window; started by `app.evaluation.process`."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def _made(job: EvaluationJob, channel: MessageChannel[EvaluationJob], stopped: t
 
 
 def _until_closed(channel: MessageChannel[EvaluationJob], stopped: threading.Event) -> None:
-    """Wait until the parent process closes the input or has ended."""
+    """Wait until the parent process closes the channel or ends, then set ``stopped``."""
     while channel.incoming.read(1):
         pass
     stopped.set()
