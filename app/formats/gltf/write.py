@@ -6,7 +6,9 @@ since Blender otherwise leaves an empty for a node with keys; the node's place h
 has one primitive per material. Influences after the fourth are in a second set, so that readers of only one set show
 the closest skin. The clip is one animation with keys on frames at ``n / fps`` seconds; glTF times are float32, within
 0.12 ms after an hour. The rate and number of frames are stored in the animation's extras.
-Lower levels of detail are nodes of no scene, named by the extension MSFT_lod.
+Lower levels of detail are nodes of no scene, named by the extension MSFT_lod. They have the morph targets of their mesh
+in the same order, but no channels: a program that shows them takes the mesh's weights, and one that does not, such as
+three.js, warns of channels whose nodes are in no scene.
 
 Source: Khronos, "glTF 2.0 Specification", sections 3.6, 3.7, 3.11 and 4; "MSFT_lod".
 """
@@ -104,7 +106,7 @@ def _document(scenes: Iterable[Scene]) -> GlbDocument:
         first, mesh_nodes = _add_figure(document, scene, roots, materials)
         if scene.clip is not None:
             samplers = Samplers(document, scene.clip) if samplers is None else samplers
-            samplers.add_clip(scene, scene.clip, first, every_mesh(scene), mesh_nodes)
+            samplers.add_clip(scene, scene.clip, first, scene.meshes, mesh_nodes[: len(scene.meshes)])
     add_materials(document, materials)
     out.scenes.append(gltf.Scene(nodes=roots))
     out.scene = 0

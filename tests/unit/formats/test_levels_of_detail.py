@@ -184,7 +184,10 @@ def test_glb_names_levels_that_other_readers_pass_over(scene: Scene, tmp_path: P
     assert [nodes[one]["name"] for one in ids] == ["globe_LOD1", "globe_LOD2"]
     assert not set(ids) & set(found["scenes"][0]["nodes"])
     moved = {channel["target"]["node"] for channel in found["animations"][0]["channels"]}
-    assert set(ids) <= moved
+    assert nodes.index(node) in moved
+    assert not set(ids) & moved, "players of the scene find no node for such a channel"
+    names = [found["meshes"][nodes[one]["mesh"]]["extras"]["targetNames"] for one in (nodes.index(node), *ids)]
+    assert names[1:] == names[:1] * 2
 
 
 @pytest.mark.skipif(not usd_installed(), reason="usd-core is not installed")
