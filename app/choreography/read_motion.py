@@ -7,10 +7,12 @@ mean over the clip of its joint's place on the parent segment.
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import permutations
 from pathlib import Path
 from typing import Final
 
@@ -43,8 +45,17 @@ FAR_M: Final = 0.05
 """Joints farther from their place in the file are reported."""
 HIPS_OVER_LEGS: Final = (0.5, 1.5)
 """Height of the hips over the floor, most of the time, as a part of the legs' length."""
-FLAT_PART: Final = 0.05
+FLAT_PART: Final = 0.4
 """Share of the legs' length by which the lower foot's height may vary more with positions in another unit."""
+PLACE_UNITS_M: Final = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254}
+"""Units in metres that the positions of a file and its bones may have, each another."""
+LEGS_M: Final = (0.6, 1.2)
+"""Plausible lengths of legs in metres."""
+NEAR_FACTOR: Final = 4.0
+"""Ratio of two units (inches and centimetres) below which the height of the hips alone does not show which one it
+is."""
+SLIDES_LESS: Final = 0.8
+"""Greatest step of the slower foot with such a unit, relative to its step with the unit of the bones."""
 FLOOR_PERCENTILE: Final = 2.0
 """Percentile of the lower foot's height that defines the floor."""
 HAND_PART: Final = 0.108
@@ -190,9 +201,9 @@ def motion_of(
     if any((np.abs(one) > FARTHEST_CM).any() for one in lengths):
         raise FileError("motion.far", file=file)
     found = captured_body(bvh, file, joints)
-    factor = _places_factor(found.body.positions, found.body.joints)
-    if factor != 1.0:
-        bvh = _with_places(bvh, found.body.joints["hips"], factor)
+    units = _place_units(found.body.positions, found.body.joints)
+    if units is not None:
+        bvh = _with_places(bvh, found.body.joints["hips"], *units)
         found = captured_body(bvh, file, joints)
     held = list(found.body.segments.values())
     t_pose = np.array([found.t_pose[name] for name in SEGMENTS])
@@ -222,10 +233,10 @@ def motion_of(
     )  # fmt: skip
 
 
-def _places_factor(positions: FloatArray, bones: Mapping[str, int]) -> float:
-    """Return the factor that converts the hips' positions to the unit of the bones: 100 or 0.01 if one is in metres.
+def _place_units(positions: FloatArray, bones: Mapping[str, int]) -> tuple[str, str] | None:
+    """Return the unit of the hips' positions and that of the bones if these are two; None if they are one.
 
-    The hips are about as high above the floor as the legs are long, and with the right factor the lower foot stays at
+    The hips are about as high above the floor as the legs are long, and with the right unit the lower foot stays at
     the floor.
 
     Parameters
@@ -236,24 +247,39 @@ def _places_factor(positions: FloatArray, bones: Mapping[str, int]) -> float:
     hips, feet = positions[:, bones["hips"]], positions[:, [bones[name] for name in FEET]]
     leg = [bones[f"left{name}"] for name in ("UpperLeg", "LowerLeg", "Foot")]
     length = float(np.linalg.norm(np.diff(positions[0, leg], axis=0), axis=1).sum())
-    below = feet[..., 1].min(axis=1) - hips[:, 1]
-    for factor in (100.0, 0.01):
-        high = factor * float(np.median(hips[:, 1]))
-        if HIPS_OVER_LEGS[0] * length < high < HIPS_OVER_LEGS[1] * length:
-            spread = [np.ptp(np.percentile(scale * hips[:, 1] + below, (5, 95))) for scale in (factor, 1.0)]
-            if spread[0] <= spread[1] + FLAT_PART * length:
-                return factor
-    return 1.0
+    away = feet - hips[:, None]
+
+    def height_varies(factor: float) -> float:
+        return float(np.ptp(np.percentile(factor * hips[:, 1] + away[..., 1].min(axis=1), (5, 95))))
+
+    def steps(factor: float) -> float:
+        ways = np.diff(factor * hips[:, None] + away, axis=0)
+        return float(np.linalg.norm(ways, axis=-1).min(axis=1).sum())
+
+    found = []
+    likely = [name for name, unit_m in PLACE_UNITS_M.items() if LEGS_M[0] < length * unit_m < LEGS_M[1]]
+    usual = float(np.median(hips[:, 1])) / length
+    for unit, bones_unit in permutations(PLACE_UNITS_M, 2):
+        factor = PLACE_UNITS_M[unit] / PLACE_UNITS_M[bones_unit]
+        if not HIPS_OVER_LEGS[0] < factor * usual < HIPS_OVER_LEGS[1]:
+            continue
+        if max(factor, 1.0 / factor) < NEAR_FACTOR:
+            fits = not HIPS_OVER_LEGS[0] < usual < HIPS_OVER_LEGS[1] and steps(factor) < SLIDES_LESS * steps(1.0)
+        else:
+            fits = height_varies(factor) <= height_varies(1.0) + FLAT_PART * length
+        if fits:
+            found.append((bones_unit not in likely, abs(math.log(factor * usual)), unit, bones_unit))
+    return min(found)[2:] if found else None
 
 
-def _with_places(bvh: BvhClip, hips: int, factor: float) -> BvhClip:
-    """Multiply the positions of the hips and of all their ancestors in a clip by ``factor``."""
+def _with_places(bvh: BvhClip, hips: int, unit: str, bones_unit: str) -> BvhClip:
+    """Return a clip with the positions of the hips and all their ancestors in the unit of the bones."""
+    factor = PLACE_UNITS_M[unit] / PLACE_UNITS_M[bones_unit]
     above = {hips}
     while (parent := bvh.parents[min(above)]) >= 0:
         above.add(parent)
     moved = {joint: way * factor if joint in above else way for joint, way in bvh.translations_cm.items()}
-    units = ("m", "cm") if factor > 1.0 else ("cm", "m")
-    guess = Message("motion.place_unit", {"unit": units[0], "bones": units[1]})
+    guess = Message("motion.place_unit", {"unit": unit, "bones": bones_unit})
     root = bvh.root_translation_cm * factor
     return replace(bvh, root_translation_cm=root, translations_cm=moved, guesses=(*bvh.guesses, guess))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -11,12 +12,16 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from app.arrays import FloatArray
-from app.choreography.body import SEGMENTS
-from app.choreography.read_motion import guesses, read_motion
+from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
+from app.choreography.contacts import foot_contacts
+from app.choreography.read_motion import PLACE_UNITS_M, guesses, motion_of, read_motion
+from app.choreography.standing_feet import planted, stands
 from app.errors import FileError
+from app.formats.bvh.clip import BvhClip
 from app.messages import text
 from app.rig import quaternion
 from tests.support.dance_measures import SHARED
+from tests.support.dances import stepping
 from tests.support.rerigged import together
 
 pytestmark = pytest.mark.slow
@@ -217,25 +222,27 @@ def test_a_frame_time_in_milliseconds_is_reported(tmp_path: Path) -> None:
     assert [message.id for message in guesses(read) if message.id.startswith("motion.mill")] == ["motion.milliseconds"]
 
 
-@pytest.mark.parametrize(("factor", "unit"), [(0.01, "m"), (100.0, "cm")])
-def test_positions_in_another_unit_than_the_bones_are_understood(tmp_path: Path, factor: float, unit: str) -> None:
-    """A body that walks, squats and stands on the floor; some programs write its way in metres, its bones in cm."""
-    unit_m = 0.01 if factor < 1.0 else 1.0
-    text = bvh(np.eye(3), unit_m)
-    head, _, motion = text.partition("MOTION\n")
-    rows = [line.split() for line in motion.splitlines()[2:]]
-    for at, row in enumerate(rows):
-        row[:3] = [f"{value:.6f}" for value in (at * 0.1 / unit_m, 0.87 / unit_m, 0.0)]
-    files = {}
-    for name, scale in (("usual", 1.0), ("mixed", factor)):
-        mixed = [" ".join([*(f"{scale * float(value):.6f}" for value in row[:3]), *row[3:]]) for row in rows]
-        files[name] = tmp_path / f"{name}.bvh"
-        files[name].write_text("\n".join([f"{head}MOTION", *motion.splitlines()[:2], *mixed]))
-    usual, mixed_read = read_motion(files["usual"]), read_motion(files["mixed"])
-    np.testing.assert_allclose(mixed_read.clip.hips_m, usual.clip.hips_m, atol=1e-3)
-    assert not [message for message in guesses(usual) if message.id == "motion.place_unit"]
-    said = [message.arguments["unit"] for message in guesses(mixed_read) if message.id == "motion.place_unit"]
-    assert said == [unit]
+@pytest.mark.parametrize("bones", PLACE_UNITS_M)
+@pytest.mark.parametrize("places", PLACE_UNITS_M)
+def test_positions_in_another_unit_than_the_bones_are_understood(bones: str, places: str) -> None:
+    """Steps of a body on the floor; some programs write its way in one unit and its bones in another."""
+    clip = stepping(8)
+    sway_m = 0.08 * np.sin(np.arange(len(clip)) / 20.0)[:, None] * np.array((1.0, 0.0, 0.5))
+    swaying = replace(clip, hips_m=clip.hips_m + sway_m - np.array((0.0, 0.03, 0.0)))
+    clip = planted(swaying, stands(clip, foot_contacts(clip)))
+    way_m = clip.hips_m
+    parents = tuple(SEGMENTS.index(parent) if parent in SEGMENTS else -1 for parent in PARENT_OF.values())
+    ends_m = zip(map(SEGMENTS.index, ENDS), clip.shape.ends_m, strict=True)
+    unit = PLACE_UNITS_M[bones]
+    offsets, ends = clip.shape.offsets_m / unit, {joint: end / unit for joint, end in ends_m}
+    for file_unit in (bones, places):
+        root = way_m / PLACE_UNITS_M[file_unit]
+        read = motion_of(BvhClip(SEGMENTS, parents, offsets, ends, clip.fps, root, clip.rotations), "steps.bvh")
+        said = [message.arguments for message in guesses(read) if message.id == "motion.place_unit"]
+        assert said == ([{"unit": places, "bones": bones}] if file_unit != bones else [])
+        assert read.unit == bones
+        # The first frame is put over the origin.
+        assert read.clip.hips_m == pytest.approx(way_m - way_m[0] * (1.0, 0.0, 1.0), abs=0.01)
 
 
 def test_a_body_that_is_captured_about_its_hips_keeps_its_unit(tmp_path: Path) -> None:
