@@ -132,9 +132,9 @@ def learn(arguments: argparse.Namespace) -> int:
     AppError
         If no pair could be used; the error of the first pair is raised.
     """
+    from app.choreography.dancers_told_apart import reports
     from app.choreography.learn import learn as learned
     from app.choreography.model_file import write_model
-    from app.choreography.music_motion_dependence import report
     from app.choreography.read_pair import to_check
     from app.project.choreography_files import SUFFIX
 
@@ -157,7 +157,7 @@ def learn(arguments: argparse.Namespace) -> int:
         for name, error in left_out[1:]:
             warn(said("learn.unusable", motion=name, reason=sentence(error.message)))
         raise left_out[0][1]
-    say(*learned_table(model, target, [one.motion.start_s for one in read]), "", sentence(report(model)))
+    say(*learned_table(model, target, [one.motion.start_s for one in read]), "", *map(sentence, reports(model)))
     notes = [f"  {one.pair.motion_name}: {', '.join(map(sentence, found))}" for one in read if (found := to_check(one))]
     say("", said("learn.body"), *(f"  {one.pair.motion_name}: {sentence(one.motion.checked)}" for one in read))
     if notes:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.choreography.dancers_told_apart import reports, share_told_apart
 from app.choreography.model import ChoreographyModel
 from app.choreography.music_motion_dependence import Pairing, pairing_of, report, trust_in, verdict
 from app.messages import text
@@ -109,3 +110,33 @@ def test_the_verdict_and_its_bits_agree() -> None:
 
 def test_the_same_model_is_judged_the_same() -> None:
     assert judged(sounding(5, 0.3)) == judged(sounding(5, 0.3))
+
+
+def drummed(alike: bool) -> ChoreographyModel:
+    """Two dancers whose motions have no sounds of their own, to drums of their own or to the same."""
+    made = sounding(3, 0.0)
+    sounds = ((20, 21) if alike or not one.clip else (30, 21) for one in made.segments)
+    return replace(
+        made, segments=tuple(replace(one, sounds=own) for one, own in zip(made.segments, sounds, strict=True))
+    )
+
+
+def test_drums_that_name_the_dancer_are_said_to_do_so() -> None:
+    """Drums may say who dances and nothing about what; both are said, in both languages."""
+    assert share_told_apart(drummed(alike=False)) == 1.0
+    said = reports(drummed(alike=False))
+    assert [one.id for one in said] == ["learn.pairing_predicts_nothing", "learn.dancers_told_apart"]
+    assert said[1].arguments == {"share": 100, "chance": 50}
+    assert all("100 %" in text(said[1], language) for language in ("en", "ja"))
+
+
+def test_drums_that_are_alike_name_no_dancer() -> None:
+    assert share_told_apart(drummed(alike=True)) == 0.5
+    assert reports(drummed(alike=True))[1].id == "learn.dancers_alike"
+
+
+def test_one_dancer_is_told_apart_from_no_other() -> None:
+    made = sounding(1, 1.0)
+    alone = replace(made, segments=tuple(one for one in made.segments if not one.clip), clips=made.clips[:1])
+    assert share_told_apart(alone) is None
+    assert [one.id for one in reports(alone)] == ["learn.pairing_tells"]

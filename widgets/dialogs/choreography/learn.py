@@ -367,7 +367,7 @@ class LearnDialog(WorkingDialog):
         elif self._failure is not None:
             text = sentence(self._failure)
         elif result is not None:
-            learned = map(message_text, (summary(result.model, result.path), result.pairing))
+            learned = map(message_text, (summary(result.model, result.path), *result.pairing))
             text = "\n".join(filter(None, (*learned, left_out_text(self._rows))))
         elif self._unknown:
             names = ", ".join(shown(path.name) for path in self._unknown)

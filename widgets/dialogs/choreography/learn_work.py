@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.choreography.dancers_told_apart import reports
 from app.choreography.learn import analyse, learn
 from app.choreography.model import ChoreographyModel
 from app.choreography.model_file import write_model
-from app.choreography.music_motion_dependence import report
 from app.choreography.raw_skeleton import BodyError
 from app.choreography.read_pair import read_pair
 from app.encoding import shown
@@ -22,12 +22,12 @@ from widgets.dialogs.progress_dialog import stopping
 
 @dataclass(frozen=True, eq=False)
 class LearnedChoreography:
-    """Result of learning: the saved choreography, its pairs, and the accuracy with which music predicts its motion."""
+    """A choreography that was learned and saved, with its pairs, and messages about what its music predicts."""
 
     path: Path
     model: ChoreographyModel
     rows: tuple[PairRow, ...]
-    pairing: Message
+    pairing: tuple[Message, ...]
 
 
 def reading(number: int, motion: Path, music: Path, draft: PairDraft) -> Callable[[Progress, StopRequested], PairRead]:
@@ -75,6 +75,6 @@ def learning(
         model = learn(pairs, states=states, seed=seed, name=shown(path.stem), progress=went)
         went(1.0, "")
         write_model(path, model)
-        return LearnedChoreography(path, model, rows, report(model))
+        return LearnedChoreography(path, model, rows, reports(model))
 
     return work
