@@ -226,7 +226,7 @@ def say_what_is_there(request: ExportRequest, unreal: Path | None) -> None:
     performance, source, bars = request.performance, request.source, request.bars
     ids = (*(one.id for one in request.players), *(one.id for one in request.dancers))
     if unreal is not None:
-        seen = foresee_unreal(unreal, performance, ids, source, bars)
+        seen = foresee_unreal(unreal, performance, ids, source, bars, request.with_props)
     else:
         seen = foresee_folder(
             request.folder,
@@ -314,8 +314,6 @@ def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:
         raise UsageError("unreal.face_names")
     if arguments.motion_only and arguments.unreal is not None:
         raise UsageError("unreal.motion_only")
-    if arguments.without_props and arguments.unreal is not None:
-        raise UsageError("unreal.without_props")
     if arguments.motion_only and not any(kind.without_meshes for kind in requested(formats)):
         raise UsageError("motion_only.formats", possible=names_where(lambda kind: kind.without_meshes))
     refuse_attachment(formats, arguments.instrument)

@@ -52,8 +52,7 @@ def file_names(performance: Performance, formats: frozenset[Format], props: bool
     props : bool
         Whether to include the files of straps and chairs.
     """
-    project = performance.project
-    without = {one.id for one in project.bodies if not (props and _has_props(performance, project.played_by(one)))}
+    without = {one.id for one in performance.project.bodies} - (with_props(performance) if props else frozenset())
     return {
         id: {
             kind.key(held): f"{stems[held]}{kind.suffix}"
@@ -62,6 +61,12 @@ def file_names(performance: Performance, formats: frozenset[Format], props: bool
         }
         for id, stems in figure_stems(performance).items()
     }
+
+
+def with_props(performance: Performance) -> frozenset[str]:
+    """Return the ids of the musicians who have straps or a chair."""
+    project = performance.project
+    return frozenset(one.id for one in project.bodies if _has_props(performance, project.played_by(one)))
 
 
 def _has_props(performance: Performance, played: Sequence[Player]) -> bool:

@@ -44,9 +44,16 @@ class Foreseen:
 
 
 def foresee_unreal(
-    place: Path, performance: Performance, player_ids: tuple[str, ...], source: str, bars: tuple[int, int] | None
+    place: Path,
+    performance: Performance,
+    player_ids: tuple[str, ...],
+    source: str,
+    bars: tuple[int, int] | None,
+    props: bool = True,
 ) -> Foreseen:
     """Return a preview of an export of some bars (None for all) into an Unreal project, given by its file or folder.
+
+    ``props`` is whether straps and chairs are written.
 
     Raises
     ------
@@ -54,7 +61,7 @@ def foresee_unreal(
         There is no project, or files of another program would be replaced.
     """
     unreal = find_project(place)
-    plan = plan_export(performance, player_ids, source, unreal, by_length=True, bars=bars)
+    plan = plan_export(performance, player_ids, source, unreal, by_length=True, bars=bars, props=props)
     return Foreseen(
         count=len(plan.written),
         replaced=tuple(shown(path.name) for path in plan.replaced),

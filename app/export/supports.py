@@ -22,6 +22,11 @@ from app.rig.supports.model import Supports
 _ROOT: Final = "root"
 
 
+def support_bones(supports: Supports) -> tuple[str, ...]:
+    """Return the names of the bones in the file of a musician's straps and chair, the root first."""
+    return (_ROOT, *(bone.name for bone in supports.bones))
+
+
 def supports_scene(
     supports: Supports,
     joints: FloatArray,

@@ -341,7 +341,7 @@ class ExportDialog(WorkingDialog):
 
     def _show_outcome(self) -> None:
         into_folder = self._place.destination == "folder"
-        self._form.setRowVisible(self._formats, into_folder)
+        self._formats.show_for(into_folder)
         self._face.set_names_shown(into_folder)
         kinds = requested(self._formats.formats) if into_folder else ()
         self._form.setRowVisible(self._bvh_names, any(kind.bones_by_name for kind in kinds))
@@ -371,7 +371,7 @@ class ExportDialog(WorkingDialog):
         performance, ids, bars = Performance(self._project), self.player_ids, self._range.bars
         place, made, source = self._place.path, self._formats, self._source
         if self._place.destination == "unreal":
-            seen = foresee_unreal(place, performance, ids, source, bars)
+            seen = foresee_unreal(place, performance, ids, source, bars, made.props)
         else:
             seen = foresee_folder(
                 place,

@@ -63,6 +63,14 @@ class FormatChooser(Retranslated, QWidget):
             layout.addWidget(box, *divmod(index, _COLUMNS), Qt.AlignmentFlag.AlignLeft)
             box.toggled.connect(self._change)
         layout.setColumnStretch(_COLUMNS, 1)
+        self._into_folder = True
+
+    def show_for(self, into_folder: bool) -> None:
+        """Show what can be chosen for a folder, or for an Unreal project, whose kinds of files are given."""
+        self._into_folder = into_folder
+        for box in (*self._boxes.values(), self._sound, self._stage, self._motion_only):
+            box.setVisible(into_folder)
+        self._enable()
 
     @property
     def formats(self) -> frozenset[Format]:
@@ -90,8 +98,11 @@ class FormatChooser(Retranslated, QWidget):
         return self._props.isChecked() and self._props.isEnabledTo(self)
 
     def _change(self) -> None:
+        self._enable()
+        self.changed.emit()
+
+    def _enable(self) -> None:
         self._motion_only.setEnabled(any(kind.without_meshes for kind in requested(self.formats)))
         holding = any("props" in kind.holds or kind.held_in for kind in requested(self.formats))
-        self._props.setEnabled(holding and not self.motion_only)
+        self._props.setEnabled(not self._into_folder or (holding and not self.motion_only))
         self._stage.setEnabled(any(kind.stage for kind in requested(self.formats)))
-        self.changed.emit()

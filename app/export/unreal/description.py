@@ -93,6 +93,8 @@ class Cast(msgspec.Struct, frozen=True):
     character: UnrealFigure
     instrument: UnrealFigure
     doubles: tuple[Double, ...]
+    props: UnrealFigure | None = None
+    """Straps and chair."""
 
 
 class CastDancer(msgspec.Struct, frozen=True):
@@ -285,6 +287,7 @@ def _cast(project: Project, musician: CastMusician, layout: Layout, contents: Ma
         )
         for one in musician.performers
     )
+    props = layout.props[player.id]
     return Cast(
         name=first.name,
         part=first.part,
@@ -295,6 +298,7 @@ def _cast(project: Project, musician: CastMusician, layout: Layout, contents: Ma
         character=_character(player, musician.target, layout, contents),
         instrument=first.instrument,
         doubles=tuple(others),
+        props=_figure(props, contents) if props.file.as_posix() in contents else None,
     )
 
 

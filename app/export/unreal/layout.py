@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Final
@@ -57,6 +57,8 @@ class Layout:
         Paths by player or dancer id; for all of them, so that names do not depend on the selection.
     instruments : mapping of str to FigurePlace
         Paths by player id.
+    props : mapping of str to FigurePlace
+        Paths of straps and chair by the musician's id, also of musicians without any.
     sound_file : path
         Sound file, relative to the folder of the piece's sources.
     sound, sequence : str
@@ -70,6 +72,7 @@ class Layout:
     piece: str
     characters: dict[str, FigurePlace]
     instruments: dict[str, FigurePlace]
+    props: dict[str, FigurePlace]
     sound_file: PurePosixPath
     sound: str
     sequence: str
@@ -92,18 +95,28 @@ class Layout:
         """Asset folder of the piece."""
         return f"{CONTENT}/{self.piece}"
 
-    def files(self, performer_ids: tuple[str, ...], left_out: tuple[str, ...] = ()) -> tuple[PurePosixPath, ...]:
+    def files(
+        self,
+        performer_ids: tuple[str, ...],
+        left_out: tuple[str, ...] = (),
+        with_props: Collection[str] = (),
+    ) -> tuple[PurePosixPath, ...]:
         """Return the sorted paths of all files that an export of the given performers writes, relative to the piece's
-        sources; the instruments of those left out are excluded."""
+        sources; the instruments of those left out are excluded, and straps and chairs of those not in
+        ``with_props``."""
         own = (PurePosixPath(name) for name in (DESCRIPTION, REPORT, MANIFEST))
         without = {self.instruments[one].file for one in left_out if one in self.instruments}
+        without |= {place.file for id, place in self.props.items() if id not in with_props}
         places = (place.file for performer_id in performer_ids for place in self.figures(performer_id))
         figures = (file for file in places if file not in without)
         return tuple(sorted([*figures, self.sound_file, *own]))
 
     def figures(self, performer_id: str) -> tuple[FigurePlace, ...]:
-        """Return the places of a performer's files: the character and, for a player, the instruments."""
-        own = (places[performer_id] for places in (self.characters, self.instruments) if performer_id in places)
+        """Return the places of a performer's files: the character and, for a player, the instruments, straps and
+        chair.
+        """
+        kinds = (self.characters, self.instruments, self.props)
+        own = (places[performer_id] for places in kinds if performer_id in places)
         return (*own, *(self.instruments[double] for double in self.doubles.get(performer_id, ())))
 
 
@@ -131,7 +144,15 @@ def layout_of(project: Project, piece: str) -> Layout:
     named = dict(zip((player.id for player in players), own, strict=True))
     held = [f"{named[project.musician(player).id]}_{asset_name(player.instrument_id, 'held')}" for player in players]
     # Dancers come last, so that a new player does not rename theirs.
-    names = numbered([*own, *held, *(asset_name(dancer.name, "Dancer") for dancer in dancers)])
+    names = numbered(
+        [
+            *own,
+            *held,
+            *(asset_name(dancer.name, "Dancer") for dancer in dancers),
+            *(f"{named[musician.id]}_props" for musician in project.bodies),
+        ]
+    )
+    props = 2 * count + len(dancers)
     content = f"{CONTENT}/{piece}"
     characters = sorted({dressed_as(one.character_id, one.outfit) for one in project.performers})
     doubling = {player.id for player in players} - {musician.id for musician in project.bodies}
@@ -154,11 +175,12 @@ def layout_of(project: Project, piece: str) -> Layout:
         characters={
             id: place
             for id, place in places(
-                "Characters", [*players, *dancers], names[:count] + names[2 * count :], own=False
+                "Characters", [*players, *dancers], names[:count] + names[2 * count : props], own=False
             ).items()
             if id not in doubling
         },
         instruments=places("Instruments", players, names[count : 2 * count]),
+        props=places("Props", project.bodies, names[props:]),
         sound_file=PurePosixPath("Audio", f"S_{piece}.wav"),
         sound=f"{content}/Audio/S_{piece}",
         sequence=f"{content}/LS_{piece}",

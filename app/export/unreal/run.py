@@ -21,13 +21,16 @@ from app.audio.track import RATE_HZ
 from app.errors import Message, StopRequested, raise_if_stopped
 from app.export.bind_pose import CENTIMETRES
 from app.export.earlier_exports import other_bars, same_music
+from app.export.figures import supports_of_musician
 from app.export.file_names import REPORT as EXPORTED_REPORT
+from app.export.file_names import with_props
 from app.export.formats import FILE_FORMATS, FileContent
 from app.export.instrument import instrument_bones
 from app.export.report import DancerReport, DoubleReport, PlayerReport, Report, encode_report
 from app.export.request import ExportCast, ExportRequest, cast_of
 from app.export.run import Progress, WordedReports, write_cast
 from app.export.sound import write_sound
+from app.export.supports import support_bones
 from app.export.targets import written_meshes
 from app.export.tree import TreeChange, files_below, recover, refuse_links_out, tree_into
 from app.export.unreal.check import Expected, check_fbx, check_wave
@@ -109,6 +112,7 @@ def plan_export(
     left_out: tuple[str, ...] = (),
     bars: tuple[int, int] | None = None,
     textures: tuple[PurePosixPath, ...] | None = None,
+    props: bool = True,
 ) -> Plan:
     """Plan the export of some performers into a project, without writing.
 
@@ -127,6 +131,8 @@ def plan_export(
     textures : tuple of path or None
         Texture files relative to the piece's sources; None if still unknown, so that the plan has none and existing
         ones stay.
+    props : bool
+        Whether straps and chairs are exported.
 
     Raises
     ------
@@ -137,7 +143,8 @@ def plan_export(
     layout = layout_of(performance.project, piece_name(source, project.folder))
     plugin = requested_plugin(project.folder)
     try:
-        done = [(layout.sources, (*layout.files(performer_ids, left_out), *(textures or ())))]
+        worn = with_props(performance) if props else frozenset[str]()
+        done = [(layout.sources, (*layout.files(performer_ids, left_out, worn), *(textures or ())))]
         if plugin:
             done.append((PurePosixPath(PLUGIN), (*plugin, PurePosixPath(MANIFEST))))
         stays = frozenset(place.file for one in left_out for place in layout.figures(one))
@@ -204,7 +211,7 @@ def export_into(
     """
     recover(project.folder, project.folder / SOURCES)
     texture_px = request.texture_px
-    # Surfaces in the files are plain: materials with textures are made of the description. It has no place for props.
+    # Surfaces in the files are plain: materials with textures are made of the description.
     shared = request.shares_materials
     request = replace(
         request,
@@ -213,13 +220,12 @@ def export_into(
         stage=False,
         texture_px=0,
         few_materials=shared,
-        props=False,
     )
     cast = cast_of(request, shown_in or wording, stop_requested)
     layout = layout_of(request.performance.project, piece_name(request.source, project.folder))
     surfaces = Surfaces(layout.content, texture_px)
     materials = {
-        place.file.as_posix(): surfaces.slots(meshes) for _, place, _, meshes in _figures_written(cast, layout)
+        place.file.as_posix(): surfaces.slots(meshes) for _, place, _, meshes in _figures_written(request, cast, layout)
     }
     left_out = tuple(one.player.id for one in cast.left_out)
     plan = plan_export(
@@ -230,6 +236,7 @@ def export_into(
         left_out=left_out,
         bars=request.bars,
         textures=surfaces.files,
+        props=request.with_props,
     )
     with tree_into(project.folder, project.folder / SOURCES) as change:
         sources = change.new / plan.layout.sources
@@ -297,6 +304,7 @@ def _figures(
     places_by_content: dict[FileContent, dict[str, FigurePlace]] = {
         "character": layout.characters,
         "instrument": layout.instruments,
+        "props": layout.props,
     }
 
     def placed(performer: Player | Dancer, written: R) -> R:
@@ -360,7 +368,7 @@ def _checked(
     """
     check_wave(sources / sound.file, RATE_HZ, sound.channels, round(sound.duration_s * RATE_HZ))
     bones: dict[str, tuple[str, ...]] = {}
-    figures = tuple(_figures_written(cast, layout))
+    figures = tuple(_figures_written(request, cast, layout))
     for index, (name, place, named, meshes) in enumerate(figures):
         raise_if_stopped(stop_requested)
         file = place.file.as_posix()
@@ -372,9 +380,11 @@ def _checked(
 
 
 def _figures_written(
-    cast: ExportCast, layout: Layout
+    request: ExportRequest, cast: ExportCast, layout: Layout
 ) -> Iterator[tuple[str, FigurePlace, tuple[str, ...], tuple[Mesh, ...]]]:
-    """Yield every character and instrument: the performer's name, the paths, the names of the bones, and the meshes."""
+    """Yield every character and instrument, and all straps and chairs: the performer's name, the paths, the names of
+    the bones, and the meshes.
+    """
     for musician in cast.musicians:
         player, target = musician.player, musician.target
         meshes = written_meshes(musician.character, target)
@@ -382,6 +392,9 @@ def _figures_written(
         for one in musician.performers:
             parts = tuple(bone.name for bone in instrument_bones(one.instrument, one.model))
             yield player.name, layout.instruments[one.player.id], parts, one.model.meshes
+        supports = supports_of_musician(request, musician)
+        if supports is not None:
+            yield player.name, layout.props[player.id], support_bones(supports), supports.meshes
     for dancer in cast.dancers:
         meshes = written_meshes(dancer.character, dancer.target)
         yield dancer.dancer.name, layout.characters[dancer.dancer.id], tuple(dancer.target.names), meshes

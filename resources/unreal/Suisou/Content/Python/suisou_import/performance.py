@@ -36,10 +36,15 @@ ON_SOCKET = Place(0.0, 0.0, 0.0, 0.0, -90.0)
 is imported as an asset of its own to Z up."""
 
 
+AT_ACTOR = Place(0.0, 0.0, 0.0, 0.0)
+ON_ACTOR = "None"
+"""The ``socket`` of a figure that hangs on another actor as a whole: Unreal's name of no bone."""
+
+
 class Figure(NamedTuple):
     """A skeletal mesh and what it does. ``mesh``, ``skeleton`` and ``animation`` are paths of assets; what hangs on a
-    bone, the ``socket``, of another figure has the animation of that as its ``holder``. ``materials`` are those with
-    textures, by the names of their slots."""
+    bone, the ``socket``, of another figure, or on all of it, has the animation of that as its ``holder``.
+    ``materials`` are those with textures, by the names of their slots."""
 
     name: str
     file: str
@@ -214,6 +219,12 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
                 ("{} ({})".format(player["name"], double["instrument_id"]), double["instrument"])
                 for double in player.get("doubles", ())
             ),
+            # They are in the player's space, and go where the player's actor goes.
+            *(
+                ("{} (props)".format(player["name"]), {**worn, "socket": ON_ACTOR})
+                for worn in (player.get("props"),)
+                if worn is not None
+            ),
         )
     ]
     # Of an export of an earlier Suisou there are none.
@@ -284,7 +295,7 @@ def _figure(name: str, content: dict[str, Any], place: dict[str, Any], holder: d
     return Figure(
         name=name,
         file=_matching(_FILE, content["file"]),
-        place=ON_SOCKET if socket else stands,
+        place=(AT_ACTOR if socket == ON_ACTOR else ON_SOCKET) if socket else stands,
         bones=tuple(str(bone) for bone in content["bones"]),
         mesh=_matching(_ASSET, content["mesh"]),
         skeleton=_matching(_ASSET, content["skeleton"]),
