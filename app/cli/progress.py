@@ -1,10 +1,10 @@
-"""A line with the progress of work on a terminal; nothing is printed elsewhere."""
+"""A line with the progress of work on a terminal; elsewhere a line for each grip that is computed."""
 
 from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from app.project.performers import Player
 
 from app.cli.speech import said
+from app.cli.terminal import say
 from app.cli.widths import cut, on_left, width
 from app.encoding import shown
 
@@ -52,10 +53,45 @@ class Progress:
 
 def find_holds(performance: Performance, players: Iterable[Player]) -> None:
     """Compute the grips of players on their instruments that are not known yet. This takes seconds for each, and
-    minutes for an instrument that can hardly be held; progress is printed on standard error.
+    minutes for an instrument that can hardly be held; progress is printed on standard error: on a terminal as a line
+    that is overwritten, elsewhere as a line for each grip whose computation begins.
     """
+    chosen = {player.id for player in players}
+    unheld = [player for player in performance.unheld if player.id in chosen]
     progress = Progress(sys.stderr)
     try:
-        performance.hold(progress=lambda share: progress(share, said("cli.finding_grips")), players=players)
+        for number, player in enumerate(unheld):
+            announced = _announcement(player, number + 1, len(unheld), sys.stderr)
+
+            def reported(share: float, before: int = number, announced: Callable[[float], None] = announced) -> None:
+                announced(share)
+                progress((before + share) / len(unheld), said("cli.finding_grips"))
+
+            performance.hold(progress=reported, players=[player])
     finally:
         progress.clear()
+
+
+def _announcement(player: Player, number: int, count: int, stream: TextIO) -> Callable[[float], None]:
+    """Return a function that is called with the completed share of a player's grip, and prints one line about it.
+
+    Nothing is printed on a terminal, nor for a grip that is stored already, which is never partly done.
+    """
+    printed = stream.isatty()
+
+    def announced(share: float) -> None:
+        nonlocal printed
+        if printed or share <= 0.0:
+            return
+        printed = True
+        line = said(
+            "cli.finding_grip_of",
+            player=player.name,
+            character=player.character_id,
+            instrument=player.instrument_id,
+            number=number,
+            count=count,
+        )
+        say(line, stream=stream)
+
+    return announced

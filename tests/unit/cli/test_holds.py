@@ -15,6 +15,7 @@ import msgspec
 import pytest
 
 from app.cli import main
+from app.cli.progress import find_holds
 from app.cli.status import STOPPED
 from app.identity_cache import IdentityCache
 from app.performance import bodies, ensemble
@@ -31,6 +32,7 @@ from instrument_maps.library import model_path
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
+from tests.gui.conftest import quartet_project
 from tests.support.bodies import playing
 from tests.unit.cli.test_main import QUARTET
 
@@ -75,6 +77,36 @@ def test_the_search_shows_progress_and_ends_at_ctrl_c(
     assert searched == [first]
     assert "0 %  how the instruments are held" in terminal.getvalue()
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("stream", [io.StringIO(), Terminal()], ids=["file", "terminal"])
+def test_without_a_terminal_a_line_names_each_grip_that_is_computed_and_none_that_is_stored(
+    stream: io.StringIO, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stored: set[str] = {"Trumpet 2"}
+    lines_before: dict[str, str] = {}
+
+    def held(player: Player, instrument: InstrumentMap, progress: Callable[[float], None]) -> None:
+        if player.name not in stored:
+            for share in (0.0, 0.3, 0.6):
+                progress(share)
+        lines_before[player.name] = stream.getvalue()
+
+    performance = ensemble.Performance(quartet_project())
+    monkeypatch.setattr(ensemble, "is_held", lambda player, instrument: player.name == "Trombone 2")
+    monkeypatch.setattr(ensemble, "hold_now", held)
+    monkeypatch.setattr(sys, "stderr", stream)
+    find_holds(performance, performance.project.players)
+    assert [*lines_before] == ["Trumpet 1", "Trumpet 2", "Trombone 1"]
+    if stream.isatty():
+        assert "\n" not in stream.getvalue()
+        return
+    lines = stream.getvalue().splitlines()
+    assert [(line.split(" (")[0].rpartition("how ")[2], line.partition("; ")[0][-6:]) for line in lines] == [
+        ("Trumpet 1", "1 of 3"),
+        ("Trombone 1", "3 of 3"),
+    ]
+    assert lines_before["Trumpet 1"].count("\n") == 1, "said while it is being computed"
 
 
 def off_by_20_mm(character: Any, model: Any, instrument: Any, body: Any, progress: Any) -> GripPose:
