@@ -105,7 +105,9 @@ def in_world(instrument: Scene, character: Scene, socket: str) -> Scene:
 
 
 def without_place(scene: Scene, place: NodePlace | None) -> Scene:
-    """Return a scene moved from its place on the stage to the origin."""
+    """Return a scene on the stage with its motion moved back from the performer's place to the origin; unchanged
+    without a place.
+    """
     if place is None or scene.clip is None:
         return scene
     back = quaternion.conjugate(place.rotation_xyzw)
@@ -114,8 +116,10 @@ def without_place(scene: Scene, place: NodePlace | None) -> Scene:
 
 
 def _carried(scene: Scene, path: Trajectory) -> Scene:
-    """Return a scene with the motion of its root bone relative to a moving object, whose trajectory is ``path``,
-    converted to the object's surroundings.
+    """Return a scene, given relative to a moving object, with its root bone's motion in the space in which the object
+    moves.
+
+    ``path`` is the object's trajectory.
     """
     clip = scene.clip
     assert clip is not None

@@ -46,6 +46,7 @@ class ExportedPlayer(msgspec.Struct, frozen=True):
     Attributes
     ----------
     report : PlayerReport
+        Report on the musician's files.
     problems : dict of str to tuple of Problem
         Problems by the id of each of the musician's players.
     torso_rad : tuple of (float, float) or None
@@ -204,7 +205,11 @@ def read_again(row: FileFormat, path: Path, written: Scene, in_file: bool) -> Sc
 
 
 def _counted(scenes: Mapping[tuple[FileContent, bool], Scene]) -> Iterable[Scene]:
-    """Return the scenes whose keys are counted: of a character only the first scene."""
+    """Return the scenes whose keys are counted: the first scene of each content, if a character is written on two
+    skeletons.
+
+    The keys of ``scenes`` are the content, and whether the scene has the humanoid skeleton of VRM.
+    """
     return {held: scene for (held, _), scene in reversed([*scenes.items()])}.values()
 
 

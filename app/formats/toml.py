@@ -146,7 +146,11 @@ def _deepest(text: str) -> int:
 
 
 def _not_allowed(table: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    """Yield unsupported values by key path, without recursion, since tables may be nested to any depth."""
+    """Yield key path and description of each value that tables must not have: numbers that are not finite or too large,
+    and tables nested too deeply.
+
+    Works without recursion.
+    """
     pending: list[tuple[tuple[str | int, ...], Any]] = [((), table)]
     while pending:
         keys, value = pending.pop()

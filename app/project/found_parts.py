@@ -222,6 +222,8 @@ def _same_notes(
         Indices in ``was`` of those notes that were in the file.
     was, now : sequence of Note
         Notes of the part in the project and in the file.
+    scale : Fraction
+        Ticks of the file per tick of the project.
     """
     if len(places) != len(now):
         return None

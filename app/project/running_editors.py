@@ -159,7 +159,17 @@ def forget(folder: Path, token: str) -> None:
 
 
 def is_open_elsewhere(document: Path, folder: Path, own_token: str = "") -> bool:
-    """Return whether another running editor has this project file open."""
+    """Return whether another running editor has this project file open.
+
+    Parameters
+    ----------
+    document : Path
+        The project file.
+    folder : Path
+        Folder with the records of running editors.
+    own_token : str
+        Token of this editor, which is not counted.
+    """
     requested = os.path.realpath(document)
     return any(
         alive

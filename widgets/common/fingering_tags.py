@@ -31,7 +31,7 @@ def tag_words() -> dict[str, str]:
 
 
 def words_of_tags(tags: Iterable[str]) -> list[str]:
-    """Return tags in words; the user's own tags are unchanged."""
+    """Return fingering tags as translated words; tags made by the user are unchanged."""
     words = tag_words()
     return [words.get(tag, tag) for tag in tags]
 

@@ -103,7 +103,9 @@ def player_pitch(session: Session, pitch: float, player: Player | None) -> str:
 
 
 def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -> str:
-    """Return an anchor as text: a note id as a note, an event id as kind and place, other names unchanged."""
+    """Return an anchor as text: a note id as a note, an event id as kind and place, other names unchanged. A note id
+    without a note becomes "deleted note" if ``is_anchor``.
+    """
     note = note_of(session.project.score, id, player.part_id if player is not None else None)
     if note is not None:
         return note_text(session, note, player)
@@ -138,7 +140,10 @@ _NOTE_ID = re.compile(r"\d+:\d+")
 
 
 def _label(kind: str, name: str) -> str:
-    """Return the translated name of a correction of a kind; ``name`` is the user's name for it."""
+    """Return the subject of a correction as text: the translated name of a channel, pose, style, gesture or expression.
+
+    Names made by the user stay.
+    """
     if kind == "additive":
         return channel_name(name)
     if kind == "pose":

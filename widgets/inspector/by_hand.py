@@ -15,7 +15,10 @@ from widgets.common.plain import Label
 
 
 class ByHandLine(QWidget):
-    """``generated 0 · yours 2·3 ⟲``; hidden if nothing was changed by hand.
+    """Line with the generated value, the user's value and a button that restores the generated one: ``generated 0 ·
+    yours 2·3 ⟲``.
+
+    It is hidden if the user changed nothing.
 
     Signals
     -------

@@ -22,7 +22,7 @@ class LaneHeader(QWidget):
     Signals
     -------
     double_clicked()
-        On the title, or where there is nothing else.
+        The user double-clicked the title, or a place of the header without a control.
     """
 
     double_clicked = Signal()

@@ -70,7 +70,7 @@ def _program(name: str) -> Any:
 
 
 class Renderer:
-    """Draws stages into the current GL context."""
+    """Draws the performers of a `Stage` with OpenGL into the current context."""
 
     def __init__(self) -> None:
         self._figures, self._batch = _program("figure"), _program("figure")

@@ -133,6 +133,7 @@ class GltfNode:
     translation : ndarray, shape (3,)
         Translation relative to the parent.
     rotation_xyzw : ndarray, shape (4,)
+        Rotation relative to the parent.
     scale : ndarray, shape (3,)
         Scale.
     """

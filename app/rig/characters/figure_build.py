@@ -253,8 +253,9 @@ def _unheld(part: FigurePart, file: str) -> Message | None:
 
 
 def _at_rest(part: FigurePart, above: Sequence[int]) -> Mesh:
-    """Return the mesh with its vertices in world space at rest. ``above`` is the bone of each node, to which the joints
-    are converted.
+    """Return the mesh of a figure's part with its vertices in world space at rest.
+
+    ``above`` has the bone of each node of the file; the indices in `Mesh.joints` of the result are these bones.
     """
     mesh = part.mesh
     weights = np.maximum(mesh.weights.astype(np.float64), 0.0)

@@ -312,8 +312,8 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
 
 
 def _covered(skin: _Skin, front: IndexArray, head: _Head) -> int:
-    """Return over how much height below the eyes vertices lie in front of the head's joint, in steps of the size of a
-    landmark.
+    """Return the number of height steps, each as high as a landmark's patch, in which vertices below the eyes lie in
+    front of the head's joint.
     """
     at = skin.positions[front]
     eyes_m = head.place[1] + 0.3 * HEAD_M * head.size if head.eyes_m is None else head.eyes_m

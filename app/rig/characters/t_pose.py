@@ -182,7 +182,7 @@ def turns_to_t_pose(figure: Figure, rest: Rest, bones: Mapping[str, int]) -> dic
 
 
 class _Pose:
-    """Reads directions off a figure at rest."""
+    """Directions of the limbs of a figure at rest, from which its rotations to the T-pose follow."""
 
     def __init__(self, figure: Figure, rest: Rest, bones: Mapping[str, int]) -> None:
         self._rest, self._bones = rest, bones

@@ -346,8 +346,10 @@ def hand_targets(
 
 
 def giving_for(finger: str) -> str:
-    """Return the name under which ``placed`` has the motion of a hand's offset for a finger; without it, the hand moves
-    with the finger.
+    """Return the key under which the mapping ``placed`` of `hand_targets` has the motion of a wrist offset made for a
+    finger.
+
+    Without such an entry, the wrist moves together with the finger.
     """
     return f"{finger}.hand"
 

@@ -126,8 +126,8 @@ def _slab(
 ) -> SurfaceStrip:
     """Return the surface of a rounded rectangular body.
 
-    ``profile`` has (inset, height) of its outlines, from below to above; an inset of 0.4 m or more stands for the
-    middle. ``half`` and ``deep`` are half its width and half its depth.
+    ``profile`` has (inset, height) of its outlines, from below to above; an inset of 0.4 m or more contracts the
+    outline to a point in the middle. ``half`` and ``deep`` are half its width and half its depth.
     """
     rings = []
     for inset, height in profile:

@@ -37,7 +37,7 @@ class RowLane(Lane):
 
     @property
     def rows_rect(self) -> QRectF:
-        """The room of the rows, pixels of the plot."""
+        """Return the rectangle of the rows in pixels of the plot."""
         return self.plot_rect.adjusted(0.0, self.strip_px, 0.0, 0.0)
 
     @property

@@ -192,7 +192,9 @@ class PianoRoll(Lane):
     # Pitch
 
     def show_legibly(self) -> None:
-        """Show the active player's notes in the visible time range, or all of them, at a legible size."""
+        """Show the active player's notes in the visible time range, or else all of them, at a size at which they can be
+        read.
+        """
         self._pitches_chosen = False
         front = self.model.front()
         if front is None or not len(front[0]):

@@ -126,7 +126,7 @@ def _lean_problem(
 ) -> HandProblem:
     """Return the least-squares problem of a hand whose finger ``number`` is at a station while the others stay at home.
 
-    The wrist is kept near that in the parameters ``x``; ``eased`` relaxes this.
+    The wrist is kept near that in the parameters ``x``; ``eased`` relaxes the contacts of the station.
     """
     instrument, hand = scene.instrument_map, problem.hand
     chosen = [station if n == number else places[0] for n, places in enumerate(problem.stations) if places]

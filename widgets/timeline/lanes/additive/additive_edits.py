@@ -257,7 +257,7 @@ class CurveEditing(Lane):
 
     def key(self, event: QKeyEvent) -> bool:
         """Handle keys: arrows move the selected keys (with Shift finely), Delete removes them, Enter edits their value,
-        Ctrl+C and Ctrl+V copy and insert at the playhead, Ctrl+A selects all, Escape none.
+        Ctrl+C and Ctrl+V copy and insert at the playhead, Ctrl+A selects all, Escape deselects.
         """
         if not self.claims(event):
             return False

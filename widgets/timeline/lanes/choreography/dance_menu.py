@@ -44,7 +44,7 @@ class DanceMenu(QMenu):
     Parameters
     ----------
     number : int
-        Of the step.
+        Index of the step in its dance.
     """
 
     def __init__(self, lane: Dances, dancer_id: str, number: int, parent: QWidget) -> None:

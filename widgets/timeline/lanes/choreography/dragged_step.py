@@ -20,8 +20,9 @@ class MoveStep(MouseGesture):
     Attributes
     ----------
     dancer_id : str
+        Id of the dancer.
     number : int
-        Of the step.
+        Index of the step in the dance.
     tick : int or None
         Tick of the accent if released now; None before the mouse has moved far enough.
     """

@@ -64,7 +64,7 @@ def paint_doubts(lane: Lane, painter: QPainter, exposed: QRectF) -> None:
 
 
 class Anchors:
-    """Handles of a lane, which are dragged or moved by keys.
+    """Handles of bar lines and beats in the recording's lane, which are dragged or moved by keys.
 
     Attributes
     ----------

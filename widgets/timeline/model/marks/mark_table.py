@@ -30,6 +30,7 @@ class MarkList:
     Attributes
     ----------
     marks : list of Mark
+        The marks.
     by_hand : array (N,)
         Whether the user wrote each mark.
     by_id : dict of str to int

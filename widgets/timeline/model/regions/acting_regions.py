@@ -68,7 +68,7 @@ def packed_group(members: Sequence[Region], clock: TempoMap) -> tuple[list[int],
 
 
 def entry_near(onset_ticks: FloatArray, near_tick: float, clock: TempoMap, reach_s: float) -> int | None:
-    """Return the onset nearest to a tick, if it is within ``reach_s`` seconds."""
+    """Return the tick of the onset nearest to ``near_tick``; None if it is more than ``reach_s`` seconds away."""
     if not len(onset_ticks):
         return None
     nearest = float(onset_ticks[np.argmin(np.abs(onset_ticks - near_tick))])

@@ -52,7 +52,9 @@ def region_box(region: Region, scale: Scale, row: tuple[float, float]) -> PixelR
 
 
 def fade_handles(region: Region, box: PixelRect, scale: Scale) -> tuple[Handle, Handle]:
-    """Names and positions (x, y in pixels) of the handles by which fade-in and fade-out of a region are dragged."""
+    """Return names and positions (x, y in pixels) of the two handles by which fade-in and fade-out of a region are
+    dragged.
+    """
     fade_in, fade_out = region.fade_in_s * scale.px_per_s, region.fade_out_s * scale.px_per_s
     if region.fades_outside:
         y = box.bottom - HANDLE_PX

@@ -20,6 +20,7 @@ class TimedNotes:
     Parameters
     ----------
     onset_s, end_s, pitch : array (N,)
+        Onset and end in seconds, and pitch, of each of N notes.
     """
 
     def __init__(self, onset_s: FloatArray, end_s: FloatArray, pitch: FloatArray) -> None:
