@@ -38,6 +38,8 @@ LEAST_AIR_S: Final = 0.22
 """Shortest time in the air in seconds."""
 SAME_FOOT_S: Final = 0.55
 """Least time in seconds between two landings of a foot; an earlier step is taken by the other foot."""
+MOST_LEAD: Final = 2
+"""Number of steps that a foot may have made more than the other one; further ones are taken by the other foot."""
 HEEL_S: Final = 0.5
 """Longest time in seconds for which heel or toes are raised."""
 LIFT_SHARE: Final = 0.75
@@ -193,9 +195,10 @@ def _stepped(
     far_m = np.quantile(np.abs([step.place_m for step in steps]), USUAL, axis=0)
     rows: list[_Row] = []
     last_s = {0: -np.inf, 1: -np.inf}
+    made = [0, 0]
     for place, step in zip(sorted(chosen), steps, strict=True):
         lands_s = float(places_s[place])
-        if lands_s - last_s[step.foot] < SAME_FOOT_S:
+        if lands_s - last_s[step.foot] < SAME_FOOT_S or made[step.foot] - made[1 - step.foot] >= MOST_LEAD:
             step = step.other()
         air_s = min(AIR_S, AIR_SHARE * (lands_s - max(last_s.values())))
         if air_s < LEAST_AIR_S or lands_s - last_s[step.foot] < SAME_FOOT_S:
@@ -203,6 +206,7 @@ def _stepped(
         size = (LEAST_SIZE + (1.0 - LEAST_SIZE) * min(1.0, step.way_m / usual_m)) * min(1.0, (air_s / AIR_S) ** 2)
         rows.append(_Row(step.foot, "step", lands_s - air_s, lands_s, size, _near(step, far_m)))
         last_s[step.foot] = lands_s
+        made[step.foot] += 1
     return rows
 
 
@@ -248,6 +252,7 @@ def _with_marks(
     rows, lands_s = list(stepped), np.array([row.lands_s for row in stepped])
     apart_s = float(np.median(np.diff(rhythm.beats_s)))
     last_phrase, foot = -1, 0
+    made = {"heel": [0, 0], "toes": [0, 0]}
     for place, time_s in enumerate(places_s.tolist()):
         if not marked[place] or not danced_s[0] <= time_s <= danced_s[1]:
             continue
@@ -258,15 +263,18 @@ def _with_marks(
         if min(before_s, after_s) < 0.99 * apart_s:
             continue
         phrase = _phrase(time_s, rhythm)
-        toes = chance("marked beats", seed, phrase) < TOES_CHANCE
+        kind: MoveKind = "toes" if chance("marked beats", seed, phrase) < TOES_CHANCE else "heel"
+        own = made[kind]
         if phrase != last_phrase:
-            last_phrase, foot = phrase, int(chance("marking foot", seed, phrase) < 0.5)
-        elif not toes:
+            first = int(chance("marking foot", seed, phrase) < 0.5)
+            last_phrase, foot = phrase, first if own[0] == own[1] else int(own[1] < own[0])
+        elif kind == "heel" or own[foot] - own[1 - foot] >= MOST_LEAD:
             foot = 1 - foot
         up_s = min(HEEL_S, LIFT_SHARE * apart_s)
         if after_s < 1.5 * apart_s:
             # The other foot is about to step.
             foot = 1 - stepped[near].foot
         place_m = next((row.place_m for row in reversed(stepped[:near]) if row.foot == foot), (0.0, 0.0))
-        rows.append(_Row(foot, "toes" if toes else "heel", time_s - up_s, time_s, 1.0, place_m))
+        rows.append(_Row(foot, kind, time_s - up_s, time_s, 1.0, place_m))
+        own[foot] += 1
     return sorted(rows, key=lambda row: row.lands_s)

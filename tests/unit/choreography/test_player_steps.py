@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 
@@ -10,7 +11,7 @@ import pytest
 
 from app.choreography.dance import Dance, Manner
 from app.choreography.performed.choreographers import choreographer_of
-from app.choreography.player_steps import AHEAD_M, HEARD_S, IN_M, OUT_M, danced_feet
+from app.choreography.player_steps import AHEAD_M, HEARD_S, IN_M, MOST_LEAD, OUT_M, danced_feet
 from app.choreography.rhythm import Rhythm
 from app.motion.gestures.danced_feet import MOVE_KINDS, DancedFeet
 
@@ -51,6 +52,18 @@ def test_feet_land_on_the_beat_one_at_a_time(tempo: float) -> None:
     seconds = BEATS * beat_s
     assert steps.sum() > 0.6 * seconds
     assert 0.25 < feet.sides[steps].mean() < 0.75
+
+
+@pytest.mark.parametrize("tempo", TEMPI)
+def test_both_feet_step_alike_often_at_any_time_of_a_dance_that_prefers_one(tempo: float) -> None:
+    """A dancer whose left foot always steps farther leaves a player's right one no post."""
+    farther = [one for one in dance(tempo).standing if one.foot == 0 or one.start == 0]
+    feet = danced_feet(replace(dance(tempo), standing=tuple(farther)), rhythm_of(tempo), 1, 1.0)
+    for whole in (feet, made(tempo)):
+        sides = whole.sides[whole.kinds == MOVE_KINDS.index("step")]
+        leads = np.cumsum(np.where(sides == 0, 1, -1))
+        assert len(sides) > 10
+        assert np.abs(leads).max() <= MOST_LEAD
 
 
 @pytest.mark.parametrize("tempo", TEMPI)
