@@ -161,7 +161,7 @@ class StoredSettings(QObject):
         return tuple(value for value in vars(cls).values() if isinstance(value, Setting))
 
     def stored(self, keys: tuple[str, str]) -> object:
-        """Return the stored value of a setting by its section and name; None if none is stored."""
+        """Return the stored value of a setting by its section and name (``keys``); None if none is stored."""
         section, name = keys
         values = self._table.get(section)
         return values if not name else values.get(name) if isinstance(values, dict) else None

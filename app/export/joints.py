@@ -90,7 +90,7 @@ def anatomical_angles(turns: FloatArray, axes: FloatArray) -> FloatArray:
     turns : (4, J, F) float64
         Unit quaternions xyzw.
     axes : (J, 3, 3) float64
-        Orthogonal unit axes of each joint for flexion, sideways bend and twist (`metadata.model.JointAxes`).
+        Orthogonal unit axes of each joint for flexion, sideways bend and twist (`metadata.skeleton_profile.JointAxes`).
 
     Returns
     -------

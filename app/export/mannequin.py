@@ -80,7 +80,7 @@ _STRAIGHT: Final = ("root", "foot_l", "foot_r")
 
 @dataclass(frozen=True, eq=False)
 class MannequinAxes:
-    """Rotations of an asset's bones by name.
+    """Rotations of the bones of an Unreal asset, by name of the bone.
 
     Attributes
     ----------
@@ -163,7 +163,10 @@ def mannequin_target(skeleton: Skeleton, asset: MannequinAxes | None = None) -> 
 def _with_added(
     target: TargetSkeleton, skeleton: Skeleton, places: FloatArray, turned: FloatArray, asset: MannequinAxes
 ) -> TargetSkeleton:
-    """Return the target with bones for those joints of the character that the mannequin lacks."""
+    """Return the target with bones for those joints of the character that the mannequin lacks.
+
+    ``places`` and ``turned`` are positions and rotations of the target's bones in the world.
+    """
     added = [bone for bone in _ADDED if bone.joint in skeleton.names]
     if not added:
         return target
@@ -221,7 +224,10 @@ def _axes(bone: _Bone) -> FloatArray:
 
 
 def _conventional(places: FloatArray, tied: Mapping[int, int]) -> FloatArray:
-    """Return the world rotations (B, 4) of B bones in the T-pose with the mannequin's conventional axes."""
+    """Return the world rotations (B, 4) of B bones in the T-pose with the mannequin's conventional axes.
+
+    ``places`` (B, 3) are their positions, ``tied`` has the earlier bone with which a bone coincides.
+    """
     names = tuple(MANNEQUIN)
     turned = np.tile(quaternion.IDENTITY, (len(_BONES), 1))
     for index, bone in enumerate(_BONES):

@@ -161,6 +161,21 @@ def _add_keys(
     """Determine the keys to add because a bound is violated: at the worst frame of each run of violations, or at all
     frames.
 
+    Parameters
+    ----------
+    kept : (N, F) bool
+        Present keys of the moving bones.
+    added : (N, F) bool
+        Set to True at the keys to add.
+    spans : KeySpans
+        Spans between the present keys.
+    frames : (f,) int
+        Frames to check.
+    shared : bool
+        Whether all bones have keys at the same frames.
+    all_frames : bool
+        Whether to add a key at every frame of a violation.
+
     Returns
     -------
     ndarray of bool, shape (f,)

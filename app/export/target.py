@@ -298,7 +298,7 @@ def _bones(
 
 def _over_floor(rest: _Placed, hips: _Placed) -> _Placed:
     """Return the transform of a root bone that moves along below the hips on the floor, rotated with them about the
-    vertical axis.
+    vertical axis; ``rest`` is its transform at rest.
     """
     _, heading = quaternion.swing_twist(hips[1], np.array([0.0, 1.0, 0.0]))
     below = hips[0] * np.array([1.0, 0.0, 1.0])

@@ -253,7 +253,10 @@ def _fitted(
 
 
 def _spans(kept: BoolArray) -> tuple[IntArray, IntArray, IntArray]:
-    """Return the curve index, first frame and length (S,) of all S spans between two keys of a curve."""
+    """Return the curve index, first frame and length (S,) of all S spans between two keys of a curve.
+
+    ``kept`` (L, F) marks the keys of L curves.
+    """
     lanes, frames = np.nonzero(kept)
     same = np.flatnonzero(lanes[1:] == lanes[:-1])
     return lanes[same], frames[same], frames[same + 1] - frames[same]

@@ -32,7 +32,7 @@ def read_by_child(module: str, limits: str, data: bytes, file: str, *arguments: 
     Returns
     -------
     int
-        Exit status: 0, or one of the constants above; `NO_MEMORY` also if the child exceeded a limit.
+        Exit status: 0, or one of the constants of this module; `NO_MEMORY` also if the child exceeded a limit.
     bytes
         Output of the process.
 

@@ -83,7 +83,7 @@ def _moved_keys(
     keys: tuple[CurveKey, ...], place: Callable[[int], int] | None, scale: Fraction
 ) -> tuple[CurveKey, ...]:
     """Return the keys of a curve moved to the ticks given by ``place``, in ascending order; keys that would coincide
-    move apart by one tick.
+    move apart by one tick. Lengths of handles are multiplied by ``scale``.
     """
     result: list[CurveKey] = []
     for key in keys:
@@ -106,7 +106,9 @@ def correction_span(correction: Correction | DanceCorrection) -> int:
 
 
 def _renamed(text: str, note_ids: Mapping[str, str], place: Callable[[int], int] | None) -> str:
-    """Return a note id, or an event id that ends with a note or tick, after notes were renamed and ticks moved."""
+    """Return a note id, or an event id that ends with a note or tick, after notes were renamed (``note_ids``) and ticks
+    moved (``place``).
+    """
     note = _NOTE.search(text)
     if note is not None:
         return text[: note.start()] + note_ids.get(note.group(), note.group())

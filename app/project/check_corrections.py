@@ -80,7 +80,9 @@ def _mark_faults(correction: OfMark) -> Iterator[Fault]:
 
 
 def _place(project: Project, correction: Correction, place: str) -> str:
-    """Return the bar of a fault, and kind and name of its correction, as text for a message."""
+    """Return the bar of a fault, and kind and name of its correction, as text for a message; ``place`` is the
+    key path.
+    """
     name, score = _name(correction), project.score
     named = f"{correction.tag} {name!r}" if name else correction.tag
     tick = _tick(project, correction, place)

@@ -64,7 +64,9 @@ def stored_faults(project: Project, before: Project | None = None) -> Iterator[F
 
 
 def unit_faults(value: Any, kind: Any, place: str) -> Iterator[Fault]:
-    """Return the faults of one value that must be restored from a file as this type."""
+    """Yield the faults of a value that must be restored unchanged from a file as the type ``kind``; ``place`` is its
+    key path.
+    """
     value = _as_stored(value)
     try:
         decoder = _decoder(kind)

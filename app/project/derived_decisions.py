@@ -149,7 +149,15 @@ def _row(
     choices: Sequence[MapChoice],
     unchanged: bool,
 ) -> RowDecision:
-    """Return the import decision by which the given channels of a file become the given parts."""
+    """Return the import decision by which the given channels of a file become the given parts.
+
+    Parameters
+    ----------
+    marks : sequence of TrackMark
+        Marks that identify the tracks of the parts.
+    unchanged : bool
+        Whether the file is unchanged since its notes were read.
+    """
     first, *_ = parts
     by_id = {choice.map_id: choice for choice in choices}
     own = by_id.get(first.map_id)
@@ -190,7 +198,9 @@ def _alike(project: Project, old: Sequence[Part], new: Sequence[Part], quarter: 
 
 
 def _same_lengths(one: Part, other: Part, one_quarter: int, other_quarter: int) -> float:
-    """Return the share 0..1 of notes with equal length in two parts; 0 if these have different numbers of notes."""
+    """Return the share 0..1 of notes with equal length in two parts; 0 if these have different numbers of notes. A
+    quarter has ``one_quarter`` and ``other_quarter`` ticks.
+    """
     if len(one.notes) != len(other.notes) or not one.notes:
         return 0.0
     lengths = zip(one.notes, other.notes, strict=True)

@@ -334,7 +334,19 @@ def _renamed(part: Part, part_id: str, note_ids: Sequence[str]) -> Part:
 def _drawn(
     before: Part, kept: frozenset[str], place: Callable[[int], int], scale: Fraction, part: Part
 ) -> tuple[Note, ...]:
-    """Return notes that the user added to a part, at their new ticks, as far as they fit between the file's notes."""
+    """Return notes that the user added to a part, at their new ticks, as far as they fit between the file's notes.
+
+    Parameters
+    ----------
+    before, part : Part
+        The part in the project and in the file.
+    kept : frozenset of str
+        Ids of notes that are in the part already.
+    place : callable
+        Function from old to new ticks.
+    scale : Fraction
+        Ticks of the file per tick of the project, for lengths.
+    """
     ends = np.maximum.accumulate(np.array([0, *(note.end_tick for note in part.notes)]))
     onsets = [note.onset_tick for note in part.notes]
     result = []

@@ -62,7 +62,9 @@ def keeping(found: FoundParts, project: Project, ids: Collection[str], scale: Fr
 
 
 def read_curves_of(project: Project, found: FoundParts, scale: Fraction) -> dict[str, tuple[ControllerCurve, ...]]:
-    """Return the controllers in the file by part id; for kept parts, those of the previous reading."""
+    """Return the controllers in the file by part id; for kept parts, those of the previous reading, whose ticks are
+    multiplied by ``scale``.
+    """
     place = place_map((), scale)
     result = {part.id: part.curves for part in found.parts if part.id not in found.kept}
     for id in found.kept & project.read_curves.keys():
@@ -87,7 +89,10 @@ def moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fraction
 
 
 def _as_here(former: Part, part: Part, place: Callable[[int], int], scale: Fraction) -> Part:
-    """Return a part of the project with its ticks converted to those of the file, at the file's track and channel."""
+    """Return a part of the project with its ticks converted to those of the file, at the file's track and channel.
+
+    ``former`` is the part in the project, ``part`` that in the file; ``place`` and ``scale`` as in `moved_part`.
+    """
     here = moved_part(former, former.id, place, scale)
     return msgspec.structs.replace(here, track=part.track, channel=part.channel, voice=part.voice)
 

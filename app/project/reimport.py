@@ -227,6 +227,9 @@ def _with_curves(
 ) -> tuple[list[Part], tuple[ReplacedKind, ...]]:
     """Return the matched parts with controllers that were edited only in the project, and the kinds of those replaced
     by the file's.
+
+    ``everywhere`` converts ticks where no note has moved, ``scale`` is the number of the file's ticks per tick of the
+    project.
     """
     parts = list(found.parts)
     replaced = False

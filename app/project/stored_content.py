@@ -235,7 +235,10 @@ def _converted(raw: Any, type_: Any, prefix: str, file: str) -> Any:
 
 
 def _unknown(raw: Any, known: Any, place: str) -> Iterator[str]:
-    """Yield the key paths of a stored file that this version does not support."""
+    """Yield the key paths in the content ``raw`` of a file that this version does not support.
+
+    ``known`` is the same content after decoding and encoding, ``place`` the key path of both.
+    """
     if isinstance(raw, dict) and isinstance(known, dict):
         for key, value in raw.items():
             if key not in known:

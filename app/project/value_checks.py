@@ -53,7 +53,7 @@ def faults_of_bounds(place: str, value: float, bounds: Bounds) -> Iterator[Fault
 
 
 def in_order(place: str, ticks: Sequence[int]) -> Iterator[Fault]:
-    """Yield a fault if ticks do not begin with 0, do not ascend, or are too large."""
+    """Yield a fault at the key path ``place`` if ticks do not begin with 0, do not ascend, or are too large."""
     if not ticks:
         yield place, "must not be empty"
         return
@@ -68,7 +68,10 @@ def in_order(place: str, ticks: Sequence[int]) -> Iterator[Fault]:
 
 
 def unique(place: str, values: Iterable[str], field: str = "id", taken: Iterable[str] = ()) -> Iterator[Fault]:
-    """Yield a fault for values that are not unique or are ``taken`` elsewhere."""
+    """Yield a fault for values that occur twice or are ``taken`` elsewhere.
+
+    ``place`` is the key path of their list, ``field`` the field of each item that has the value.
+    """
     seen = set(taken)
     for index, value in enumerate(values):
         if value in seen:
@@ -77,7 +80,7 @@ def unique(place: str, values: Iterable[str], field: str = "id", taken: Iterable
 
 
 def text_faults(place: str, value: str, most: int = limits.MOST_TEXT) -> Iterator[Fault]:
-    """Yield a fault if a text is not valid Unicode or too long."""
+    """Yield a fault at the key path ``place`` if a text is not valid Unicode or has more than ``most`` characters."""
     if len(value) > most:
         yield place, f"at most {most} characters"
     elif not is_text(value):
@@ -85,7 +88,9 @@ def text_faults(place: str, value: str, most: int = limits.MOST_TEXT) -> Iterato
 
 
 def path_faults(place: str, value: str) -> Iterator[Fault]:
-    """Yield a fault if a path is too long or impossible for a file; its name may be any bytes."""
+    """Yield a fault at the key path ``place`` if a path is too long or impossible for a file; its name may be any
+    bytes.
+    """
     if len(value) > limits.MOST_TEXT:
         yield place, f"at most {limits.MOST_TEXT} characters"
     elif "\0" in value or restored(stored(value)) != value:
@@ -93,7 +98,9 @@ def path_faults(place: str, value: str) -> Iterator[Fault]:
 
 
 def id_faults(place: str, value: str, least: int = 1) -> Iterator[Fault]:
-    """Yield a fault if an id is empty, too long, or not valid Unicode."""
+    """Yield a fault at the key path ``place`` if an id has fewer than ``least`` characters, is too long, or is not
+    valid Unicode.
+    """
     if not least <= len(value) <= limits.MOST_ID:
         yield place, f"must have from {least} to {limits.MOST_ID} characters"
     elif not is_text(value):

@@ -142,7 +142,7 @@ def skin_of(
 
 
 def patch(character: Character, mesh: Mesh, vertices: AnyIntArray) -> Patch:
-    """Prepare vertices of a character's mesh for `deform`."""
+    """Prepare vertices of a character's mesh for `Patch.deformed`, with their normals."""
     vertices = np.asarray(vertices, dtype=np.intp)
     weights = mesh.weights[vertices].astype(np.float64)
     morphs = ((morph.name, morph.vertices, morph.deltas_m) for morph in mesh.morphs)

@@ -45,7 +45,7 @@ class Banner(Retranslated, QFrame):
         session.theme_changed.connect(self.retranslate)
 
     def ask(self, texts: Texts, answers: tuple[Callable[[], None], ...]) -> None:
-        """Show a question; any answer closes the banner."""
+        """Show a question; any answer closes the banner and calls the function in ``answers`` that belongs to it."""
         for button in self._buttons:
             self._answers.removeWidget(button)
             button.hide()

@@ -96,7 +96,10 @@ class FileQuestions(QObject):
         self._banner.ask(lambda: (why(), tuple(text for text, _ in answers)), tuple(run for _, run in answers))
 
     def ask_to_save_over(self, path: Path, then: Callable[[], None] | None) -> None:
-        """Ask whether to overwrite a file that another program has changed."""
+        """Ask whether to save to another file or to overwrite a file that another program has changed.
+
+        ``then`` is called after saving.
+        """
         self._banner.ask(
             lambda: (
                 self.tr("window.was_changed_outside").format(name=shown(path.name)),

@@ -122,7 +122,7 @@ class NumberSlider(NumberDisplay):
         self.update()
 
     def set_step(self, step: float) -> None:
-        """Set the step of keys and wheel, and of a drag without a range."""
+        """Set the step of keys and wheel, and of a drag if the control is not a filled slider."""
         self._step = step
 
     # Changing it

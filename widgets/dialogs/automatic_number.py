@@ -54,7 +54,7 @@ class AutomaticNumber(QWidget):
         return None if self.check.isChecked() else self.number.value()
 
     def set_range(self, least: float, most: float) -> None:
-        """Set the range of valid numbers; `show_value` may show others."""
+        """Set the range of the numbers that the user can enter; `show_value` may show others."""
         self._range = least, most
 
     def show_value(self, value: float | None, found: float | None) -> None:

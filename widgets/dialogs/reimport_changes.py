@@ -335,7 +335,15 @@ def _mark_text(before: Note | Mark | None, now: Note | Mark | None) -> str:
 
 
 def _distance(change: PartChange, former: MetreMap, now: MetreMap, scale: Fraction) -> str:
-    """Return the distance by which notes moved: in bars if exact, else as a note value."""
+    """Return the distance by which notes moved as text: in bars if exact, else as a note value.
+
+    Parameters
+    ----------
+    former, now : MetreMap
+        Metres of the project and of the file.
+    scale : Fraction
+        Ticks of the file per tick of the project.
+    """
     (bar, *rest), (bar_now, *rest_now) = former.place_of_tick(change.tick), now.place_of_tick(change.tick_now)
     ticks = change.tick_now - round(change.tick * scale)
     sign = "+" if ticks > 0 else "−"

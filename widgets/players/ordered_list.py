@@ -211,8 +211,8 @@ class RowDelegate(QStyledItemDelegate):
         painter.drawRoundedRect(bar, 2, 2)
 
     def paint_problems(self, painter: QPainter, room: QRect, count: int, font: QFont) -> int:
-        """Draw a mark with the number of problems at the right, and return the right end of the remaining space in
-        pixels.
+        """Draw a mark with the number of problems at the right end of ``room``, and return the right end of the
+        remaining space in pixels.
         """
         if not count:
             return room.right()

@@ -184,8 +184,10 @@ def _part(row: IntArray, none: int, whole: IntArray, triangles: IntArray, first:
     ----------
     row : (V,) int
         Row of each vertex among the displacements; ``none`` if the morph does not move it.
+    whole : (V,) int
+        Number of each vertex's position, the same on both sides of a seam.
     first : int
-        Number of the first position.
+        Number to be given to the first position that moves.
     """
     own = np.flatnonzero(row < none)
     number = np.full(len(whole), -1)

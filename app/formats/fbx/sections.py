@@ -85,7 +85,10 @@ def global_settings(rate: Fraction | None, last_tick: int) -> Element:
 
 
 def documents(document_id: int, take: str) -> Element:
-    """Return FBX's record of documents with the single one that every file needs, the scene."""
+    """Return FBX's record of documents with the single one that every file needs, the scene.
+
+    ``take`` is the name of its animation.
+    """
     document = Element(
         "Document",
         (np.int64(document_id), "Scene", "Scene"),

@@ -82,8 +82,8 @@ class GlbDocument:
         bounds: bool = False,
         flat: bool = False,
     ) -> int:
-        """Add an accessor of values (N,) or (N, width), and return its index. With ``flat`` every number is
-        an element.
+        """Add an accessor of values (N,) or (N, width), and return its index. ``kind`` names the data with which it
+        shares a buffer view; with ``flat`` every number is an element.
         """
         width = 1 if flat or values.ndim == 1 else values.shape[1]
         stride = values.itemsize * width if target == gltf.ARRAY_BUFFER else None

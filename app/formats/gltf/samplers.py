@@ -69,7 +69,9 @@ class Samplers:
         slopes_fps: float = 0.0,
     ) -> None:
         """Animate one property of a glTF node; ``values`` (F, W) has a row for each frame. Keys are at the given frames
-        or all; cubic if a frame rate ``slopes_fps`` is given, else linear."""
+        or all; cubic if a frame rate ``slopes_fps`` is given, else linear. With ``flat`` every number is an element of
+        the accessor, as for weights of morphs.
+        """
         interpolation = gltf.ANIM_LINEAR
         if frames is not None:
             seen = values if slopes_fps else values[frames]

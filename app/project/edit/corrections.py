@@ -66,7 +66,7 @@ def _ignoring(project: Project, performer_id: str, ignored: tuple[IgnoredProblem
 def _changed(
     known: Mapping[str, tuple[T, ...]], performer_id: str, items: tuple[T, ...]
 ) -> Mapping[str, tuple[T, ...]]:
-    """Return the mapping with a performer's items replaced, without empty entries; the same mapping if
+    """Return the mapping ``known`` with a performer's items replaced, without empty entries; the same mapping if
     nothing changes.
     """
     if items == known.get(performer_id, ()):

@@ -149,8 +149,9 @@ def join(project: Project, note_ids: Collection[str]) -> Project:
 
 
 def _runs(part: Part, requested: Collection[str]) -> Iterator[tuple[int, Note]]:
-    """Yield a part's notes with the number of their run; 0 for notes not selected. A run is a series of adjacent
-    selected notes of one pitch.
+    """Yield a part's notes, each after the number of its run; 0 for notes that are not in ``requested``.
+
+    A run is a series of adjacent notes of ``requested`` at one pitch.
     """
     run = 0
     before: Note | None = None

@@ -103,8 +103,8 @@ def _room(project: Project, tick: int, shift_s: float) -> _Room:
 
 
 def _moved(project: Project, tick: int, shift_s: float, room: _Room) -> Project:
-    """Shift the beats around a tick with a cosine weight. Tick 0 must stay at second 0, so for it the recording's
-    offset changes instead.
+    """Shift the beats within ``room`` around a tick, with a weight that falls from 1 at the tick to 0 at both ends as a
+    cosine. Tick 0 must stay at second 0, so for it the recording's offset changes instead.
     """
     clock, changes = project.score.tempo_map, project.score.tempo_map.changes
     first = max(round(clock.ticks(room.start_s)), 0)

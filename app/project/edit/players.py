@@ -163,7 +163,10 @@ def randomise(project: Project, player_ids: Collection[str], spread: float) -> P
 
 
 def _thrown_habits(player_id: str, roll: int, spread: float) -> str:
-    """Return up to two habits chosen at random for a player; more often for a larger ``spread``."""
+    """Return up to two habits chosen at random for a player, as text; more often for a larger ``spread``.
+
+    ``roll`` is the seed of the choice.
+    """
     known = sorted(HABITS.now().items)
     found = [
         known[int(chance("habit", str(number), roll, player_id) * len(known))]

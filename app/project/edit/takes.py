@@ -222,7 +222,9 @@ def _replaced(
     start_tick: int,
     end_tick: int,
 ) -> Project:
-    """Replace the notes and controller curves of the player's part from ``start_tick`` to ``end_tick``."""
+    """Replace the notes of the player's part from ``start_tick`` to ``end_tick`` by those ``requested``, and its
+    controllers by ``curves``.
+    """
     part = project.part(project.player(player_id))
     outside = [note for note in part.notes if not start_tick <= note.onset_tick < end_tick]
     # A note that was moved out of the span by hand is there already.

@@ -187,7 +187,7 @@ def rest_pose(parents: Sequence[int], posed: FloatArray, bound: Mapping[int, Flo
 def turned(
     nodes: NodeHierarchy, parts: Sequence[FigurePart], turn: FloatArray
 ) -> tuple[NodeHierarchy, tuple[FigurePart, ...]]:
-    """Return the figure with its world rotated by a matrix (4, 4)."""
+    """Return nodes and meshes of a figure with the world rotated by a matrix (4, 4)."""
     return (
         replace(
             nodes,

@@ -363,7 +363,11 @@ def _arms(halves: _Halves, paths: Mapping[str, list[int]]) -> dict[str, int]:
 
 
 def _hand(halves: _Halves, side: str, path: list[int]) -> tuple[list[int], int, dict[str, int]]:
-    """Return the bones of an arm before its hand, the hand, and the joints of a palm of several bones."""
+    """Return the parts of an arm: the bones before its hand, the hand, and the joints of the fingers if the palm has
+    several bones.
+
+    ``path`` are the bones from below the chest to the finger tip.
+    """
     tree, height = halves.tree, halves.height
     hand = _hand_of_fingers(halves, path)
     if hand is None:

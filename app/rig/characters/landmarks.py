@@ -89,8 +89,9 @@ def _own(skin: _Skin, joints: list[int], least: float) -> IndexArray:
 def _patch(
     skin: _Skin, own: IndexArray, origin: FloatArray, direction: FloatArray, count: int, within_m: float = PATCH_M
 ) -> IndexArray:
-    """Return the indices (K,) of ``count`` vertices around the point at which a ray from ``origin`` inside a limb
-    leaves its skin; those nearest to it if no skin faces ``direction``."""
+    """Return the indices (K,) of ``count`` vertices, among those with the indices ``own``, around the point at which a
+    ray from ``origin`` inside a limb leaves its skin; those nearest to it if no skin faces ``direction``.
+    """
     off = skin.positions[own] - origin
     along = off @ direction
     across = np.linalg.norm(off - along[:, None] * direction, axis=1)
@@ -162,8 +163,8 @@ def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
 def _of_phalanx(hand: _Skin, skins: list[_Skin], joint: int, least: float) -> tuple[_Skin, IndexArray]:
     """Return the mesh that covers a finger bone, and the indices of its vertices that move with the joint.
 
-    That is the hand's mesh, or another one (a glove or sleeve) with most of these vertices. No vertices if nothing
-    moves with the joint.
+    That is the hand's mesh, or another one (a glove or sleeve) with most of these vertices. Vertices whose weight is
+    above ``least`` move with the joint; if there are none, those with smaller weights.
     """
     for weight in (least, *LEAST_WEIGHTS):
         own = {id(skin): _own(skin, [joint], weight) for skin in skins}

@@ -252,8 +252,10 @@ class _Mouth:
         return upper, lower
 
     def _edge(self, height: FloatArray, depth: FloatArray, own: BoolArray) -> IndexArray:
-        """Return the indices of the lowest vertex in the left half and in the right half of a lip, whose mean is in the
-        middle.
+        """Return the indices of the lowest vertex in the left half and in the right half of a lip.
+
+        Their mean is in the middle of the mouth. ``height`` and ``depth`` (V,) are those of all vertices, ``own`` (V,)
+        marks the vertices of the lip.
         """
         front = float(np.percentile(depth[own], 90.0))
         outside = own & (depth > front - DEPTH_M * self.size)

@@ -228,7 +228,7 @@ def _shapes(
     original: Original, mesh: Mesh, moved: FloatArray, joints: MovedJoints, face: FaceChange
 ) -> tuple[Morph, ...]:
     """Return the morphs of a mesh for another person's face: displacements are turned and stretched with the skin, and
-    lids stay on the eyeballs.
+    lids stay on the eyeballs. ``moved`` (N, 3) are the mesh's vertices on the other body.
     """
     rows = _moved_by_morphs(mesh)
     before = rows.places_m + np.concatenate([morph.deltas_m for morph in mesh.morphs])
@@ -337,7 +337,10 @@ def _standing(character: Character, joints: MovedJoints) -> Character:
 
 
 def _lowest_m(character: Character, joint_from_mesh: FloatArray, places: FloatArray) -> float:
-    """Return the height in metres of the lowest vertex of the feet in the T-pose."""
+    """Return the height in metres of the lowest vertex of the feet in the T-pose.
+
+    ``places`` (J, 3) are the positions of the joints in the T-pose.
+    """
     feet = [character.skeleton.index(f"{side}{part}") for side, _ in SIDES for part in ("Foot", "Toes")]
     lowest_m = np.inf
     world = joint_from_mesh[:, 1, :].copy()

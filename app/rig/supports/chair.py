@@ -87,7 +87,7 @@ def chair(fit: ChairFit, bone: int) -> Mesh:
 
 def _cushion(middle: FloatArray, half: float, deep: float, thick: float, only: Shares) -> SurfaceStrip:
     """Return the surface of a seat with rounded edges and a flat top: ``half`` the width, half the depth ``deep`` and
-    thickness ``thick`` in metres, with the ``middle`` (3,) of its top.
+    thickness ``thick`` in metres, with the ``middle`` (3,) of its top; ``only`` is its bone.
     """
     rounding = 0.42 * thick
     edge = [(1.5 * rounding, 0.0), (rounding, 0.0), (0.3 * rounding, 0.25 * rounding), (0.0, rounding)]
@@ -100,7 +100,7 @@ def _back(
     half: float, size: float, top: float, z: float, edges_m: tuple[float, float], only: Shares
 ) -> list[SurfaceStrip]:
     """Return the surfaces of the padded, inclined back of a chair between two heights ``edges_m``; ``half`` is half its
-    width.
+    width, ``top`` the height of the seat, ``z`` the place of the back's front, and ``only`` its bone.
     """
     low, high = edges_m
     tall, thick = 0.5 * (high - low), 0.028 * size

@@ -252,7 +252,9 @@ def _cord(strap: Strap, bone: int) -> list[SurfaceStrip]:
 
 
 def _loop(hook_m: FloatArray, up: FloatArray, only: Shares) -> SurfaceStrip:
-    """Return the surface of the hook, a loop of wire whose lowest point is at ``hook_m``."""
+    """Return the surface of the hook, a loop of wire whose lowest point is at ``hook_m``; ``up`` is the direction of
+    the cord, ``only`` its bone.
+    """
     side = np.cross(up, np.array([0.0, 0.0, 1.0]))
     side /= max(float(np.linalg.norm(side)), 1e-9)
     high, wide = 0.5 * (_HOOK_M - 0.010), 0.0062

@@ -29,7 +29,7 @@ from widgets.inspector.words import correction_title
 
 
 def read_again(editor: Editor) -> None:
-    """Read the project's MIDI file or score again, asking for its place if it is missing."""
+    """Read the project's MIDI file or score again, asking where the file is if it is missing."""
     source = editor.session.project.source
     if source and is_file(source):
         reimport_from(editor, Path(source))
@@ -88,8 +88,16 @@ def reimport_from(editor: Editor, path: Path) -> None:
 def _take_of_others(
     session: Session, before: Project, outcome: Reimport, kept: frozenset[str], removed: tuple[str, ...]
 ) -> None:
-    """Apply a re-imported MIDI file or score in the background, except for the parts that the user keeps unchanged, in
-    the background, since a large piece takes seconds.
+    """Apply a re-imported MIDI file or score except for the parts that the user keeps unchanged.
+
+    This is done in the background, since a large piece takes seconds.
+
+    Parameters
+    ----------
+    kept : frozenset of str
+        Ids of the parts that stay as they are.
+    removed : tuple of str
+        Ids of the players to remove.
     """
     if not kept:
         _take(session, before, outcome, removed)

@@ -21,12 +21,20 @@ FRAME_PX: Final = 2
 
 
 def place_beside(avoided: QRect, target: QRect, size: QSize, room: QRect) -> QPoint:
-    """Return the top left corner of a bubble beside a rectangle, on the side where it is nearest to the target control.
+    """Return the top left corner of a bubble that does not cover a rectangle.
+
+    Of the places below, above, right and left of it the first one that fits is used, as near to the target as possible.
 
     Parameters
     ----------
     avoided : QRect
-        Part of the window with the target control, which the bubble must not cover.
+        Rectangle that the bubble must not cover: the part of the window with the target control.
+    target : QRect
+        Rectangle of the target control.
+    size : QSize
+        Size of the bubble.
+    room : QRect
+        Rectangle within which the bubble must lie.
     """
     x = min(max(target.center().x() - size.width() // 2, room.left()), room.right() + 1 - size.width())
     y = min(max(target.center().y() - size.height() // 2, room.top()), room.bottom() + 1 - size.height())
@@ -104,6 +112,8 @@ class Bubble(Retranslated, QFrame):
 
         Parameters
         ----------
+        state : str
+            Text about the progress of the task.
         forward : str
             Text of the button that leads to the next stop.
         is_done : bool

@@ -40,13 +40,15 @@ class CutHistory:
         self.token = token
 
     def undo(self, now: Cuts | None) -> Cuts | None:
-        """Return the cuts before the last change, which must exist."""
+        """Return the cuts before the last change, which must exist; ``now`` are the present cuts, which
+        `redo` returns.
+        """
         self.undone.append(now)
         self.token = None
         return self.done.pop()
 
     def redo(self, now: Cuts | None) -> Cuts | None:
-        """Return the last undone cuts, which must exist."""
+        """Return the cuts undone last, which must exist; ``now`` are the present cuts, which `undo` returns."""
         self.done.append(now)
         self.token = None
         return self.undone.pop()

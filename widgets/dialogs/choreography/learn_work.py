@@ -57,6 +57,8 @@ def learning(
     ----------
     states : int or None
         Number of basic motions; None to choose it automatically.
+    seed : int
+        Seed of the random choices in learning.
     share : list of float
         List whose only number is set to the completed share, 0..1.
     """

@@ -104,7 +104,9 @@ class TextField(NumberField):
         self._take_text: Callable[[str], None] | None = None
 
     def ask(self, box: QRectF, text: str, take: Callable[[str], None], name: str) -> None:
-        """Open the field for a text at a place of the plot; ``name`` is for screen readers."""
+        """Open the field for a text at a place of the plot; ``take`` is called with the typed text, ``name`` is for
+        screen readers.
+        """
         self.open(box, 0.0, 0, lambda _: None, name)
         self._take_text = take
         self.setText(text)

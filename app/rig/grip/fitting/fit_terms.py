@@ -1,4 +1,6 @@
-"""Shared terms of fitting a grip (`app.rig.grip.fitting.fit`) and of using the results."""
+"""Definitions shared by the fit of a grip and its measurement: progress, required landmarks, and a hand with its wrist
+solved.
+"""
 
 from __future__ import annotations
 

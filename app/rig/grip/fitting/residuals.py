@@ -176,7 +176,9 @@ class Residuals:
         return np.concatenate(parts, axis=1), skin
 
     def _forearm(self, x: FloatArray, place: FloatArray) -> FloatArray:
-        """Return the centres of the forearm's C balls (B, configs, C, 3) in the instrument's frame for B candidates."""
+        """Return the centres of the forearm's C balls (B, configs, C, 3) in the instrument's frame for the parameters
+        ``x`` of B candidates, whose wrists are at ``place`` (B, 3).
+        """
         wrist = place + self.problem.reference_shift_m
         behind = _elbow_place(self.problem, wrist, x[:, 6], self.problem.shoulder_m) - wrist
         behind /= np.linalg.norm(behind, axis=1)[:, None]
@@ -203,6 +205,8 @@ class Residuals:
     def arm(self, x: FloatArray, place: FloatArray, turn: FloatArray) -> FloatArray:
         """Return the residuals that keep the wrist straight: from direction and twist of the forearm and position of
         the elbow.
+
+        ``place`` (B, 3) and ``turn`` (B, 4) are the wrists of B candidates.
         """
         problem = self.problem
         wrist = place + problem.reference_shift_m

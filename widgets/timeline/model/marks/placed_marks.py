@@ -117,7 +117,7 @@ class PlacedMarks(NamedTuple):
     arcs: Arcs
 
     def box_of_glyph(self, place: int) -> PixelRect:
-        """Return the rectangle in pixels that a glyph occupies, for hits by the mouse."""
+        """Return the rectangle in pixels of the glyph with the index ``place`` in `glyphs`, for hits by the mouse."""
         mark = self.table.of_player.marks[int(self.glyphs.mark[place])]
         look, unit = LOOKS[mark.kind], self.unit_px
         x, y, x_end, y_end = (float(column[place]) for column in self.glyphs[1:])

@@ -151,7 +151,8 @@ class RegionTable:
         """Return the region under the mouse, and the grabbed part of it: ``start``, ``end``, ``fade_in``, ``fade_out``
         or ``body``; None and an empty part if there is none.
 
-        Only selected regions have handles for fades, since many handles would be in the way.
+        ``place`` returns the rectangle of a region. Only selected regions have handles for fades, since many handles
+        would be in the way.
         """
         reach_s = (EDGE_PX + GLYPH_PX) / scale.px_per_s
         best: tuple[tuple[bool, float], Region, str] | None = None
