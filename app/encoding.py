@@ -15,10 +15,10 @@ from typing import Final
 from urllib.parse import quote_from_bytes, unquote_to_bytes
 
 PREFIX: Final = "bytes://"
-"""Prefix of a stored path that is not UTF-8; no other path has it, because two slashes are one in a path."""
+"""Prefix of a stored path that is not UTF-8; no real path begins with it, since paths contain no double slashes."""
 
 HIDDEN: Final = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
-"""Characters that texts for users must not contain: line ends, terminal commands, changes of direction, lone
+"""Characters that are removed from texts for users: line ends, terminal commands, changes of direction, lone
 surrogates.
 """
 
@@ -26,7 +26,7 @@ ENCODINGS: Final = (
     *("utf-8", "cp932", "euc_jp", "gb18030", "big5hkscs", "cp949", "cp1251", "koi8_r", "cp866", "cp1252", "mac_roman"),
     *("cp1250", "cp1253", "iso8859_7"),
 )
-"""Encodings of texts in files, to choose from."""
+"""Encodings that can be chosen for texts in files."""
 
 _ESCAPED = re.compile("[%\ud800-\udfff]")
 # One character from beyond ASCII, alone, touching a small Latin letter: what "Flöte" in Latin-1 looks like in CP932.

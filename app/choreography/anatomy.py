@@ -40,7 +40,9 @@ PRONATED_DEG: Final = 10.0
 """Turn of the palm, thumb inwards, from where the elbow's axis has it, in the mean of a motion
 (of 250 arms of 7 makers; standard deviation 18)."""
 WRIST_BACK_DEG: Final = 10.0
-"""And bend of the wrist, the back of the hand towards the arm (of the same; 10)."""
+"""Mean bend of the wrist in degrees, the back of the hand towards the arm, in the same 250 arms; standard
+deviation 10.
+"""
 SLOW_PART: Final = 3
 """Divisor of the number of frames: the slowest frames, in which a foot counts as standing."""
 FLAT_DEG: Final = 8.0

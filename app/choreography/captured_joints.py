@@ -25,14 +25,17 @@ BENT_DEG: Final = (8.0, 20.0)
 """Bend in degrees in nine of ten frames below which a joint's hinge is unknown, and above which it is certain."""
 FINGERS: Final = ("Index", "Middle", "Ring", "Little")
 T_POSE_DEG: Final = 25.0
-"""Arms that point aside, legs that hang down and a trunk that is upright to this are those of a T-pose."""
+"""Greatest angle in degrees of arms from pointing sideways, of legs from hanging straight down and of the trunk from
+upright in a T-pose.
+"""
 JUMP_PART: Final = 0.25
 JUMP_TIMES: Final = 3.0
-"""A joint that moves from a frame to the next by more than this part of the way from the hips to the head, and so many
-times farther than in 99 of 100 frames, jumps."""
+"""A joint has jumped if it moves between two frames by more than this share of the distance from hips to head and
+`JUMP_TIMES` times farther than in 99 of 100 frames.
+"""
 SETTLES: Final = 40
 NEAR_PART: Final = 1e-3
-"""Times that a middle is taken again, and the least distance from it that counts, as a part of its own length."""
+"""Greatest number of iterations for a robust mean, and change relative to its length at which the iterations end."""
 FIXED: Final = (0.9, 0.97)
 """Length of the mean of a hinge's unit axes, relative to a bone: below the first value it is no hinge, above the second
 certainly one.

@@ -46,7 +46,7 @@ _FAR_DEG: Final = {
 times.
 """
 FAR_M: Final = 0.05
-"""Share of the bounds for two steps much faster than adjacent steps."""
+"""Greatest distance in metres of the hips' place from the cubic, in addition to the angles of `_FAR_DEG`."""
 SUDDEN: Final = 4.0
 SUDDEN_PART: Final = 0.6
 """Share of the bounds that applies over two steps that are much faster than the steps around them."""
@@ -58,11 +58,13 @@ FASTEST_HIPS_RAD_S: Final = 15.0
 """Same for hips outside of spins: a jump is shorter than `SPIN_S` or turns by less than `SPIN_RAD`."""
 FASTEST_TRUNK_RAD_S: Final = 13.0
 FASTEST_HEAD_RAD_S: Final = 32.0
-"""Bounds of spine and chest, and of the head: half as fast again as the fastest of 240 clean captures of 8 makers."""
+"""`FASTEST_TRUNK_RAD_S` and `FASTEST_HEAD_RAD_S`: greatest rotation speeds of spine and chest, and of the head: 1.5
+times the fastest of 240 clean captures of 8 makers.
+"""
 SPIN_S: Final = 0.125
 SPIN_RAD: Final = 2.5
 BEGINS: Final = 0.5
-"""Share of the bounds at which such a turn begins."""
+"""Share of the bounds at which such a fast rotation is considered to begin."""
 MOST_BENT_DEG: Final = {"spine": 120.0, "chest": 120.0, "head": 130.0}
 """Greatest angles in degrees of neck and back from the T-pose: a head hanging upside down was captured wrongly. Among
 70 captures from six sources the farthest plausible neck is at 104.

@@ -33,7 +33,7 @@ middle in only one of a hundred frames.
 ALONG: Final = (0.0, 0.5, 1.0)
 """Examined points of a hand, from the wrist (0) to the fingertips (1)."""
 AHEAD_M: Final = 0.03
-"""A point in the middle of the body is pushed to the front."""
+"""Distance in metres that a point in the middle of the body is pushed to the front."""
 SMOOTH_S: Final = 0.08
 """Standard deviation in seconds of the smoothing of the push's distance."""
 TURNS_S: Final = 0.16

@@ -15,7 +15,7 @@ from app.choreography.model import ChoreographyModel
 from app.choreography.rhythm import SYMBOLS, Rhythm
 
 OF_ALL: Final = 2.0
-"""Weight of a basic motion's sounds with all dancers in those with one dancer, as a number of sounds."""
+"""Weight of the sounds heard with any dancer in the estimate for one dancer, as a number of sounds."""
 SAME_S: Final = 1e-6
 
 

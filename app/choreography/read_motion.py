@@ -48,7 +48,7 @@ HIPS_OVER_LEGS: Final = (0.5, 1.5)
 FLAT_PART: Final = 0.4
 """Share of the legs' length by which the lower foot's height may vary more with positions in another unit."""
 PLACE_UNITS_M: Final = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254}
-"""Units in metres that the positions of a file and its bones may have, each another."""
+"""Units, in metres, that the positions and the bones of a file may have, independently of each other."""
 LEGS_M: Final = (0.6, 1.2)
 """Plausible lengths of legs in metres."""
 NEAR_FACTOR: Final = 4.0

@@ -25,12 +25,16 @@ from app.rig import quaternion
 STAGE_M: Final = 1.2
 """Distance in metres within which a dancer stays near the place."""
 FACES_RAD: Final = math.radians(6.0)
-"""And turned no farther from the audience, in the mean of each motion; spins and turns of the capture stay whole."""
+"""Greatest mean angle in radians of a motion from facing the audience; spins and turns of the capture remain
+complete.
+"""
 TURN_BACK: Final = 1.0
 MOST_TURN_RAD: Final = math.radians(70.0)
 STEP_BACK: Final = 0.2
 MOST_STEP_M: Final = 0.08
-"""Share of an excess over these that each join corrects, and greatest correction."""
+"""`TURN_BACK` and `STEP_BACK` are the shares of the excess over `FACES_RAD` and `STAGE_M` that each join corrects,
+`MOST_TURN_RAD` and `MOST_STEP_M` the greatest corrections.
+"""
 WANDERS_S: Final = 1.2
 """Standard deviation in seconds that separates a path from sway and steps."""
 LEAST_ROOM: Final = 0.4

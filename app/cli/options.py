@@ -82,7 +82,7 @@ def _plain(number: float | Fraction) -> str:
 
 
 LONGEST_S: Final = 24 * 3600.0
-"""A day in seconds: the greatest length of a piece or recording."""
+"""Greatest length of a piece or recording in seconds: a day."""
 
 frame_rate = bounded_number(*limits.FPS, "quantity.frame_rate", typed_rate)
 whole_number = bounded_number(0, 2**63 - 1, "quantity.whole_number", int)

@@ -11,14 +11,14 @@ from app.cli.terminal import warn
 
 DONE: Final = 0
 BAD_INPUT: Final = 1
-"""A file is faulty or cannot be written; nothing was done."""
+"""Exit status: a file is faulty or cannot be written, and nothing was done."""
 BAD_USE: Final = 2
 NO_DISPLAY: Final = 3
-"""There is no display for the editor or for drawing a film."""
+"""Exit status: the editor, or a film, needs a display and there is none."""
 PARTIAL: Final = 4
-"""Finished, but players or pairs were excluded, or a take is in another folder than requested."""
+"""Exit status: finished, but players or pairs were excluded, or a take was written to another folder than requested."""
 STOPPED: Final = 128 + signal.SIGINT
-"""Stopped by Ctrl-C."""
+"""Exit status: stopped by Ctrl-C."""
 
 
 def report_left_out(left_out: Iterable[tuple[str, str]]) -> int:

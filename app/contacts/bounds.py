@@ -19,18 +19,22 @@ LIPS_MM = 2.0
 FEET_MM = 1.0
 HOVER_MM = 1000.0 * MOST_HOVER_M
 CLEAR_MM = 3.0
-"""A finger farther than this from a hole lets it sound open; of a smaller instrument, from its smaller one."""
+"""Distance in millimetres of a finger from a hole above which the hole sounds open, unless the instrument is smaller
+and has a smaller limit.
+"""
 PRESSED = 0.9
-"""Share of its travel within a tenth of which a control counts as in place."""
+"""Share of its travel from which a pressed control counts as in place; a released one counts up to a tenth."""
 SLIDE_M = 0.005
-"""Distance within which a slide counts as in place."""
+"""Distance in metres within which a slide counts as in place."""
 MOVED_MM = 1.0
-"""Distance of a hand from its place from which what its fingers miss is reported as the hand's problem."""
+"""Distance in millimetres of a hand from its place above which its fingers' gaps are reported as a problem of
+the hand.
+"""
 UNREACHED_M = 0.005
-"""A hand may stay this far from its grip before the user sees it."""
+"""Largest distance in metres of a hand from its grip that is not reported to the user."""
 
 NEARLY_ALL = 99
-"""Percentile of a distance that reports give next to its maximum."""
+"""Percentile of the distances that reports list in addition to the maximum."""
 
 
 def reported_least_m(distances_m: FloatArray) -> float:

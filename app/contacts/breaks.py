@@ -15,9 +15,9 @@ from app.plan.model import FingeringEvent, Problem
 from app.plan.music.spans import Spans
 
 JUDGED_PER_S = 15
-"""Frames per second that are judged: no body leaves a contact and is back sooner."""
+"""Rate in frames per second at which contacts are judged; no body part leaves and resumes a contact faster."""
 APART_S = 0.5
-"""Two breaks of one contact that are nearer than this are one."""
+"""Breaks of the same contact closer than this time in seconds count as one."""
 
 Kind = Literal["hand", "short", "touch", "lips", "foot"]
 

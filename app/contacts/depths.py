@@ -32,17 +32,19 @@ from app.rig.skinning import Skin
 from instrument_maps.hold import Proxy
 
 BLOCKS = (128, 16, 4, 1)
-"""Frames of the blocks, each a multiple of the next."""
+"""Lengths in frames of nested blocks, each a multiple of the next."""
 GROUP = 8
-"""Vertices per group, about."""
+"""Approximate number of vertices per group."""
 STRETCH = 1.3
-"""Factor by which the distance of a vertex of a group from its middle in the bind pose may grow when the hand bends."""
+"""Factor by which the distance of a vertex from the centre of its group in the bind pose may grow when the
+hand bends.
+"""
 STILL_M = 0.006
-"""A group that moves less within a block is judged vertex by vertex."""
+"""Groups that move less than this distance in metres within a block are judged vertex by vertex."""
 _ARM_M = 0.02
-"""Frames are alike by where joints are, and what is this far from them."""
+"""Distance in metres from each joint of the point by which frames are compared, so that rotations count too."""
 _ROUNDING_M = np.float32(1e-6)
-"""More than two ways of placing a vertex in single precision differ."""
+"""Bound in metres of the rounding error of a vertex position in single precision, for any order of operations."""
 
 
 class HandDepths:

@@ -19,11 +19,11 @@ from instrument_maps.hold import Proxy
 
 CELL_M = 0.003
 BRICK_CELLS = 4
-"""Along each side of a brick."""
+"""Number of cells along each side of a brick."""
 NEAR_M = 0.003
-"""Distance outside up to which distances are exact."""
+"""Distance in metres outside the surface up to which distances are exact."""
 FAR_M = 0.04
-"""More is not distinguished on the grid."""
+"""Greatest distance in metres that the grid stores; farther points have this value."""
 
 _BRICK_M = BRICK_CELLS * CELL_M
 _EDGE = 1e-3
@@ -32,7 +32,7 @@ _HALF_DIAGONAL = math.sqrt(3.0) / 2.0
 _CELL_MIDDLES_M = (
     np.stack(np.unravel_index(np.arange(BRICK_CELLS**3), (BRICK_CELLS,) * 3), axis=-1) + np.float64(0.5)
 ) * CELL_M
-"""From the lowest corner of a brick."""
+"""Centres of the cells (n, 3) in metres from the lowest corner of a brick."""
 
 
 class DistanceField:

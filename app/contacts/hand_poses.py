@@ -15,7 +15,9 @@ from app.arrays import BoolArray, FloatArray, IndexArray, SingleArray
 from app.rig.skinning import Skin
 
 MOVES_M = 0.001
-"""Frames are not compared by a part that moves less where the hand is."""
+"""Parts of the instrument that move less than this distance in metres near the hand are ignored when frames are
+compared.
+"""
 
 
 @dataclass(frozen=True, eq=False)

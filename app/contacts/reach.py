@@ -31,7 +31,7 @@ OUT_OF_REACH: Final = "contact.out_of_reach"
 _NOTE_S, _APART_S = 2.0, 4.0
 
 Place = tuple[tuple[str, float], ...]
-"""Values of the controls that whole hands move."""
+"""Values of the controls that move whole hands, by the name of the control."""
 
 
 class Holding(NamedTuple):

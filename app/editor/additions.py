@@ -22,7 +22,7 @@ from app.score.marks import MARK
 from app.score.model import Note
 
 Addition: TypeAlias = tuple[PlayerPlan, int, Callable[[Project], Edited]]
-"""A player's plan, the tick of the place, and the edit."""
+"""A player's plan, the tick of the position, and the edit that adds an event there."""
 Places: TypeAlias = Iterable[tuple[PlayerPlan, int]]
 """A player's plan, and the tick of an event."""
 Spans: TypeAlias = Iterable[tuple[PlayerPlan, int, int]]
@@ -30,7 +30,7 @@ Spans: TypeAlias = Iterable[tuple[PlayerPlan, int, int]]
 
 
 STYLE_BARS = 2
-"""Length of a new region of a style."""
+"""Length in bars of a new style region."""
 
 
 def add_breaths(session: Session, places: Places) -> None:

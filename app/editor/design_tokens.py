@@ -62,4 +62,4 @@ DARK, LIGHT = THEMES["dark"], THEMES["light"]
 LEAST_TEXT_PT = 9
 LEAST_TARGET_PX = 24
 SPLITTER_PX = 8
-"""Width of the splitters between panels: enough to be hit, and for a visible grip."""
+"""Width in pixels of the splitters between panels, enough for the mouse and for a visible grip."""

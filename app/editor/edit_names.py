@@ -22,7 +22,7 @@ OF_EVENTS: Final = {
     "edit.remove_events": "edit.remove_event",
     "edit.set_event_amounts": "edit.set_event_amount",
 }
-"""Names of edits of a single event by those of several."""
+"""Name of the edit for a single event, by the name of the edit for several events."""
 _ANY_KIND: Final = "event"
 _MOST_NAMES: Final = 2
 

@@ -41,9 +41,9 @@ VIDEO_SUFFIXES: Final = SUFFIXES
 EXAMPLE: Final = "quartet.mid"
 DANCED_EXAMPLE: Final = "montuno.mid"
 EXAMPLE_VARIATION: Final = 14
-"""Seed of the example's dance: many basic motions, seldom one many times in a row, mostly facing the audience."""
+"""Seed of the example's dance, chosen for many different basic motions and a dancer who mostly faces the audience."""
 MOST_SLEEP_S: Final = 60.0
-"""After this long at the latest it is asked whether unsaved work is to be written down."""
+"""Greatest interval in seconds between checks whether unsaved work must be autosaved."""
 
 Then = Callable[[], None]
 

@@ -14,8 +14,9 @@ from app.errors import FileError
 from app.formats.files import files_in
 
 QUIET_MS = 250
-"""Milliseconds without a change after which a changed file is reported: a program that writes a file touches it
-several times."""
+"""Milliseconds without further changes after which a changed file is reported, since programs write a file in several
+steps.
+"""
 
 
 class FolderWatch(QObject):

@@ -8,7 +8,7 @@ from typing import Any, Final
 
 _ARENA_MAX: Final = -8
 _MMAP_THRESHOLD: Final = -3
-"""Constant of malloc.h of GNU's C library."""
+"""Value of ``M_MMAP_THRESHOLD`` in ``malloc.h`` of the GNU C library."""
 _ARENAS: Final = 2
 _LARGE_BYTES: Final = 2**20
 

@@ -25,13 +25,15 @@ from instrument_maps.library import library
 from metadata.library import metadata_library
 
 AT_ONCE_NOTES = 2500
-"""Number of notes up to which a change is planned immediately: within the time of two pictures; see `AT_ONCE_S`."""
+"""Number of notes up to which a change is planned immediately, within two screen refreshes; see `AT_ONCE_S`."""
 AT_ONCE_S = 0.1
-"""Processor seconds from which planning is no longer done immediately: many players, or what no musician writes."""
+"""Processor time in seconds above which later changes are planned in the background, as for many players or unusual
+music.
+"""
 REPORTED_NOTES = 6000
 """Number of notes from which planning shows its progress and can be stopped."""
 MOST_WAIT_S = 30.0
-"""Longest wait until everyone moves around the playhead, before the rest of a piece is planned."""
+"""Longest wait in seconds for the motion of all players around the playhead before the rest of the piece is planned."""
 LOOK_S = 0.01
 
 

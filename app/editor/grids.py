@@ -12,4 +12,4 @@ GRIDS: Final[dict[str, Fraction]] = {
     for sign, factor in _KINDS
     for length in _LENGTHS[2 if sign else 0 :]
 }
-"""In quarters: straight, triplets, dotted."""
+"""Length of a grid step in quarter notes by its name: straight, triplet and dotted values."""

@@ -17,7 +17,7 @@ from app.plan.events_by_hand import AdditiveEvent, PoseEvent
 from app.score.take import ControllerMapping
 
 REST_S: Final = 4.0
-"""Time after the last event until the player is shown as in the performance again."""
+"""Seconds after the last received event until the player is shown as in the performance again."""
 
 
 class LivePlayer(QObject):

@@ -17,9 +17,11 @@ from app.performance.play_along import PlayAlong
 from app.score.take import ControllerMapping
 
 SAME_S: Final = 0.006
-"""A pose that is asked for again so soon is the same: the window shows it, and the network is sent it."""
+"""Seconds within which a requested pose is the same as the previous one, since the window and the network request it
+for the same moment.
+"""
 BLEND_S: Final = 0.2
-"""From the pose of the performance to that of the controller, and back."""
+"""Duration in seconds of the transition between the performance's pose and the controller's."""
 
 
 @dataclass(frozen=True)

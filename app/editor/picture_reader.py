@@ -12,11 +12,13 @@ from app.formats.video import Picture, VideoFacts, VideoPictures, video_pictures
 
 KEPT_BYTES: Final = 96 << 20
 AHEAD: Final = 12
-"""Pictures that are read before they are shown."""
+"""Number of pictures read in advance."""
 BACK: Final = 24
-"""Pictures before the one that is sought, where the playhead goes back: stepping on finds them."""
+"""Number of pictures before the requested one from which reading starts after a jump back, so that stepping back is
+quick.
+"""
 PASSED: Final = 60
-"""Number of pictures ahead that are reached by reading on; others are sought."""
+"""Number of pictures up to which later pictures are reached by reading on; farther ones are reached by seeking."""
 
 
 class PictureReader:

@@ -21,28 +21,30 @@ from app.plan.model import Problem
 T = TypeVar("T", bound=QObject)
 
 SWITCH_S = 0.001
-"""The window gets the interpreter back from the worker within this time."""
+"""Longest time in seconds for which the worker may keep the interpreter from the window's thread."""
 REPORT_S = 0.04
-"""Least seconds between two reports of other poses at the playhead to the window."""
+"""Least interval in seconds of signals to the window that poses at the playhead have changed."""
 REPORT_READY_S = 0.25
-"""Least seconds between two reports of how much is made."""
+"""Least interval in seconds of signals to the window about progress."""
 GIVE_WAY = 3.0
 """Rest of the worker after low-priority work, as a multiple of that work's time, if the window or another thread worked
 too, since two threads of Python delay each other far more than they compute.
 """
 OTHERS_S = 0.0005
-"""Less than this is no work: timers."""
+"""Work shorter than this time in seconds, such as a timer, does not count as work of another thread."""
 MOST_REST_S = 0.1
 GIVE_BACK_CHUNKS = 64
-"""Memory that was needed on the way is returned once everything is made, but not after a few chunks of an edit."""
+"""Number of computed chunks after which memory is returned to the system; an edit computes fewer."""
 REPORT_BROKEN_S = 0.5
-"""Interval of reports of broken contacts while much is made: every list of problems is filled again by one."""
+"""Interval in seconds of reports of broken contacts during long computations, since each one fills all lists of
+problems again.
+"""
 REST_WHILE_JUDGING = 3.0
-"""Rest after judging contacts of motion that is not kept, as a multiple of the work's time, while nothing plays: an
+"""Pause after judging contacts of motion that is not kept, as a multiple of the work's time, while nothing plays: an
 hour of an orchestra takes minutes at low priority.
 """
 REST_WHILE_PLAYING = 1.0
-"""While the performance plays the worker rests this many times as long as it worked."""
+"""Pause of the worker during playback, as a multiple of the time that it worked."""
 
 
 class _Clock(Protocol):

@@ -29,7 +29,7 @@ _VIEWS: Final[dict[str, View]] = {
     "fingering": "hands",
     "note": "hands",
 }
-"""Views by the id of a message, or by its first part."""
+"""View that shows a problem, by the id of its message or the first part of the id."""
 _OTHER_VIEW: Final[View] = "front"
 _EVENT_VIEWS: Final[dict[str, View]] = {
     "cue": "front",
@@ -38,7 +38,7 @@ _EVENT_VIEWS: Final[dict[str, View]] = {
     "fingering": "hands",
     "pose": "front",
 }
-"""Views by the kind of an event that is neither a breath nor a gesture."""
+"""View that shows a problem, by the kind of the event, for events that are neither breaths nor gestures."""
 
 
 def view_of(problem: Problem) -> View:

@@ -14,7 +14,7 @@ from app.score.contents import PieceContents
 
 Answer = Literal["save", "discard", "cancel"]
 ReadAgain: TypeAlias = Callable[[str | None], PieceContents]
-"""Reads a file with its texts in another encoding; None: guessed."""
+"""Function that reads a file again with its texts in the given encoding; None to detect the encoding."""
 
 
 class Questions(Protocol):

@@ -58,13 +58,15 @@ from metadata.load import load_controllers, recognised_controller
 from metadata.model import Controller
 
 EARLY_S: Final = 0.12
-"""Time before the beginning of a take in which a note still belongs to it."""
+"""Seconds before the start of a take in which a note still belongs to the take."""
 SYNC_MS: Final = 40
-"""Interval at which the recorder gets the position of playback."""
+"""Interval in milliseconds at which the recorder process receives the position of playback."""
 _STILL_S: Final = 1e-6
 
 _JUMP_S: Final = 0.25
-"""The sound is elsewhere than it would be by now: it was sent there, or the loop returned."""
+"""Deviation in seconds of the playback position from the expected one that indicates a jump, by the user or
+by a loop.
+"""
 
 MakeLink = Callable[[Callable[[], None]], RecorderLink]
 

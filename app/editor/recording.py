@@ -11,7 +11,7 @@ from app.errors import Message
 from app.score.take import ControllerMapping
 
 Connection = Literal["none", "waiting", "open", "lost", "refused"]
-"""State of the chosen device: none is chosen; not there (yet); listened to; gone; not available."""
+"""State of the chosen device: none chosen, chosen but not connected, open, disconnected, or refused by the system."""
 
 
 NO_DEVICE: Final = frozenset(
@@ -24,7 +24,7 @@ NO_DEVICE: Final = frozenset(
         "capture.recorder_fails",
     }
 )
-"""Refusals that leave no device to listen to."""
+"""Ids of the errors after which no device can be opened."""
 
 
 class RecordingState(State):

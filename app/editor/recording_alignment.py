@@ -15,9 +15,9 @@ from app.project.model import Project
 from app.score.beat_following import bars_named, message_of_place
 
 SURE = 0.5
-"""An offset that was estimated with less confidence is not taken by itself."""
+"""Confidence from which an estimated offset is applied without asking the user."""
 SAME_TEMPO = 0.002
-"""Tempi that differ by less are the same: it is 6 ms in 3 s."""
+"""Relative difference below which tempi are equal: 6 ms in 3 s."""
 
 
 def take_estimate(session: Session, estimate: Estimate, unasked: bool, with_tempo: bool) -> None:

@@ -15,7 +15,7 @@ from app.project.model import Project
 from app.score.marks import MARK
 
 UNPLANNED: Final = ("vary", "additive", MARK)
-"""Kinds of what may be selected as events and is not in plans."""
+"""Kinds of selectable events that are not part of plans."""
 
 
 class EventKey(msgspec.Struct, frozen=True, order=True):

@@ -342,17 +342,17 @@ class Session(QObject):
             self.selection_changed.emit()
 
     playhead_s = Watched("playhead_changed", 0.0, is_sent=True)
-    """Position that is shown, in seconds of the performance."""
+    """Displayed position in seconds of the performance."""
     set_playhead = playhead_s.setter
-    """Show the performance here. While playing only the transport calls this; others call its `seek` action."""
+    """Display another position. During playback only the transport calls this; other code calls the action `seek`."""
 
     playing = Watched("playing_changed", False, is_sent=True)
     """True while the performance plays."""
     set_playing = playing.setter
-    """Said by the transport."""
+    """Set by the transport."""
 
     loop_s = Watched[tuple[float, float] | None]("loop_changed", None)
-    """The range that is played over and over, seconds; None: none."""
+    """Range that is repeated in playback, in seconds of the performance; None without a loop."""
     set_loop = loop_s.setter
 
     grid = Watched("grid_changed", Grid())
@@ -360,12 +360,13 @@ class Session(QObject):
     set_grid = grid.setter
 
     tokens = Watched("theme_changed", DARK)
-    """The theme."""
+    """Colours and sizes of the current theme."""
     set_tokens = tokens.setter
 
     problem = Watched[tuple[str, Problem] | None]("problem_changed", None)
-    """The problem that the user went to, with its performer's id; None once it is mended or something else is looked
-    at."""
+    """Problem that the user navigated to, with its performer's id; None once it is solved or something else is
+    selected.
+    """
     set_problem = problem.setter
 
     time_display = Watched[TimeDisplay]("time_display_changed", "bars")
@@ -377,12 +378,13 @@ class Session(QObject):
     set_follow = follow.setter
 
     groups_players = Watched("groups_players_changed", True)
-    """True if the list of players shows them by section, where that is clearer."""
+    """True if the list of players is grouped by section where there are enough players."""
     set_groups_players = groups_players.setter
 
     preview_morphs = Watched[dict[str, float] | None]("preview_changed", None)
-    """Morph weights that the player in front wears instead of the performance's while a face is being made; None: no
-    one makes one."""
+    """Morph weights that the first selected player shows instead of the performance's while an expression is being
+    edited; None otherwise.
+    """
     set_preview_morphs = preview_morphs.setter
 
     @property

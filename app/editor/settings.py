@@ -28,9 +28,9 @@ from app.messages.pitches import PitchNames
 from app.stream.sender import LEAST_PORT, MOST_PORT
 
 MOST_RECENT: Final = 12
-"""Recent files kept."""
+"""Greatest number of recent files."""
 MOST_VIEWS: Final = 60_000
-"""Characters of all views of pieces that are remembered."""
+"""Greatest number of characters of all stored views of pieces."""
 _Share: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
 
 
@@ -90,27 +90,27 @@ class Settings(StoredSettings):
         ),
     )
     folded = Setting("interface/folded", dict[str, bool](), dict[str, bool], held=FOLDED)
-    """Folded parts of panels, by name."""
+    """Collapsed sections of panels, by name."""
     groups_players = Setting("interface/groups_players", True, held=GROUPED)
 
     volume = Setting("sound/volume", 0.8, _Share, held=within("listening", "volume"))
-    """0..1 as the ear judges it."""
+    """Volume 0..1 on a scale of perceived loudness."""
     click = Setting("sound/click", False, held=within("listening", "click"))
-    """Metronome on or off."""
+    """True if the metronome is audible."""
     percussion = Setting("sound/percussion", True, held=within("listening", "percussion"))
-    """Percussion on or off."""
+    """True if the percussion is audible."""
     scrub_sound = Setting("sound/scrub", True, held=within("listening", "scrub_sound"))
-    """Sound while scrubbing, on or off."""
+    """True if scrubbing is audible."""
     source = Setting("sound/source", "recording", Source, held=within("listening", "source"))
-    """The sound of a project that has a recording."""
+    """Sound that is played in a project with a recording."""
 
     follows_selection = Setting("viewport/follows_selection", True, held=within("viewport", "follows_selection"))
-    """The playhead goes to the note that is selected."""
+    """True if the playhead moves to a selected note."""
 
     camera_follows = Setting[Follows](
         "viewport/camera_follows", "close_ups", Follows, held=within("viewport", "camera_follows")
     )
-    """Views from which the camera goes to what is selected or corrected."""
+    """Views in which the camera moves to a selected or corrected event."""
 
     video_placement = Setting[Placement]("video/placement", "beside", Placement, held=within("video", "placement"))
     video_opacity = Setting(
@@ -119,27 +119,27 @@ class Settings(StoredSettings):
         _Share,
         held=within("video", "opacity"),
     )
-    """Behind the players."""
+    """Opacity 0..1 of the video behind the players."""
 
     midi_port = Setting("midi/port", "")
-    """The device that is recorded from; empty: none was chosen."""
+    """Name of the MIDI device for recording; empty if none was chosen."""
     count_in_bars = Setting("midi/count_in_bars", 1, Annotated[int, msgspec.Meta(ge=0, le=4)])
 
     stream_host = Setting("stream/host", "")
-    """The computer that is streamed to; empty: none was chosen."""
+    """Host name of the streaming receiver; empty if none was chosen."""
     stream_port = Setting("stream/port", 0, Annotated[int, msgspec.Meta(ge=LEAST_PORT, le=MOST_PORT)])
-    """0: none was chosen."""
+    """Port of the streaming receiver; 0 if none was chosen."""
     stream_everyone = Setting("stream/everyone", False)
-    """Every player is streamed, not only the one in front."""
+    """True if all players are streamed instead of the first selected one."""
     stream_faces = Setting("stream/faces", "")
-    """One of `app.stream.faces.FACE_NAMES`; empty: none was chosen."""
+    """One of `app.stream.faces.FACE_NAMES`; empty if none was chosen."""
     stream_rate_hz = Setting("stream/rate_hz", 0)
-    """Frames in a second; 0: none were chosen."""
+    """Streaming rate in frames per second; 0 if none was chosen."""
 
     geometry = BytesSetting("window/geometry")
     """Position and size of the window."""
     workspace = Setting("window/workspace", "")
-    """One of `app.shell.workspaces.WORKSPACES`; empty: none was chosen."""
+    """One of `app.shell.workspaces.WORKSPACES`; empty if none was chosen."""
     _workspaces = Setting("workspaces", dict[str, dict[str, str]](), dict[str, dict[str, str]])
 
     folder = FilePathSetting("files/folder", "")
@@ -147,19 +147,19 @@ class Settings(StoredSettings):
     export_folder = FilePathSetting("files/export_folder", "")
     """Folder of the last export."""
     unreal_project = FilePathSetting("files/unreal_project", "")
-    """The Unreal project that players were last exported into; empty: none."""
+    """Unreal project of the last export; empty if there was none."""
     export_into = Setting("files/export_into", "folder")
     """Destination of the last export: ``"folder"`` or ``"unreal"``."""
     export_texture_px = Setting[TextureSize]("files/export_texture_px", USUAL_TEXTURE_PX, TextureSize)
-    """Longest side of textures of the last export; 0: none."""
+    """Longest side in pixels of textures in the last export; 0 for no textures."""
     export_levels = Setting[LevelChoice]("files/export_levels", 0, LevelChoice)
-    """Levels of detail of the last export; 0: the usual."""
+    """Number of levels of detail in the last export; 0 for the default."""
     export_keys = Setting[KeyChoice]("files/export_keys", "every", KeyChoice)
-    """Keys of the last export."""
+    """Key reduction in the last export."""
     _recent = Setting("files/recent", tuple[str, ...](), tuple[str, ...])
 
     _pieces = Setting("pieces", dict[str, str](), dict[str, str])
-    """Views of pieces by their files, as text; the one left last stands last."""
+    """Views of pieces by file, as text, the most recently closed piece last."""
     _shortcuts = Setting("shortcuts", dict[str, str](), dict[str, str])
     _midi_devices = Setting("midi_devices", dict[str, dict[str, str]](), dict[str, dict[str, str]])
 
@@ -258,4 +258,4 @@ class Settings(StoredSettings):
 
 
 SETTINGS: Final = Settings.declared()
-"""Every setting."""
+"""Descriptions of all settings."""

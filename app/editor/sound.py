@@ -33,12 +33,12 @@ from app.project.undoable_document import Change
 
 _FRAME_MS = 16
 _TAKE_WAIT_MS = 1000
-"""The longest wait for the audition of a take: what sounds first is rendered first."""
+"""Longest wait in milliseconds before the audition of a take; the beginning is rendered first."""
 _TAKE_LOOK_MS = 50
 
 
 _CLICKS_ON_S = 1800.0
-"""Clicks beyond the end of the piece, while recording there."""
+"""Seconds for which the metronome continues after the end of the piece during recording."""
 
 
 class EditorSound(QObject):

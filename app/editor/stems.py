@@ -20,14 +20,15 @@ from app.project.model import Project
 from app.project.performers import Player
 
 _SETTLE_MS = 120
-"""Milliseconds for which a drag has to rest before rendering begins."""
+"""Milliseconds without change after which a dragged value is rendered."""
 _LOOK_MS = 250
-"""Interval at which newly rendered sound is added to the mix."""
+"""Interval in milliseconds at which newly rendered sound is added to the mix."""
 _MOST_BYTES = 160 * 1024 * 1024
-"""Most sound that is requested: four players for six minutes, fifty for half a minute. Of longer sound the part that
-sounds next is kept, and the window moves along."""
+"""Greatest size in bytes of the sound rendered in advance: four players for six minutes, fifty for half a minute. For
+longer pieces this is a window that moves with the playhead.
+"""
 _AHEAD_S = 20.0
-"""Seconds before the end of one window at which rendering the next begins."""
+"""Seconds before the end of one window at which rendering of the next begins."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,14 +51,14 @@ class _Job:
 
     project: Project
     made: dict[str, _Made] = field(default_factory=dict)
-    """Everyone's phrases, once they are cut, and `PERCUSSION`'s; the same object until then."""
+    """Rendered phrases of all players and of `PERCUSSION`; the same object until all phrases are found."""
     window_s: tuple[float, float] = (-inf, inf)
-    """Span that is rendered once the work has ended."""
+    """Range in seconds that is rendered when the job has ended."""
     share: float = 0.0
-    """0..1 of it that is."""
+    """Completed share of the job, 0..1."""
     is_cut: bool = False
     is_stopped: bool = False
-    """The window's thread does not need it any more."""
+    """True if the window's thread has cancelled the job."""
     has_ended: bool = False
 
 

@@ -19,7 +19,7 @@ from app.formats.toml import read_toml, shaped, toml
 
 T = TypeVar("T")
 WRITE_MS: Final = 300
-"""Interval of writing: a dragged value changes many times a second."""
+"""Interval in milliseconds at which settings are written, since a dragged value changes many times a second."""
 
 
 class Setting(Generic[T]):

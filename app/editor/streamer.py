@@ -35,16 +35,15 @@ from app.stream.sender import MOST_PORT, TO_MANY, Address, Sender, SendOutcome, 
 from app.stream.vmc import IN_THE_MIDDLE, Sent
 
 RESTING_S: Final = 0.2
-"""Between two frames while nothing moves."""
+"""Seconds between two frames while nothing moves."""
 SETTLED_S: Final = 0.5
-"""Time after the last movement for which frames are sent at the full rate: receivers smooth them."""
+"""Seconds after the last movement for which frames are sent at the full rate, since receivers smooth them."""
 RETRY_S: Final = 2.0
-"""After nothing could be sent."""
+"""Seconds until the next attempt after a failure to send."""
 REPORT_S: Final = 0.5
-"""Interval of reports on the stream."""
+"""Interval in seconds of reports about the stream."""
 ALONE_S: Final = 1.0
-"""Seconds without news of the playback's position after which the window is taken to hang, and streaming stops with
-it."""
+"""Seconds without a playback position after which the window is considered to hang, and streaming stops."""
 _SECOND_S: Final = 1.0
 
 

@@ -14,8 +14,7 @@ from app.stream.sender import LOOPBACK, MOST_PORT
 from app.stream.vmc import PORT
 
 StreamState = Literal["off", "looking", "sending", "no_receiver", "failed"]
-"""State of streaming: off, looking the computer up, sending, sending without an answer from the receiver, unable to
-send."""
+"""State of streaming: off, resolving the host name, sending, sending without a receiver's answer, unable to send."""
 
 RATES_HZ: Final = (24, 30, 60, 90)
 USUAL_RATE_HZ: Final = 60

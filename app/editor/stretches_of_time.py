@@ -6,13 +6,13 @@ from app.editor.session import Session
 
 MARGIN_S = 2.0
 ROOM_SHARE = 0.1
-"""Free room after the last note, of the piece's length, to write on."""
+"""Free space after the last note, relative to the length of the piece, in which notes can be added."""
 ROOM_S = 8.0
 LEAST_S = 60.0
 PREROLL_S = 4.0
-"""Before the plans say how long it is."""
+"""Seconds before the first beat that are shown until plans determine this time."""
 LEAST_BARS = 4
-"""Bars that are shown of a shorter piece."""
+"""Least number of bars shown."""
 
 
 def place_limits(session: Session) -> tuple[float, float]:

@@ -24,9 +24,9 @@ from app.project.undoable_document import Change
 from app.score.beat_following import message_of_place
 
 MOST_PX: Final = (1280, 720)
-"""Pictures are read no larger."""
+"""Largest width and height in pixels at which pictures are decoded."""
 _NEAR: Final = 1e-3
-"""Share of a picture by which the playhead may be before it and show it."""
+"""Tolerance for showing a picture that begins after the playhead, as a share of a picture's duration."""
 
 
 class ReferenceVideo(QObject):

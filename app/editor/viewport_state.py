@@ -11,7 +11,7 @@ from app.project.camera_bookmarks import CameraBookmark, View
 
 Follows = Literal["never", "close_ups", "always"]
 FOLLOWS: tuple[Follows, ...] = get_args(Follows)
-"""Close-ups: only from one view of a player to another."""
+"""Choices for `Settings.camera_follows`; "close_ups" means only between close-ups of players."""
 Shown = Literal["wireframe", "skeleton", "contacts", "names", "props"]
 SHOWN: tuple[Shown, ...] = get_args(Shown)
 

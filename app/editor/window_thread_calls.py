@@ -20,7 +20,7 @@ from shiboken6 import isValid
 T = TypeVar("T", bound=QObject)
 Call = Callable[[], None]
 Ask = Callable[[Call], None]
-"""Have this called in the window's thread, after what was asked for before; may be called in any thread."""
+"""Function that queues a call for the window's thread, after earlier calls; may be used in any thread."""
 
 
 class _Bell:

@@ -18,7 +18,7 @@ from app.evaluation.key import Variant
 PRESENTATIONS: Final = ("both", "single", "pair")
 Presentations: TypeAlias = Literal["both", "single", "pair"]
 _FIRST_DIGITS: Final = "abcdf"
-"""First digits of an id, chosen so that spreadsheets do not convert ids such as 12345e67 or 00123456 to numbers."""
+"""First digits of an id, without e: spreadsheets would convert ids such as 12345e67 or 00123456 to numbers."""
 
 
 @dataclass(frozen=True)

@@ -20,14 +20,18 @@ from app.export.playback import PlaybackBones, ScenePlayback, Surface
 from app.formats.scene import SkinnedMesh
 
 ARM_MM: Final = 10.0
-"""Depth of a forearm in cloth, in millimetres, that is tolerated: cloth gives way."""
+"""Depth in millimetres of a forearm inside cloth that is tolerated, since cloth yields."""
 _TRUNK: Final = ("hips", "spine", "chest", "upperChest", "leftUpperLeg", "rightUpperLeg")
 _CARRIED: Final = 0.9
-"""Share of a vertex that the trunk, or an arm, holds: between both lies the armpit, where surfaces must meet."""
+"""Least skin weight for the trunk, or for a forearm, of the vertices compared; those between, as in the armpit, touch
+anyway.
+"""
 _NEAR_M: Final = 0.06
-"""About as thick as a forearm in a sleeve is."""
+"""Distance in metres within which surfaces are compared: about the thickness of a forearm in a sleeve."""
 _ASIDE_M: Final = 0.015
-"""A point farther aside of the nearest vertex is beyond an edge, a hem or a collar, and not inside."""
+"""Sideways distance in metres from the nearest vertex above which a point is beyond an edge such as a hem or collar,
+and not inside.
+"""
 _MOST_FRAMES, _APART_S, _SAMPLES, _CHUNK = 12, 0.25, 8, 2048
 
 

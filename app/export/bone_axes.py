@@ -18,10 +18,12 @@ from metadata.load import load_skeleton
 from metadata.skeleton_profile import USUAL_TURNS, JointAxes, Turn
 
 _TIED: tuple[Turn, Turn, Turn] = ("flexion", "twist", "sideways")
-"""A bone that is where a hand or foot is turns with the whole limb, and then least about the limb's length."""
+"""Order of axes for bones at a hand or foot whose place is fixed: they rotate with the whole limb, least about its
+length.
+"""
 
 OBJECT_AXES: FloatArray = np.eye(3)[[1, 2, 0]]
-"""Axes of an instrument: the way it faces, then to its side, then up and down, which may be straight down."""
+"""Axes (3, 3) of an instrument: forward, sideways, up; the last one may be vertical."""
 
 
 def bone_axes(target: TargetSkeleton, skeleton: Skeleton) -> tuple[FloatArray | None, ...]:

@@ -23,7 +23,7 @@ from metadata.known_names import BoneNames
 from metadata.load import load_bone_names
 
 OWN_VERTEX = 0.5
-"""A vertex belongs to the joint that holds more than this share of it."""
+"""Share of its skin weight above which a vertex belongs to a joint."""
 _SHORTEST_CM = 1.0
 
 

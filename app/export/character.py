@@ -100,7 +100,7 @@ def character_scene(
 
 _SHAPED: Final[IdentityCache[Character]] = IdentityCache(16)
 _LIT: Final[IdentityCache[Mesh]] = IdentityCache(128)
-"""The bodies of an ensemble are few, and their shapes take half a second each."""
+"""Shaded bodies, each of which takes half a second to compute; an ensemble has few different ones."""
 
 
 def _shaped(character: Character, eyes: str) -> Character:

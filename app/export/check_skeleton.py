@@ -24,13 +24,13 @@ DifferenceKind: TypeAlias = Literal[
 ]
 
 MOST_LISTED: Final = 8
-"""Bones that are named where many differ alike; the report names them all."""
+"""Greatest number of bones named in a message about several bones; the report names all."""
 POSITION_MM: Final = 0.5
 ROTATION_DEG: Final = 0.1
 _MEASURED: Final[dict[str, str]] = {"position": "skeleton.position", "rotation": "skeleton.rotation"}
 _COUNTED: Final[dict[str, str]] = {kind: f"skeleton.{kind}" for kind in ("additional", "requested", "missing")}
 UNIT: Final = (0.2, 5.0)
-"""Lengths that differ by more than these factors are of another unit, not of another body."""
+"""Ratios of lengths beyond which a difference is attributed to another unit instead of another body."""
 
 
 class SkeletonDifference(msgspec.Struct, frozen=True):

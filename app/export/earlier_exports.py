@@ -17,7 +17,7 @@ from app.project.model import Project
 
 MOST_BYTES: Final = 2**26
 MOST_PIECES: Final = 64
-"""More pieces of an Unreal project are not looked at."""
+"""Greatest number of pieces of an Unreal project that are examined."""
 
 
 class _EarlierReport(msgspec.Struct, frozen=True):

@@ -29,7 +29,7 @@ IK_BONES: Final[Mapping[str, tuple[str, str]]] = {
     "ik_hand_l": ("ik_hand_gun", "leftHand"),
     "ik_hand_r": ("ik_hand_gun", "rightHand"),
 }
-"""Parent and joint of the IK targets, as Unreal's mannequin has them; without a parent they are below the root."""
+"""Parent and joint of each IK bone, as in Unreal's mannequin; bones without parent are children of the root."""
 TWIST: Final = "Twist"
 _KEPT: Final = {
     "root_bone": "skeleton.kept_root",

@@ -23,9 +23,9 @@ from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character
 
 BALL: Final = 0.5
-"""A vertex of which a larger share hangs on the joint of an eye is one of its ball."""
+"""Least skin weight of an eyeball's vertex for the joint of the eye."""
 TURNS_RAD: Final = np.deg2rad(2.0)
-"""A shape that turns the ball by less moves lids only."""
+"""Rotation in radians below which a shape does not turn the eyeball and only moves the lids."""
 _AHEAD: Final = np.array([0.0, 0.0, 1.0])
 
 

@@ -29,7 +29,9 @@ from metadata.model import ARKIT_MORPHS
 CurveNames: TypeAlias = Literal["arkit", "metahuman", "audio2face"]
 CURVE_NAMES: Final[tuple[CurveNames, ...]] = get_args(CurveNames)
 FacePart: TypeAlias = Literal["brows", "eyes", "gaze", "cheeks", "nose", "mouth"]
-"""Brows; lids; the turn of the eyes; cheeks that are raised; nose; jaw, lips, tongue and blown cheeks."""
+"""Parts of a face: brows, lids, direction of the eyes, cheeks and nose; the mouth comprises jaw, lips, tongue and
+puffed cheeks.
+"""
 FACE_PARTS: Final[tuple[FacePart, ...]] = get_args(FacePart)
 _BEGINNINGS: Final[Mapping[str, FacePart]] = {
     "brow": "brows",
@@ -42,7 +44,7 @@ _BEGINNINGS: Final[Mapping[str, FacePart]] = {
     "mouth": "mouth",
     "tongue": "mouth",
 }
-"""The first that a shape's name begins with counts."""
+"""Part of the face by the beginning of a shape's name; the first match applies."""
 
 
 class FaceOptions(msgspec.Struct, frozen=True):
@@ -111,7 +113,7 @@ def with_curve_names(scene: Scene, names: CurveNames) -> Scene:
 
 
 _SMALLEST_SHARE: Final = 1e-9
-"""Shares below this are rounding errors."""
+"""Shares below this value are rounding errors."""
 
 
 def _shares_of_shapes(table: Mapping[str, Mapping[str, float]]) -> dict[str, dict[str, float]]:

@@ -22,10 +22,10 @@ from app.rig.mesh import Mesh
 from app.rig.model import Character
 
 SPOT_PX: Final = 32
-"""Side of the spot of a plain colour."""
+"""Side in pixels of the area for a plain colour."""
 MOST_PX: Final = 4096
 COARSER: Final = 8
-"""Pictures of roughness, which is the same all over a surface, are smaller by this than those of colours."""
+"""Factor by which maps of roughness are smaller than those of colours, since roughness is constant on a surface."""
 _FLAT: Final = (128, 128, 255)
 
 Place = tuple[int, int, int, int]

@@ -12,10 +12,10 @@ from app.project.names import file_stems
 from app.project.performers import Dancer, Player
 
 REPORT = "report.json"
-"""Name of the file that says what the others hold."""
+"""Name of the file that describes the exported files."""
 
 Stems = dict[str, dict[FileContent, str]]
-"""Names without ending, by the id of a player or dancer, then by what bears them."""
+"""File names without suffix, by the id of a player or dancer and the kind of content."""
 
 
 def figure_stems(performance: Performance) -> Stems:

@@ -18,9 +18,9 @@ from app.formats.usd import UsdSound
 from app.formats.usd_package import refuse_without_usd
 
 Format: TypeAlias = str
-"""The id of a `FileFormat`."""
+"""Id of a `FileFormat`."""
 FileContent = Literal["character", "instrument", "props"]
-"""Props are a musician's straps and chair."""
+"""Content of a file; props are a musician's straps and chair."""
 _BESIDE: Final[tuple[FileContent, ...]] = ("instrument", "props")
 
 
@@ -257,10 +257,10 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
         ),
     )
 }
-"""In the order in which they are written and listed."""
+"""File formats in the order of writing and listing."""
 
 USUAL_FORMATS: Final = tuple(row.id for row in FILE_FORMATS.values() if row.usual)
-"""Formats by default."""
+"""Ids of the formats that are exported by default."""
 
 
 def files_of(formats: Collection[Format], reads: bool = False) -> tuple[tuple[FileFormat, FileContent], ...]:

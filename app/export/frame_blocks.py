@@ -18,7 +18,7 @@ from instrument_maps.model import ROOT, InstrumentMap
 
 SOLES = ("left.foot.sole", "right.foot.sole")
 _CHUNK = 512
-"""Frames read at once: few enough for a core's cache."""
+"""Number of frames read at a time, so that they fit a processor core's cache."""
 _TORSO = ("hips", "neck")
 _HANDS = ("left.hand", "right.hand")
 

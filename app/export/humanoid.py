@@ -34,7 +34,7 @@ _ENDS = {
     for side in ("left", "right")
     for limb, end in (("UpperArm", "LowerArm"), ("LowerArm", "Hand"), ("UpperLeg", "LowerLeg"), ("LowerLeg", "Foot"))
 }
-"""The joint at the end of each limb."""
+"""Joint at the end of each limb's bones."""
 _OF_VRM = ("vrm0", "vrm1")
 _VRM = "vrm"
 

@@ -18,11 +18,11 @@ from app.formats.scene import Scene, SkinnedMesh
 
 MOST_INFLUENCES: Final = 4
 FEW_MM: Final = 0.5
-"""Distance that a vertex may move by for having fewer influences, at any frame."""
+"""Greatest distance in millimetres by which a vertex may move at any frame if influences are removed."""
 _STRONGEST = 6
 _POSES, _CHUNK = 48, 256
 _RIDGE = 1e-9
-"""Part of the squares that keeps weights of bones which go together near what they were."""
+"""Regularisation relative to the squares, which keeps weights of bones that move together near their former values."""
 
 
 def with_few_influences(scene: Scene) -> Scene:

@@ -28,7 +28,7 @@ class JointMeasure(msgspec.Struct, frozen=True):
     value: float
     bound: float
     beyond: int
-    """Frames (of any joint) beyond the bound."""
+    """Number of frames in which any of the joints exceeds the bound."""
 
 
 def measure_joints(

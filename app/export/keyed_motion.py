@@ -18,17 +18,20 @@ from app.formats.keys import KeySpans
 from app.formats.scene import Clip, Scene
 
 ROTATION_RAD = float(np.radians(0.25))
-"""Bound of a bone's rotation."""
+"""Greatest error in radians of a bone's rotation after key reduction."""
 _CHAIN, _CURVED_CHAIN = 1.2, 1.3
-"""Root of the sum of squares that the bones of a chain may have, as a multiple of the bound, with lines and with
-cubics: they are seldom all off at once and to the same side, and cubics are so at few frames of a span."""
+"""Greatest root sum of squares of the errors along a chain of bones, as a multiple of one bone's bound, for linear and
+for cubic keys; errors rarely coincide in time and direction, and large errors of cubics last only a few frames.
+"""
 _BOX, _CURVED_BOX = float(np.sqrt(2.0)), 1.0
-"""Each number of a rotation or place may be off by its tolerance over this."""
+"""Divisor of a bone's tolerance that gives the tolerance of each component of its rotation or position, for linear and
+for cubic keys.
+"""
 _LIVELY, _CURVED_LIVELY = 2.0 / 3.0, 1.2
-"""Power of a bone's need of keys by which its share of the tolerance grows.
-
-2/3 gives the fewest keys of lines altogether. With cubics more goes to the bones that need most, which are the arms
-that an animator edits: measured on a trombonist, 4.0 instead of 4.2 keys a second, of all bones 2.8 instead of 2.6.
+"""Exponent with which the need for keys of a bone increases its share of the tolerance, for linear and for cubic keys.
+2/3 minimises the total number of linear keys. For cubics, more goes to the bones that need most keys, which are the
+arms that an animator edits: measured on a trombonist, 4.0 instead of 4.2 keys a second, for all bones 2.8 instead of
+2.6.
 """
 _SAMPLES = 16
 _STILL = 1e-7

@@ -73,9 +73,9 @@ _BONES: Final = (
 )
 _ADDED: Final = tuple(bone.of_side(x, side) for x, side in (("l", "left"), ("r", "right")) for bone in _TABLE.added)
 MANNEQUIN: Final[Mapping[str, str]] = {bone.name: bone.parent for bone in _BONES}
-"""Parent of every bone; that of the root is empty."""
+"""Parent of each bone; empty for the root."""
 _STRAIGHT: Final = ("root", "foot_l", "foot_r")
-"""Axes that stay as they are; all others have X turned along the bone."""
+"""Bones with unrotated axes; all others have X along the bone."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -52,11 +52,11 @@ from metadata.model import Body
 BONES_MM = 0.01
 JAW_OPENS = 0.05
 TORSO_BACK_RAD = math.radians(0.3)
-"""A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
+"""Backward lean in radians of the torso that counts, with the opening of the jaw, as a visible breath."""
 
 NOT_DANCED = DancedFeet.none()
 _CHUNK = 4096
-"""Frames that are read and whose depths are judged at once."""
+"""Number of frames read and judged at a time."""
 
 
 class BreathMeasure(msgspec.Struct, frozen=True):

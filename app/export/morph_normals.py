@@ -17,9 +17,9 @@ from app.rig.mesh import Mesh, Morph
 
 _PLACE_M: Final = 1e-6
 _ALIKE: Final = 1e-3
-"""Vertices whose places and normals differ by no more are one."""
+"""Difference of positions and normals up to which vertices are equal."""
 _LEAST: Final = 1e-3
-"""A normal that turns by less, radians, stays."""
+"""Rotation in radians below which a normal is left unchanged."""
 
 
 def with_morph_normals(mesh: Mesh) -> Mesh:

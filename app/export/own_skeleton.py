@@ -17,8 +17,9 @@ from app.rig.figure import Figure, OwnSkeleton
 from app.rig.model import Character, Skeleton
 
 TWIST_NAME: Final = re.compile(r"twist|roll(?!er)", re.IGNORECASE)
-"""Bones of such names along a limb share its twist: Unreal, MetaHuman and Character Creator say twist
-(``lowerarm_twist_01_l``, ``CC_Base_L_ForearmTwist01``), HumanIK and MotionBuilder say roll (``LeftForeArmRoll``)."""
+"""Names of bones that share the twist of a limb: "twist" in Unreal, MetaHuman and Character Creator
+(``lowerarm_twist_01_l``, ``CC_Base_L_ForearmTwist01``), "roll" in HumanIK and MotionBuilder (``LeftForeArmRoll``).
+"""
 LIMBS: Final = {
     f"{side}{bone}": f"{side}{end}"
     for side in ("left", "right")
@@ -29,10 +30,12 @@ LIMBS: Final = {
         ("LowerLeg", "Foot"),
     )
 }
-"""The long bones, and the joint where each ends."""
+"""Joint at the end of each long bone."""
 ARMATURE: Final = "armature"
 _TWISTS_AT_ITS_END: Final = ("LowerArm", "LowerLeg")
-"""A forearm's skin turns with the hand; an upper arm's twist comes from its own shoulder."""
+"""Limbs whose twist comes from the joint at their end, such as a forearm's from the hand; an upper arm's comes from the
+shoulder.
+"""
 
 
 def own_target(character: Character) -> TargetSkeleton:

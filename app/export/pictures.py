@@ -20,15 +20,15 @@ from app.export.folder import files_into
 from app.formats.atomic import atomic_write
 
 Picture = npt.NDArray[np.uint8]
-"""(H, W, 3) or (H, W, 4), top row first; alpha is dropped."""
+"""Pixels (H, W, 3) or (H, W, 4), top row first; alpha is ignored."""
 
 MOST_SHEET_PX: Final = 16_384
-"""Largest side of a picture that programs and graphics cards show."""
+"""Largest side in pixels that common programs and graphics cards support."""
 GAP_PX: Final = 4
-"""Around every picture of a sheet."""
+"""Margin in pixels around each picture of a sheet."""
 _FRAME: Final = re.compile(r"frame_\d{5,}\.png")
 _COMPRESSION: Final = 3
-"""Level of zlib: half again as large as the smallest, in a fraction of the time."""
+"""Level of zlib: files 1.5 times as large as the smallest, in a fraction of the time."""
 
 
 class PictureWriter(Protocol):

@@ -37,7 +37,7 @@ from app.plan.model import Problem
 from app.rig.model import Character
 
 _MOTION_WORK, _MEASURES_WORK = 1.0, 5.0
-"""Beside `FileFormat.work`."""
+"""Work of making the motion and the measurements, in the unit of `FileFormat.work`."""
 
 
 class ExportedPlayer(msgspec.Struct, frozen=True):

@@ -20,7 +20,9 @@ from app.export.request import CastMusician, ExportCast, ExportRequest
 from app.export.worker import Answer, Exported, job_of, serve
 
 WORTH_FRAMES, WORTH_COPY_FRAMES = 6000, 1000
-"""Frames of players for which it is worth to start a process, which takes about a second, or to copy this one."""
+"""Least number of players' frames for which starting a process, which takes about a second, or copying the current one
+saves time.
+"""
 _MOST = 8
 _POLL_S = 0.05
 

@@ -31,12 +31,14 @@ from app.formats.scene import Clip, Scene
 
 PLACE_MM: Final = 0.5
 INSTRUMENT_MM: Final = 0.25
-"""An instrument has few bones, and what touches it adds its own share."""
+"""Error bound in millimetres for an instrument, lower than a body's, since its error adds to that of the
+hands on it.
+"""
 ROTATION_DEG: Final = float(np.degrees(ROTATION_RAD))
 WEIGHT: Final = 0.005
 
 _MORPHS = 0.5
-"""Share of a mark's tolerance for all morphs together."""
+"""Share of a landmark's tolerance for all morphs together."""
 _CHUNK, _ROUNDS = 512, 8
 
 

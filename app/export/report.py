@@ -19,11 +19,11 @@ from app.plan.model import MuteKind
 from app.project.casting import StagePosition
 
 SWAY_CORRELATION = 0.9
-"""Two players whose sway correlates this much move alike."""
+"""Correlation of sway above which two players are reported as moving alike."""
 
 
 SLIDE_BOUND_MM_S = 5.0
-"""Mean slide of a standing foot beyond which a viewer may see it."""
+"""Mean slide in millimetres per second of a standing foot above which it may be visible."""
 BONES_BOUND_MM = 0.1
 
 
@@ -80,10 +80,12 @@ class SkeletonReport(msgspec.Struct, frozen=True):
 
     choice: SkeletonChoice
     asset: str | None = None
-    """Name of the asset's file."""
+    """Name of the file with the skeleton; None if there is none."""
     differences: tuple[SkeletonDifference, ...] = ()
     rig: RigOptions = DEFAULT_RIG
-    """Options besides the bones; those that a character's own skeleton does not take are among the warnings."""
+    """Options of the skeleton besides its bones; warnings list those that a character's own skeleton does not
+    support.
+    """
 
 
 class MutedSpan(msgspec.Struct, frozen=True):
@@ -109,9 +111,9 @@ class DoubleReport(msgspec.Struct, frozen=True):
     notes: int
     measures: PlayerMeasures | None
     keys: KeyCount | None = None
-    """Keys of the instrument's files."""
+    """Number of keys in the instrument's files, by format."""
     socket: str | None = None
-    """Socket, as the player's."""
+    """Bone of the character to which the instrument is attached, as in `PlayerReport.socket`."""
     mutes: tuple[MutedSpan, ...] = ()
 
 
@@ -127,26 +129,34 @@ class PlayerReport(msgspec.Struct, frozen=True):
     stage: PlaceReport
     notes: int
     measures: PlayerMeasures | None
-    """None where no format with a skin was asked for: the first of FBX, GLB and USD is read back and measured."""
+    """Measurements of the exported files, read back from the first of FBX, GLB and USD; None without any of these
+    formats.
+    """
     sway_correlation: float | None
-    """Greatest correlation of the torso's sideways motion with another exported player's; None where there is none."""
+    """Greatest correlation of the torso's sideways motion with another exported player's; None if there is no other
+    player.
+    """
     lean_correlation: float | None
-    """The same of its forward and backward motion, which breaths and rests in common make alike."""
+    """Same correlation of the forward and backward motion, which common breaths and rests make similar."""
     skeleton: SkeletonReport = SkeletonReport("suisou")
     size: float = 1.0
-    """Size of the instrument as a multiple of its model: a small player has a small one."""
+    """Size of the instrument relative to its model; small players have smaller instruments."""
     missed: dict[str, float] = {}
-    """Touches that the hold of this body does not meet however it moves, millimetres: reported, and counted apart."""
+    """Gaps in millimetres of touches that this body cannot close in any pose; they are not counted as broken
+    contacts.
+    """
     doubles: tuple[DoubleReport, ...] = ()
-    """The other instruments that the player changes to."""
+    """Other instruments that the player changes to."""
     keys: KeyCount | None = None
-    """Keys of the character's and the instrument's files, FBX and GLB."""
+    """Number of keys in the character's and the instrument's FBX and GLB files, by format."""
     socket: str | None = None
-    """The character's bone that the instrument's root bone hangs on; None: its file has its motion in the world."""
+    """Bone of the character to which the instrument's root bone is attached; None if the instrument's file contains its
+    motion in the world.
+    """
     mutes: tuple[MutedSpan, ...] = ()
-    """Muted passages that the frames show, in order."""
+    """Muted passages within the exported frames, in order."""
     props: tuple[str, ...] = ()
-    """Kinds of straps the player wears, and ``chair``; none where they were left out."""
+    """Kinds of straps that the player wears, and ``chair``; empty if props were excluded."""
 
 
 class DancerReport(msgspec.Struct, frozen=True):
@@ -160,7 +170,7 @@ class DancerReport(msgspec.Struct, frozen=True):
     files: dict[str, str]
     stage: PlaceReport
     steps: int
-    """Basic motions that begin in the frames."""
+    """Number of basic motions that begin within the exported frames."""
     skeleton: SkeletonReport
     measures: DancerMeasures | None
     keys: KeyCount | None = None
@@ -219,19 +229,19 @@ class Report(msgspec.Struct, frozen=True):
     warnings: tuple[str, ...]
     unplayed: tuple[UnplayedPartReport, ...]
     sound: str | None = None
-    """File that starts with frame 0; None where none was asked for."""
+    """Sound file that starts at frame 0; None if none was requested."""
     left_out: tuple[LeftOutReport, ...] = ()
     dancers: tuple[DancerReport, ...] = ()
     stage: StageReport | None = None
-    """None where none was asked for."""
+    """Stage file; None if none was requested."""
     incomplete: tuple[str, ...] = ()
-    """Missing content of the piece's file, which was read as far as it goes; also among the warnings."""
+    """Warnings about missing content of an incompletely readable piece; also contained in the general warnings."""
     keys: KeyChoice = "every"
-    """Frames that have keys; their number is reported for each performer."""
+    """Choice of the frames with keys; their numbers are reported for each performer."""
     textures: tuple[str, ...] = ()
-    """Image files that FBX and USD files name, with the folder they are in."""
+    """Image files used by FBX and USD files, with their folder."""
     ignored_problems: int = 0
-    """Problems that the project ignores; they are not among the warnings."""
+    """Number of problems that the project ignores and that are not among the warnings."""
 
     @property
     def file_count(self) -> int:

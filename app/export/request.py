@@ -28,7 +28,7 @@ from app.rig.characters.read_figure import read_figure
 from app.rig.model import Character
 
 MOST_FRAMES = 432_000
-"""Two hours at 60 frames/s: a player's motion and its file are in memory as a whole."""
+"""Greatest number of frames, two hours at 60 frames per second, since a player's motion and file are kept in memory."""
 
 
 @dataclass(frozen=True)

@@ -7,13 +7,17 @@ from typing import Final, Literal, TypeAlias, get_args
 import msgspec
 
 Attachment: TypeAlias = Literal["free", "socket", "ik"]
-"""An instrument's own motion in the world, on a bone of the hand that bears it, or on one of that hand's IK target."""
+"""Attachment of the instrument: its own motion in the world, a child of the holding hand's bone, or a child of that
+hand's IK target.
+"""
 RootBone: TypeAlias = Literal["origin", "place", "motion"]
-"""The root bone stays at the origin, stands at the place on the stage, or goes over the floor below the hips."""
+"""Motion of the root bone: none (at the origin), none (at the place on the stage), or along the floor below
+the hips.
+"""
 EyeTurn: TypeAlias = Literal["shapes", "bones"]
-"""Carrier of the turn of eyes: the eyeLook shapes of the face, or the bones of the eyes."""
+"""Representation of eye movement: the face's eyeLook shapes, or bones of the eyes."""
 RestPose: TypeAlias = Literal["model", "t", "a"]
-"""The arms at rest: as the body was modelled, level (T-pose), or 45 degrees down (A-pose)."""
+"""Rest pose of the arms: as modelled, horizontal (T-pose), or 45 degrees down (A-pose)."""
 
 ATTACHMENTS: Final[tuple[Attachment, ...]] = get_args(Attachment)
 ROOT_BONES: Final[tuple[RootBone, ...]] = get_args(RootBone)
@@ -46,4 +50,4 @@ class RigOptions(msgspec.Struct, frozen=True):
 
 
 DEFAULT_RIG: Final = RigOptions()
-"""The skeleton unchanged, the instrument free."""
+"""Options for an unchanged skeleton and an unattached instrument."""

@@ -35,12 +35,12 @@ from app.score.chunks import INCOMPLETE
 from app.score.part_messages import begins_after
 
 Progress = Callable[[float, str], None]
-"""Called with the share 0..1 that is done and whose work it is."""
+"""Function called with the completed share 0..1 and the name of the performer being exported."""
 
 _SOUND_WORK = 0.3
-"""Beside a player's."""
+"""Work of the sound, relative to a player's."""
 _STAGE_WORK = 0.4
-"""Share of a player's work for each player and format of the stage."""
+"""Work of the stage for each player and format, relative to a player's."""
 
 
 class WordedReports(NamedTuple):

@@ -24,14 +24,16 @@ from app.rig.model import Skeleton
 from app.rig.skeleton import forward
 
 SkeletonChoice: TypeAlias = Literal["suisou", "own", "ue5"]
-"""Our normalised skeleton, the one of the character's own file, the mannequin of Unreal Engine 5."""
+"""Skeleton of an exported character: the normalised one of Suisou, the character file's own, or Unreal Engine 5's
+mannequin.
+"""
 
 METRES = 0.01
 STEADY_M = 5e-6
-"""A bone that leaves its place on its parent by no more than this is not moved: that much is rounding."""
+"""Distance in metres up to which a bone's change of position relative to its parent is rounding and gets no keys."""
 _CHUNK = 4096
 HIPS = "hips"
-"""The joint whose translation a motion gives."""
+"""Joint whose translation a motion contains."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -247,7 +249,7 @@ def bone_motion(
 
 
 _Placed: TypeAlias = tuple[FloatArray, FloatArray]
-"""Positions (n, 3) and rotations (n, 4)."""
+"""Positions (n, 3) in metres and rotations (n, 4)."""
 
 
 def _bones(

@@ -25,7 +25,7 @@ from app.rig.mesh import Mesh
 from app.rig.model import Character
 
 MOST_LISTED = 5
-"""Grave differences that are reported one by one."""
+"""Greatest number of serious differences that are reported individually."""
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,7 @@ _SCRATCH: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
 MOST_BYTES = 2**24
 _NEW, _OLD, _LOCK, _LIST = "new", "old", "lock", "coming.txt"
 _NOTE: Final = "tree"
-"""In a temporary folder of the process: the tree that it changes, and where it writes meanwhile."""
+"""Name of the file in a process's temporary folder that records the changed folder and the folder being written."""
 _MOST_NOTE: Final = 2**20
 
 

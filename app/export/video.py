@@ -25,9 +25,9 @@ from app.formats.temporary_folders import scratch_folder
 
 SOUND_RATE_HZ = 48_000
 QUALITY_CRF = 18
-"""x264's constant rate factor at which most people see no loss."""
+"""Constant rate factor of x264 at which most people see no loss."""
 _TOLD = 2000
-"""Characters of the encoder's complaint that are passed on."""
+"""Greatest number of characters of the encoder's error output that are shown."""
 
 
 class VideoWriter:

@@ -44,7 +44,7 @@ from app.score.model import Score
 from app.score.tempo import TempoMap
 
 BLINK_S: Final = (0.08, 0.05, 0.16)
-"""Closing, shut and opening."""
+"""Durations in seconds of a blink: closing, shut, opening."""
 BLINKS_EVERY_S: Final = (1.8, 6.0)
 
 _DANCING: IdentityCache[GeneratedDance] = IdentityCache(64)

@@ -27,7 +27,7 @@ _SETTINGS: Final = {
     "CoordAxisSign": 1.0,
     "UnitScaleFactor": 1.0,
 }
-"""Y up, right-handed, facing +Z, in centimetres: what Unreal's importer is set to convert from."""
+"""Axis and unit settings that Unreal's importer expects: Y up, right-handed, facing +Z, centimetres."""
 _SAME_CM: Final = 0.01
 
 

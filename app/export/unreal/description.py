@@ -94,7 +94,7 @@ class Cast(msgspec.Struct, frozen=True):
     instrument: UnrealFigure
     doubles: tuple[Double, ...]
     props: UnrealFigure | None = None
-    """Straps and chair."""
+    """Meshes of straps and chair; None without props."""
 
 
 class CastDancer(msgspec.Struct, frozen=True):
@@ -115,7 +115,7 @@ class UnrealSound(msgspec.Struct, frozen=True):
     file: str
     asset: str
     source: str
-    """``"recording"`` or ``"synthesiser"``."""
+    """Origin of the sound: ``"recording"`` or ``"synthesiser"``."""
     offset_s: float
     duration_s: float
     rate_hz: int

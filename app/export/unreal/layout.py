@@ -18,11 +18,11 @@ from app.project.performers import Dancer, Player
 from app.rig.characters.dressed_characters import dressed_as
 
 SOURCES: Final = "SuisouSource"
-"""Folder of the sources. Not in ``Content``, which Unreal may watch for new files to import by itself."""
+"""Folder of the exported source files; outside of ``Content``, which Unreal may watch and import from automatically."""
 CONTENT: Final = "/Game/Suisou"
 PLUGIN: Final = "Plugins/Suisou"
 IMPORTED: Final = "fbx"
-"""The format that the plug-in imports."""
+"""Format that the plug-in imports."""
 DESCRIPTION, REPORT, MANIFEST = "performance.json", "report.json", "manifest.json"
 
 

@@ -14,13 +14,15 @@ import unicodedata
 from typing import Final
 
 LONGEST: Final = 32
-"""Characters of a name: with the project's own path and the prefixes Windows' 260 are far."""
+"""Greatest number of characters of a name, so that paths stay within Windows' limit of 260 characters."""
 
 # Device names of Windows ("Naming Files, Paths, and Namespaces", Microsoft Learn), and Unreal's own word for no name.
 _RESERVED: Final = re.compile(r"(con|prn|aux|nul|none|(com|lpt)[0-9])", re.IGNORECASE)
 _KANA: Final = re.compile(r"(?:HIRAGANA|KATAKANA) LETTER (SMALL )?([A-Z]+)")
 _NO_SPELLING: Final = re.compile(r"[LNSC]")
-"""Categories of characters that a name loses something with; marks and punctuation it does not miss."""
+"""Unicode categories of characters without which a name would lose information; marks and punctuation may be
+dropped.
+"""
 
 
 def asset_name(text: str, otherwise: str) -> str:

@@ -15,7 +15,7 @@ from app.errors import FileError, shortened
 from app.formats.files import cannot_read, read_file
 
 LEAST_ENGINE: Final = (5, 2)
-"""Before, a sequence had other functions to add tracks."""
+"""Oldest supported engine version; earlier ones have other functions for adding tracks."""
 _MOST_BYTES: Final = 16 << 20
 
 

@@ -27,27 +27,27 @@ HIP_BESIDE: Final = 0.03
 """Least distance of a leg's start from the middle, relative to the figure's height."""
 ANKLE_HEIGHT: Final = 0.045
 FOOT_HEIGHT: Final = 0.12
-"""Distance from shoulder to wrist relative to the figure's height."""
+"""Height above the floor below which a bone may belong to a foot, relative to the figure's height."""
 ARM_LENGTH: Final = 0.30
-"""Least distance of a hand from the start of the arm, relative to the figure's height."""
+"""Usual distance from shoulder to wrist, relative to the figure's height."""
 HAND_AWAY: Final = 0.15
-"""Distance from a forearm beyond which chains of fingers begin, relative to the preceding bone; chains from a hand
-begin nearer.
-"""
+"""Least distance of a hand from the start of the arm, relative to the figure's height."""
 PALM_AWAY: Final = 0.5
-"""Distance below which bones begin at the same place, relative to the preceding bone."""
+"""Distance from the forearm's start beyond which chains of fingers begin, relative to the length of the upper arm;
+chains from a hand begin nearer.
+"""
 AT_ONE_PLACE: Final = 0.02
-"""Least upward share of a neck's direction; a jaw points forward."""
+"""Distance below which bones begin at the same place, relative to the preceding bone."""
 UPWARDS: Final = 0.3
+"""Least upward share of a neck's direction; a jaw points forward."""
+HEAD_TOP: Final = 0.1
 """Distance above the preceding bone beyond which a last bone is the top of the head, relative to the figure's
 height.
 """
-HEAD_TOP: Final = 0.1
-"""Largest distance of the hips below the upper legs relative to the legs' length."""
 NEAR_LEGS: Final = 0.4
-"""Hips lie below the height of the upper legs by less than this part of the legs' length."""
+"""Largest distance of the hips below the upper legs, relative to the height of the upper legs above the floor."""
 LEG_LENGTH: Final = 0.46
-"""Hip to ankle. All of the figure's height."""
+"""Usual distance from hip to ankle, relative to the figure's height."""
 FINGERS: Final = ("Index", "Middle", "Ring", "Little")
 PARTS: Final = ("Proximal", "Intermediate", "Distal")
 THUMB: Final = ("ThumbMetacarpal", "ThumbProximal", "ThumbDistal")
