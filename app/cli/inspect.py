@@ -19,6 +19,7 @@ from app.cli.status import report_left_out
 from app.cli.terminal import say, say_json
 from app.encoding import shown
 from app.errors import Message
+from app.export.report import character_report
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
 from app.performance.fact_sources import breath_source, note_sources, tempo_source
@@ -39,6 +40,7 @@ from app.plan.music.pitch_bends import WRITTEN_BENDS, bends
 from app.plan.problem_lines import with_names
 from app.project.edit.marks import player_marks
 from app.project.performers import Dancer, Player
+from app.rig.characters.dressed_characters import character_title
 from app.score.marks import Mark
 from app.score.model import Note, Score
 from app.score.mutes import is_muted
@@ -150,7 +152,7 @@ def inspection(
             for player in project.players
             if player.id not in absent
         ],
-        "dancers": [_dancer(dancer) for dancer in project.dancers],
+        "dancers": [_dancer(dancer, speech) for dancer in project.dancers],
     }
 
 
@@ -180,11 +182,11 @@ def _piece(performance: Performance) -> Table:
     }
 
 
-def _dancer(dancer: Dancer) -> Table:
+def _dancer(dancer: Dancer, speech: Speech) -> Table:
     return {
         "name": dancer.name,
         "choreography": shown(dancer.choreography),
-        "character": dancer.character_id,
+        **_person(dancer, speech),
         "x_m": dancer.stage.x_m,
         "z_m": dancer.stage.z_m,
         "turn_deg": math.degrees(dancer.stage.turn_rad),
@@ -192,6 +194,17 @@ def _dancer(dancer: Dancer) -> Table:
             field: getattr(dancer, field)
             for field in ("seed", "delay_beats", "mirrored", "source", "size", "weight", "melody")
         },
+    }
+
+
+def _person(one: Player | Dancer, speech: Speech) -> Table:
+    """Return name and clothes of a performer's character."""
+    person = character_report(one)
+    return {
+        "character": one.character_id,
+        "character_title": character_title(one.character_id, speech.language),
+        "outfit": person.outfit,
+        "outfit_colours": person.outfit_colours,
     }
 
 
@@ -247,6 +260,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap,
         "part": part.name,
         "source": part.source,
         "musician": performance.project.musician(player).name,
+        **_person(player, speech),
         # Of notes struck together only one is played; the others are among what to look at.
         "notes": [
             _note(note, fingerings[note.id], keys[fingerings[note.id].label], instrument, clock)

@@ -31,6 +31,8 @@ def tables(file: str, found: Table) -> list[str]:
         lines += ["", *columns([heads("inspect.heads"), *(_row(player) for player in found["players"])])]
         sources = map(_sources_row, found["players"])
         lines += ["", *columns([heads("inspect.source_heads"), *sources], of_numbers=False)]
+        people = map(_person_row, found["players"])
+        lines += ["", *columns([heads("inspect.person_heads"), *people], of_numbers=False)]
     if found["dancers"]:
         titles = heads("inspect.dancer_heads")
         rows = (
@@ -84,6 +86,14 @@ def _sources_row(player: Table) -> tuple[str, ...]:
     return player["name"], *(
         ", ".join(f"{said(f'fact_source.{source}')} {count}" for source, count in found) or "-" for found in counts
     )
+
+
+def _person_row(player: Table) -> tuple[str, str, str]:
+    """Return a table row for a player: the name, the character and its outfit."""
+    title, id = player["character_title"], player["character"]
+    colours = ", ".join(player["outfit_colours"].values())
+    outfit = player["outfit"] or "-"
+    return player["name"], f"{title} ({id})" if title else id, f"{outfit} ({colours})" if colours else outfit
 
 
 def _fingerings(labels: list[str]) -> str:

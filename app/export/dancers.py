@@ -15,7 +15,7 @@ from app.export.formats import requested
 from app.export.joint_playback import JointPlayback
 from app.export.playback import ScenePlayback
 from app.export.player import read_again, skeleton_report, write_options
-from app.export.report import DancerMeasures, DancerReport, stage_place
+from app.export.report import DancerMeasures, DancerReport, character_report, stage_place
 from app.export.request import CastDancing, ExportRequest
 from app.export.scene_keys import key_count
 from app.export.target import TargetSkeleton
@@ -91,4 +91,5 @@ def export_dancer(request: ExportRequest, cast: CastDancing, folder: Path, repor
         skeleton=skeleton_report(request, cast.checked),
         measures=measures,
         keys=key_count(scenes[rows[0].humanoid]),
+        person=character_report(dancer),
     )

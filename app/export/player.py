@@ -21,7 +21,7 @@ from app.export.file_names import file_names, sound_name
 from app.export.formats import FileContent, FileFormat, Format, WriteOptions, files_of
 from app.export.humanoid import vrm_expressions
 from app.export.measure import PlayerJudge, PlayerMeasurement
-from app.export.report import DoubleReport, MutedSpan, PlayerReport, SkeletonReport, stage_place
+from app.export.report import DoubleReport, MutedSpan, PlayerReport, SkeletonReport, character_report, stage_place
 from app.export.request import CastMusician, ExportRequest
 from app.export.scene_keys import KeyCount, key_count
 from app.export.target import TargetSkeleton
@@ -104,6 +104,7 @@ def export_player(
         skeleton=skeleton_report(request, musician.checked),
         doubles=tuple(reports[1:]),
         props=supports.kinds if supports is not None and has_props else (),
+        person=character_report(player),
     )
     return ExportedPlayer(report, problems, None if torsos[0] is None else torsos[0].tolist())
 

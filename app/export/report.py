@@ -17,6 +17,8 @@ from app.export.target import SkeletonChoice
 from app.formats.keys import KeyChoice
 from app.plan.model import MuteKind
 from app.project.casting import StagePosition
+from app.project.performers import Dancer, Player
+from app.rig.characters.dressed_characters import character_title, worn_colours
 
 SWAY_CORRELATION = 0.9
 """Correlation of sway above which two players are reported as moving alike."""
@@ -97,6 +99,32 @@ class MutedSpan(msgspec.Struct, frozen=True):
     end_s: float
 
 
+class CharacterReport(msgspec.Struct, frozen=True):
+    """Person that a performer is shown as, and the clothes.
+
+    Attributes
+    ----------
+    title : str
+        English name of a bundled character, or title of a user's own; empty if it has only an id.
+    outfit : str or None
+        Id of the outfit; None in the person's own clothes.
+    outfit_colours : dict of str to str
+        Colours of its parts (main, second, accent) as worn, ``#rrggbb``.
+    """
+
+    title: str
+    outfit: str | None
+    outfit_colours: dict[str, str]
+
+
+def character_report(one: Player | Dancer) -> CharacterReport:
+    """Return name and clothes of a performer's character for the report."""
+    colours = worn_colours(one.character_id, one.outfit)
+    worn = None if colours is None else one.outfit.id
+    named: dict[str, str] = {str(tint): colour for tint, colour in (colours or {}).items()}
+    return CharacterReport(character_title(one.character_id), worn, named)
+
+
 class DoubleReport(msgspec.Struct, frozen=True):
     """Report on a further instrument of a musician, which is measured with the musician's character. While it is not
     played it lies beside the player.
@@ -157,6 +185,8 @@ class PlayerReport(msgspec.Struct, frozen=True):
     """Muted passages within the exported frames, in order."""
     props: tuple[str, ...] = ()
     """Kinds of straps that the player wears, and ``chair``; empty if props were excluded."""
+    person: CharacterReport | None = None
+    """Name and clothes of the character."""
 
 
 class DancerReport(msgspec.Struct, frozen=True):
@@ -174,6 +204,8 @@ class DancerReport(msgspec.Struct, frozen=True):
     skeleton: SkeletonReport
     measures: DancerMeasures | None
     keys: KeyCount | None = None
+    person: CharacterReport | None = None
+    """Name and clothes of the character."""
 
 
 class StageFigure(msgspec.Struct, frozen=True):

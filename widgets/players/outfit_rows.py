@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QWidget
 
 from app.editor.session import Session
 from app.project.performers import Dancer, Player
-from app.rig.characters.dressed_characters import person_behind
-from app.rig.people.wardrobe import OWN_CLOTHES, TINTS, OutfitChoice, Tint, wardrobe
+from app.rig.characters.dressed_characters import person_behind, worn_colours
+from app.rig.people.wardrobe import OWN_CLOTHES, TINTS, Tint, wardrobe
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Caption, Retranslated
 from widgets.common.instrument_name import outfit_names
@@ -73,7 +73,7 @@ class OutfitColours(Retranslated, QWidget):
             one.setVisible(bool(tints))
         for tint, swatch in self._swatches.items():
             swatch.setVisible(tint in tints)
-            swatch.show_colours(tuple(dict.fromkeys(filter(None, (_seen(one.outfit, tint) for one in people)))))
+            swatch.show_colours(tuple(dict.fromkeys(filter(None, (_seen(one, tint) for one in people)))))
 
 
 def _outfits() -> list[Option]:
@@ -85,7 +85,6 @@ def _people(performers: Sequence[Player | Dancer]) -> list[Player | Dancer]:
     return [one for one in performers if person_behind(one.character_id) is not None]
 
 
-def _seen(choice: OutfitChoice, tint: Tint) -> str:
-    """Return the colour of a part of an outfit as worn; empty if the outfit has no such part."""
-    outfit = wardrobe().get(choice.id)
-    return "" if outfit is None or tint not in outfit.colours else choice.colour(tint) or outfit.colours[tint]
+def _seen(one: Player | Dancer, tint: Tint) -> str:
+    """Return the colour of a part of a performer's outfit as worn; empty if the outfit has no such part."""
+    return (worn_colours(one.character_id, one.outfit) or {}).get(tint, "")

@@ -6,10 +6,10 @@ from functools import lru_cache
 
 from app.rig.characters.character_library import bundled_characters, character_library, character_named
 from app.rig.model import Character
-from app.rig.people.bundled_people import bundled_people, bundled_person
+from app.rig.people.bundled_people import bundled_people, bundled_person, our_name
 from app.rig.people.dressed import dressed, dressed_id
 from app.rig.people.person import Person, originals
-from app.rig.people.wardrobe import OutfitChoice
+from app.rig.people.wardrobe import OutfitChoice, Tint, wardrobe
 
 
 def person_behind(id: str) -> Person | None:
@@ -34,6 +34,25 @@ def dressed_as(id: str, choice: OutfitChoice) -> str:
     """
     person = person_behind(id)
     return id if person is None else dressed_id(id, person, choice)
+
+
+def worn_colours(id: str, choice: OutfitChoice) -> dict[Tint, str] | None:
+    """Return the colours of a character's outfit as worn, ``#rrggbb`` by part; None in its own clothes."""
+    person, outfit = person_behind(id), wardrobe().get(choice.id)
+    if person is None or outfit is None or person.original not in outfit.files:
+        return None
+    own = outfit.colours_by_body.get(person.original, {})
+    return {tint: choice.colour(tint) or colour for tint, colour in own.items()}
+
+
+def character_title(id: str, language: str = "en") -> str:
+    """Return the name of a bundled character in a language (``en`` or ``ja``), or the title of a user's own; empty if
+    it has only an id.
+    """
+    name, entry = our_name(id), character_library().own.get(id)
+    if name is None:
+        return entry.title if entry is not None else ""
+    return name.ja if language == "ja" else name.en
 
 
 @lru_cache(maxsize=64)

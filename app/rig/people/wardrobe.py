@@ -94,12 +94,15 @@ class Outfit:
         File and facts for people of each bundled body.
     colours : dict of str to str
         The outfit's own colours as ``#rrggbb``, by part whose colour can be chosen, in their order.
+    colours_by_body : mapping of str to dict of str to str
+        The same as worn by people of each bundled body; parts that its garments do not have are missing.
     """
 
     id: str
     title: PersonName
     files: Mapping[str, tuple[Path, OutfitFacts]]
     colours: Mapping[Tint, str]
+    colours_by_body: Mapping[str, Mapping[Tint, str]]
 
     @property
     def tints(self) -> tuple[Tint, ...]:
@@ -111,23 +114,24 @@ class Outfit:
 def wardrobe() -> Mapping[str, Outfit]:
     """Return the outfits by id, in their order. Looked up once. Raises FileError."""
     found: dict[str, dict[str, tuple[Path, OutfitFacts]]] = {}
-    colours: dict[str, dict[Tint, str]] = {}
+    colours: dict[str, dict[str, dict[Tint, str]]] = {}
     for path in sorted(_folder().glob("*.glb")):
         facts, factors = _facts(path)
         ending = path.stem.rpartition("_")[2]
         named = [id for id in originals() if id.partition("_")[0] == ending]
         body = facts.body or (named or list(originals()))[0]
         whole = msgspec.structs.replace(facts, body=body)
+        made_from = [id for id, table in originals().items() if table.made_from in named]
+        worn_by = [*(named or originals()), *made_from]
         for material, tint in facts.tints.items():
             factor = factors.get(material) or _factors(_document(_folder().parent / f"{body}.glb")).get(material)
             if factor is not None:
                 mean = facts.means.get(material, 1.0)
-                colours.setdefault(facts.id, {}).setdefault(tint, _hexadecimal([mean * part for part in factor]))
-        for id in named or originals():
+                colour = _hexadecimal([mean * part for part in factor])
+                for id in worn_by:
+                    colours.setdefault(facts.id, {}).setdefault(id, {}).setdefault(tint, colour)
+        for id in worn_by:
             found.setdefault(facts.id, {})[id] = (path, whole)
-        for id, table in originals().items():
-            if table.made_from in named:
-                found[facts.id][id] = (path, whole)
     return MappingProxyType({id: _outfit(id, found[id], colours.get(id, {})) for id in sorted(found)})
 
 
@@ -135,10 +139,15 @@ def _folder() -> Path:
     return Path(str(files("resources"))) / "characters" / "wardrobe"
 
 
-def _outfit(id: str, made: Mapping[str, tuple[Path, OutfitFacts]], colours: Mapping[Tint, str]) -> Outfit:
+def _outfit(id: str, made: Mapping[str, tuple[Path, OutfitFacts]], colours: Mapping[str, Mapping[Tint, str]]) -> Outfit:
     title = next(iter(made.values()))[1].title
-    ordered = {tint: colours[tint] for tint in TINTS if tint in colours}
-    return Outfit(id, title, MappingProxyType(dict(made)), MappingProxyType(ordered))
+    by_body = {body: {tint: own[tint] for tint in TINTS if tint in own} for body, own in colours.items()}
+    of_all = {tint: next(own[tint] for own in by_body.values() if tint in own) for tint in TINTS if _has(by_body, tint)}
+    return Outfit(id, title, MappingProxyType(dict(made)), MappingProxyType(of_all), MappingProxyType(by_body))
+
+
+def _has(by_body: Mapping[str, Mapping[Tint, str]], tint: Tint) -> bool:
+    return any(tint in own for own in by_body.values())
 
 
 def _facts(path: Path) -> tuple[OutfitFacts, dict[str, list[float]]]:

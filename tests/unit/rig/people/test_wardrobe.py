@@ -10,7 +10,7 @@ import pytest
 
 from app.errors import FileError
 from app.rig.characters.character_library import bundled_characters, character_named
-from app.rig.characters.dressed_characters import character_in, person_behind
+from app.rig.characters.dressed_characters import character_in, person_behind, worn_colours
 from app.rig.people.wardrobe import OutfitChoice, linear_colour, wardrobe
 from app.rig.skinning import mesh_named
 from tests.support.wardrobe import GARMENTS, TITLE, wardrobe_in, write_outfit
@@ -56,6 +56,17 @@ def test_the_wardrobe_lists_outfits_with_their_titles_and_colours() -> None:
         "woman_adult": "woman_adult",
         "child": "woman_adult",
     }
+
+
+def test_colours_are_those_that_the_person_wears() -> None:
+    """The woman's shirt of the pair has a texture half as bright, and so half the linear colour."""
+    man, woman = (worn_colours(id, OutfitChoice("test_pair")) for id in ("cast_daichi", "cast_yumi"))
+    assert man is not None
+    assert woman is not None
+    assert linear_colour(woman["main"]) == pytest.approx([part / 2.0 for part in linear_colour(man["main"])], abs=0.01)
+    assert worn_colours("cast_yumi", OutfitChoice("test_pair", main="#336699")) == {**woman, "main": "#336699"}
+    assert worn_colours("cast_yumi", OutfitChoice()) is None
+    assert worn_colours("cast_yumi", OutfitChoice("no_such")) is None
 
 
 @pytest.mark.parametrize("id", ["man_adult", "woman_adult", "cast_daichi", "cast_yumi"])
