@@ -184,7 +184,9 @@ class LaneLayout(QObject):
             self.show_lanes()
 
     def show_lanes(self) -> None:
-        """Show the lanes that are not hidden; empty ones only if they do not hide when empty."""
+        """Show the lanes that the user has not hidden; empty lanes with `Lane.hides_empty` only if the user has shown
+        them.
+        """
         stacked = STACKED_IDS if self._players.active else ()
         for id, lane in self._lanes.items():
             lane.setVisible(self.is_shown(id) and id not in stacked)

@@ -176,7 +176,7 @@ def whole_hand(side: str) -> tuple[str, ...]:
 
 
 def lean_of(problem: HandProblem, scene: GripScene, leaning: Leaning) -> WristOffset:
-    """Return a solved offset as the difference from the wrist at home."""
+    """Return the solved wrist of a leaning as an offset from the wrist at home."""
     before, after = quaternion.from_matrix(scene.basis[0]), quaternion.from_matrix(leaning.scene.basis[0])
     return WristOffset(
         finger=f"{problem.hand.side}.{FINGERS[leaning.solved.number]}",
