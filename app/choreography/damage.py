@@ -69,6 +69,9 @@ MOST_BENT_DEG: Final = {"spine": 120.0, "chest": 120.0, "head": 130.0}
 """Greatest angles in degrees of neck and back from the T-pose: a head hanging upside down was captured wrongly. Among
 70 captures from six sources the farthest plausible neck is at 104.
 """
+MOST_TURNED_DEG: Final = {"leftFoot": (85.0, 110.0), "rightFoot": (85.0, 110.0)}
+"""Angles in degrees from the T-pose at which the span of a wrongly turned foot begins, and that it exceeds: among 70
+captures from six sources the farthest plausible foot, pointed in a kick, is at 91, and exchanged markers are at 170."""
 MOST_WRONG: Final = 0.5
 """Share of a clip's time above which such bends indicate a wrongly read clip."""
 
@@ -202,7 +205,7 @@ def _too_fast(speeds: FloatArray, fps: float) -> Iterator[tuple[int, int, int]]:
 
 
 def _too_far_bent(clip: MotionClip) -> Iterator[tuple[int, int, int]]:
-    """Yield the spans in which the trunk or neck is bent impossibly."""
+    """Yield the spans in which the trunk, the neck or an ankle is bent impossibly."""
     for name, most_deg in MOST_BENT_DEG.items():
         part = SEGMENTS.index(name)
         swing, _ = quaternion.swing_twist(clip.rotations[:, part], (0.0, 1.0, 0.0))
@@ -210,6 +213,14 @@ def _too_far_bent(clip: MotionClip) -> Iterator[tuple[int, int, int]]:
         if beyond.mean() <= MOST_WRONG:
             for start, stop in runs(beyond):
                 yield max(start - 1, 0), min(stop, len(clip) - 1), part
+    for name, (begins_deg, most_deg) in MOST_TURNED_DEG.items():
+        part = SEGMENTS.index(name)
+        turned_deg = np.degrees(2.0 * np.arccos(np.minimum(np.abs(clip.rotations[:, part, 3]), 1.0)))
+        beyond = turned_deg > begins_deg
+        if beyond.mean() <= MOST_WRONG:
+            for start, stop in runs(beyond):
+                if turned_deg[start:stop].max() > most_deg:
+                    yield max(start - 1, 0), min(stop, len(clip) - 1), part
 
 
 def _merged(found: Iterable[tuple[int, int, int]]) -> Iterator[Damage]:

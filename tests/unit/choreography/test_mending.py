@@ -265,3 +265,16 @@ def test_a_head_that_slowly_goes_upside_down_is_left_out(axis: tuple[float, floa
             assert 1.0 < one.start / 60.0 < 3.0 < 5.0 < one.stop / 60.0 < 7.0
     # Where a body is so for most of its time, that is how it was read.
     assert not mended(turning(clip, "head", np.full(len(clip), np.radians(160.0)), axis)).left_out
+
+
+@pytest.mark.parametrize(("most_deg", "left_out"), [(95.0, False), (165.0, True)])
+def test_a_foot_turned_farther_than_ankles_go_is_left_out(most_deg: float, left_out: bool) -> None:
+    """Toes and heel of a capture are exchanged, so slowly that nothing jumps; a pointed foot stays."""
+    clip = dancing()
+    share = np.interp(np.arange(len(clip)) / 60.0, [1.0, 2.0, 4.0, 5.0], [0.0, 1.0, 1.0, 0.0])
+    found = mended(turning(clip, "leftFoot", np.radians(most_deg) * share, (1.0, 0.0, 0.0))).left_out
+    assert bool(found) is left_out
+    if left_out:
+        (one,) = found
+        assert one.parts == ("leftFoot",)
+        assert 1.0 < one.start / 60.0 < 2.0 < 4.0 < one.stop / 60.0 < 5.0
