@@ -101,7 +101,7 @@ def fake_unreal(project: Path, language: str = "en") -> Any:
         setattr(module, name, value)
     module.__dict__["studio"] = studio
     module.__dict__["get_editor_subsystem"] = lambda subsystem: subsystem()
-    module.__dict__["log"] = lambda arg: None
+    module.__dict__["log"] = studio.logs.append
     module.__dict__["log_error"] = studio.errors.append
     return module
 
@@ -116,6 +116,8 @@ class Studio:
         By path.
     actors : list
         Those in the level.
+    logs : list of str
+        Lines of the Output Log that are no errors.
     dialogs : list of str
         Messages shown; ``answers`` are given to questions, in order.
     imports : list of dict
@@ -135,6 +137,7 @@ class Studio:
     referencers: dict[str, list[str]] = field(default_factory=dict)
     actors: list[Any] = field(default_factory=list)
     dialogs: list[str] = field(default_factory=list)
+    logs: list[str] = field(default_factory=list)
     answers: list[Any] = field(default_factory=list)
     errors: list[object] = field(default_factory=list)
     imports: list[dict[str, Any]] = field(default_factory=list)

@@ -196,7 +196,27 @@ def test_an_older_engine_that_lacks_options_gets_the_others(editor: Editor) -> N
     options = fbx_options.mesh_options(None)
     found = options.get_editor_property("skeletal_mesh_import_data")._properties
     assert "import_vertex_attributes" not in found
+    assert sum("import_vertex_attributes" in line for line in editor.studio.logs) == 1
     assert found["normal_import_method"] is editor.unreal.FBXNormalImportMethod.FBXNIM_IMPORT_NORMALS_AND_TANGENTS
+
+
+def test_a_newer_engine_that_takes_an_option_otherwise_gets_the_others(editor: Editor) -> None:
+    from suisou_import import fbx_options
+
+    kind = editor.unreal.FbxSkeletalMeshImportData
+    known = kind.set_editor_property
+
+    def newer(self: Any, name: str, value: Any) -> None:
+        if name == "use_t0_as_ref_pose":
+            raise TypeError(f"{name}: cannot convert {value!r}")
+        known(self, name, value)
+
+    kind.set_editor_property = newer
+    options = fbx_options.mesh_options(None)
+    found = options.get_editor_property("skeletal_mesh_import_data")._properties
+    assert "use_t0_as_ref_pose" not in found
+    assert found["import_morph_targets"] is True
+    assert sum("use_t0_as_ref_pose" in line for line in editor.studio.logs) == 1
 
 
 def test_performers_stand_at_their_places(editor: Editor) -> None:

@@ -62,14 +62,13 @@ def _options(kind: unreal.FBXImportType, skeleton: unreal.Skeleton | None, rate:
 
 
 def _set(target: unreal.Object, values: Mapping[str, Any]) -> None:
-    """Set properties; what an engine does not know is written to its log."""
+    """Set properties; those that an engine does not have, or of another type, are written to its log."""
     for name, value in values.items():
         try:
             target.get_editor_property(name)
+            target.set_editor_property(name, value)
         except Exception as error:  # noqa: BLE001  the engine raises it itself
-            unreal.log(f"Suisou: this engine has no FBX option {name}: {error}")
-            continue
-        target.set_editor_property(name, value)
+            unreal.log(f"Suisou: this engine does not take the FBX option {name}: {error}")
 
 
 def import_ui(kind: unreal.FBXImportType, skeleton: unreal.Skeleton | None) -> dict[str, Any]:
