@@ -159,7 +159,9 @@ class LoweredPlace(MapTable, frozen=True):
 
 
 SupportKind: TypeAlias = Literal["neck_strap", "harness", "seat_strap"]
-"""A band around the neck; one over both shoulders and around the ribs; one across the seat, under its player."""
+"""Kind of support: a band around the neck; a band over both shoulders and around the ribs; a band on the seat under the
+player.
+"""
 
 
 class Support(MapTable, frozen=True):

@@ -26,7 +26,7 @@ T = TypeVar("T")
 PATH = Path(__file__).with_name("instrument_names.toml")
 
 _NAME_LETTERS = 4
-"""In a running text "Ob" or "Tr" may be anything; "Oboe" is not."""
+"""Least number of letters of a name in running text: "Ob" or "Tr" may be any abbreviation, "Oboe" is not."""
 _MOST_SHORT_KANA = 3
 """Greatest length in kana of a name recognised only at the end of a run of kana ("クラ", not in "スクラッチ")."""
 _MOST_KANA = 8

@@ -15,11 +15,11 @@ from app.identity_cache import IdentityCache
 from instrument_maps.model import Control, InstrumentMap
 
 HOLE: Final = 0.9
-"""Diameter of a hole."""
+"""Diameter of a hole, relative to the distance of holes."""
 PAD: Final = (0.94, 0.56)
-"""Width and height of a key."""
+"""Width and height of a key, relative to the distance of holes."""
 COLUMN: Final = 0.6
-"""Greatest distance of a column's hole from its middle."""
+"""Greatest sideways distance of a column's hole from its centre, relative to the distance of holes."""
 _BESIDE: Final = 1.15
 _LINE: Final = ("index", "middle", "ring")
 _DOWN: Final = {"thumb": 0.6, "middle": 1.0, "ring": 2.0, "little": 2.65}

@@ -17,14 +17,14 @@ _WORD = re.compile(
     r"|[^\W\d_\u3040-\u30ff\u3400-\u9fff\uac00-\ud7a3]+|\d+|[♭♯#]"
 )
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=\b[A-Z])(?=[A-Z][ac-z])")
-"""Between joined words, also after a single letter ("ACl"), but not in "BBb"."""
+"""Boundary between joined words, also after a single letter ("ACl"), but not in "BBb"."""
 _ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|ers?|eres?|res?|emes?|es?|v[ab]|m[ab]|[mdrt]?[ao])(?![^\W\d_])")
 """Endings of numbers: 1st, 2es, 3ª, 1mo, 8va; no key ("Es", "A")."""
 _LEAST_SPELLED = 4
 """Least number of letters of a word whose spelling is normalised; shorter ones are abbreviations and keys."""
 _SPELLING = re.compile(r"ph|oe|ue|y|(?<=[^\W\d_])([b-df-hj-np-tv-z])\1(?=[aeiouy])")
 _SPELLED = {"ph": "f", "oe": "o", "ue": "u", "y": "i"}
-"""Greek, German and Italian spellings; a doubled consonant between vowels is written once."""
+"""Replacements for Greek, German and Italian spellings; doubled consonants between vowels are also reduced to one."""
 _MARKED = re.compile(r"[^\x00-\x7f]")
 _LETTERS = {"œ": "oe", "æ": "ae", "ø": "o", "ł": "l", "đ": "d", "ı": "i"}
 """Letters that Unicode does not decompose, with their replacements."""

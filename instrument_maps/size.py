@@ -9,8 +9,8 @@ import msgspec
 from instrument_maps.model import InstrumentMap
 
 _LENGTHS = ("_m", "_m_s")
-"""Endings of the names of values that scale with an instrument: lengths, places, and the speed of a slide, whose way is
-longer.
+"""Suffixes of the fields that scale with an instrument: lengths and positions, and the speed of a slide, whose travel
+is longer.
 """
 _Table = TypeVar("_Table", bound=msgspec.Struct)
 

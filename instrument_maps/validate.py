@@ -16,10 +16,10 @@ from instrument_maps.value_checks import REACH_M, UNIT_TOLERANCE, Problem, dot, 
 _MOST_NAME = 200
 _MOST_SIGN = 4
 _FURTHEST = 12.0
-"""Distance of a key from the first hole in a drawn fingering, in holes."""
+"""Greatest distance of a key from the first hole in a drawn fingering, in units of the distance of holes."""
 
 LIPS_MEET = frozenset({"cup", "air_jet"})
-"""Kinds of embouchure with nothing between the lips."""
+"""Kinds of embouchure without a reed or beak between the lips."""
 
 
 def problems(instrument: InstrumentMap) -> Iterator[Problem]:

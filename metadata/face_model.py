@@ -74,7 +74,7 @@ class EmbouchureWeights(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
 
 
 EmbouchureKind: TypeAlias = Literal["cup", "single_reed", "double_reed", "air_jet", "fipple"]
-"""The kinds an instrument map may name."""
+"""Kinds of embouchure in instrument maps."""
 
 
 class Load(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -147,11 +147,11 @@ EMBOUCHURE_WEIGHTS = (
     *("relaxed", "tight", "air", "effort", "tongue_stroke", "inhale"),
     *("tongue_back", "push", "soft", "onset", "corners", "chin", "tired", "vibrato"),
 )
-"""The tables of weights of an `EmbouchureWeights`."""
+"""Names of the tables of weights in an `EmbouchureWeights`."""
 FACE_WEIGHTS = (
     *("working", "strain", "rising", "falling", "louder", "softer", "emptying", "phrase", "inhale"),
     *("brows", "lids", "nose"),
 )
-"""The tables of weights of a `FaceMotion`."""
+"""Names of the tables of weights in a `FaceMotion`."""
 UPPER_FACE = ("brow", "eye", "cheekSquint", "noseSneer")
 """Prefixes of the morphs above the mouth."""

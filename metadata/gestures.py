@@ -27,7 +27,7 @@ Which: TypeAlias = Literal["free", "left", "right"]
 Offset: TypeAlias = Annotated[float, msgspec.Meta(ge=-0.5, le=0.5)]
 
 MOST_TRACKS = 15
-"""Every angle of every target."""
+"""Greatest number of tracks: one for every angle of every target."""
 MOST_KEYS = 64
 
 

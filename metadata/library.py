@@ -35,7 +35,7 @@ _OUR_RULES: Final = bundled("rules", read_rules, RuleSet)
 GESTURES: Final = _folder("gestures", read_gesture, _OUR_GESTURES)
 RULES: Final = _folder("rules", read_rules, _OUR_RULES)
 FOLDERS: Final[tuple[UserFolder[Any, Any], ...]] = (STYLES, HABITS, EXPRESSIONS, GESTURES, RULES)
-"""Folders of all kinds of which the user may have own ones."""
+"""Folders of the kinds of tables that users can add."""
 
 
 READERS: Final[Mapping[str, Callable[[Path], object]]] = {

@@ -31,7 +31,7 @@ REQUIRED_JOINTS: tuple[str, ...] = (
         for part in ("UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot")
     ),
 )
-"""Joints that a body must have for playing: those that VRM 1.0 requires."""
+"""Joints that a body must have for playing, including those required by VRM 1.0."""
 ARKIT_MORPHS: tuple[str, ...] = (
     "browDownLeft", "browDownRight", "browInnerUp", "browOuterUpLeft", "browOuterUpRight", "cheekPuff",
     "cheekSquintLeft", "cheekSquintRight", "eyeBlinkLeft", "eyeBlinkRight", "eyeLookDownLeft", "eyeLookDownRight",

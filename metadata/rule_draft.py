@@ -18,7 +18,7 @@ from metadata.rules import Do, Rule, RuleSet, When
 from metadata.tables import Title
 
 OWN: Final = "my_rules"
-"""The user's file for changed bundled rules and new ones."""
+"""Name of the user's file with changed bundled rules and new ones."""
 
 
 class Listed(NamedTuple):

@@ -10,9 +10,9 @@ Fraction01: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
 Positive: TypeAlias = Annotated[float, msgspec.Meta(gt=0.0)]
 NotNegative: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0)]
 Range: TypeAlias = tuple[float, float]
-"""Lowest and highest, degrees."""
+"""Lowest and highest value in degrees."""
 Axis: TypeAlias = tuple[float, float, float]
-"""A unit vector in the T-pose; a positive rotation about it is the motion named by the field."""
+"""Unit vector in the T-pose about which a positive rotation is the motion that the field's name states."""
 Delay: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=0.12)]
 """Delay in seconds, limited since longer delays make a body look disjointed."""
 AmplitudeScale: TypeAlias = tuple[NotNegative, NotNegative, NotNegative]

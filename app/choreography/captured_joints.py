@@ -30,12 +30,14 @@ upright in a T-pose.
 """
 JUMP_PART: Final = 0.25
 JUMP_TIMES: Final = 3.0
-"""A joint has jumped if it moves between two frames by more than this share of the distance from hips to head and
+"""A joint has jumped if it moves between two frames by more than `JUMP_PART` of the distance from hips to head and
 `JUMP_TIMES` times farther than in 99 of 100 frames.
 """
 SETTLES: Final = 40
 NEAR_PART: Final = 1e-3
-"""Greatest number of iterations for a robust mean, and change relative to its length at which the iterations end."""
+"""`SETTLES` is the number of iterations for a geometric median; `NEAR_PART` the least distance from it, relative to its
+length, that is used as a divisor.
+"""
 FIXED: Final = (0.9, 0.97)
 """Length of the mean of a hinge's unit axes, relative to a bone: below the first value it is no hinge, above the second
 certainly one.

@@ -19,7 +19,7 @@ from app.formats.locks import is_locked, is_same_file, lock
 
 _PARTIAL: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
 _swept: set[Path] = set()
-"""Folders that this process has written into."""
+"""Folders into which this process has written."""
 _FRESH_S: Final = 60.0
 """Age in seconds below which a temporary file is not swept: on Windows a file cannot be renamed while open, so that it
 belongs to no process for a moment.

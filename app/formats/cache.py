@@ -9,7 +9,7 @@ from typing import Final
 import platformdirs
 
 CACHE_VARIABLE: Final = "SUISOU_CACHE"
-"""Environment variable that names another folder, with one for each kind in it."""
+"""Environment variable with another folder for the caches; each kind of cache has a subfolder."""
 
 
 def cache_folder(kind: str) -> Path:

@@ -16,18 +16,18 @@ import numpy as np
 from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, FloatArray, IntArray
 
 _FIRST = 64
-"""Frames of the spans that are tried at first."""
+"""Length in frames of the spans tried first."""
 _LONGEST = 192
-"""Frames of a span: a hand that is still has one every few seconds."""
+"""Greatest length of a span in frames: a motionless hand still has a key every few seconds."""
 _LENGTHS = np.unique([*range(1, 24), *range(24, 48, 2), *range(48, 96, 4), *range(96, _LONGEST + 1, 8)])
-"""Lengths of spans that are tried when a span is to be as long as possible."""
+"""Lengths in frames that are tried when a span is extended as far as possible."""
 _AT_ONCE = 2**20
-"""Numbers worked on at once."""
+"""Number of values processed at a time."""
 _PASSES = 8
 _BLOCK = 12
-"""Spans that are chosen anew together, each as long as possible."""
+"""Number of consecutive spans that are redivided together, each as long as possible."""
 _BLOCK_PASSES = 4
-"""Times that is done, with the blocks moved by half their length in between."""
+"""Number of such passes; blocks are shifted by half their length in between."""
 
 
 @cache

@@ -24,7 +24,7 @@ _SMOOTH_TURNS = 1 / 8
 # Frames times joints worked on at once: about fifteen arrays of this many doubles stay in a core's cache.
 _BLOCK = 8192
 _JOINTS = 8
-"""Joints taken out of the clip at once, whose values lie apart in it."""
+"""Number of joints copied from the clip at a time, since the values of one joint are not adjacent there."""
 
 
 def euler_degrees(rotations_xyzw: AnyFloatArray, order: str) -> FloatArray:

@@ -23,20 +23,22 @@ from app.formats.files import open_file
 from app.formats.media_kind import MediaKind, media_kind
 
 _CONTAINERS: Final = "mov,matroska,avi,mpeg,asf,ogg,flv,mxf,mp3,wav,aac,flac"
-"""Formats that may be opened: no playlist, which would open other files, and no transport stream."""
+"""Container formats that may be opened. Playlists are excluded since they open other files, and transport streams since
+the bundled ffmpeg crashes on them.
+"""
 _MOST_PIXELS: Final = 1 << 26
-"""Largest picture: 8192 x 8192."""
+"""Largest picture in pixels: 8192 x 8192."""
 _DETAIL: Final = 300
-"""Characters of ffmpeg's complaint that are passed on."""
+"""Greatest number of characters of ffmpeg's error output that are shown."""
 _STREAM: Final = re.compile(rb"^  Stream #0:\d+.*?: (Video|Audio): ", re.MULTILINE)
 _PREFIX: Final = re.compile(r"^\[[^]]*\] ")
 _GENERAL: Final = ("Error opening input file", "Conversion failed!")
-"""Lines of ffmpeg that say no reason."""
+"""Error lines of ffmpeg that contain no reason."""
 _NO_MEMORY: Final = ("Cannot allocate memory", "Failed to allocate", "failed to create thread", "Resource temporarily")
 _OVER: Final = frozenset(-number for name in ("SIGXCPU", "SIGXFSZ", "SIGKILL") if (number := getattr(signal, name, 0)))
-"""The system ended it at a limit."""
+"""Exit statuses of a process that the system ended at a resource limit."""
 _WINDOWS_CRASH: Final = 0xC0000000
-"""Statuses from here on are exceptions."""
+"""Lowest exit status that is an exception on Windows."""
 
 
 @contextlib.contextmanager

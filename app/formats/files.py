@@ -15,7 +15,7 @@ from app.errors import FileError
 from app.formats.other_computers import refuse_others
 
 _FLAGS: Final = os.O_RDONLY | sum(getattr(os, name, 0) for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY"))
-"""Flags that open a pipe without a writer without waiting, and a terminal without making it that of the process."""
+"""Flags for opening a file that avoid waiting for a pipe's writer and attaching a terminal to the process."""
 
 
 def open_file(path: str | os.PathLike[str]) -> BufferedReader:

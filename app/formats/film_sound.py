@@ -21,15 +21,15 @@ from app.errors import FileError, StopRequested, raise_if_stopped
 from app.formats.ffmpeg import ffmpeg_on, kinds_in, refusal
 
 _BLOCK: Final = 1 << 18
-"""Bytes that are read in one step."""
+"""Number of bytes read at a time."""
 _FRAME: Final = re.compile(rb"\] n: *\d+ pts: *\S+ pts_time: *(\S+) .*?rate: *(\d+) nb_samples: *(\d+) ")
 _LONGEST_LINE: Final = 1 << 12
 _KEPT_LINES: Final = 200
-"""Lines of a report that are kept: the streams are among the first, the reason of a failure among the last."""
+"""Number of kept lines of ffmpeg's output: the first ones list the streams, the last ones the error."""
 _MOST_LEFT_OUT: Final = 0.25
-"""Most of the sound, 0..1, that may be left out for overlaps; more shows wrong time stamps."""
+"""Greatest share of the sound, 0..1, that may be removed for overlaps; more indicates wrong time stamps."""
 _JUMP_S: Final = 0.02
-"""Seconds by which time stamps may differ from the expected ones through rounding."""
+"""Difference in seconds of time stamps from the expected ones that is attributed to rounding."""
 
 Samples = npt.NDArray[np.int16]
 

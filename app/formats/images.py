@@ -21,20 +21,22 @@ if TYPE_CHECKING:
 
 FREE_PX: Final = 2**24
 PX_PER_BYTE: Final = 64
-"""Most pixels that are looked at, and most for each byte of the images: a few bytes can be any number."""
+"""Greatest number of pixels per byte of an image, in addition to a fixed amount: a few bytes can claim any number of
+pixels.
+"""
 MOST_SIDE_PX: Final = 8192
 MOST_SCANS: Final = 64
-"""Scans that a JPEG may have, each of which is a pass over the picture; real ones have about ten."""
+"""Greatest number of scans in a JPEG, each of which is a pass over the picture; real files have about ten."""
 JPEG_QUALITY: Final = 92
 TextureSize = Literal[0, 512, 1024, 2048, 4096]
 TEXTURE_SIZES: Final[tuple[TextureSize, ...]] = get_args(TextureSize)
-"""Longest sides of textures in files, in pixels, to choose from; 0: no textures."""
+"""Choices for the longest side of exported textures in pixels; 0 means no textures."""
 USUAL_TEXTURE_PX: Final = 2048
 _JPEG_MAGIC: Final = b"\xff\xd8"
 _SCAN: Final = b"\xff\xda"
 _FORMATS: Final = ("PNG", "JPEG", "WEBP", "BMP", "TGA")
 _AS_THEY_ARE: Final = ("L", "LA", "RGB", "RGBA", "P", "1")
-"""Modes of Pillow that every program reads; others (CMYK, 16 bits) are written again."""
+"""Modes of Pillow that every program reads; images of other modes (CMYK, 16 bits) are converted."""
 
 Pixels = npt.NDArray[np.uint8]
 

@@ -15,10 +15,10 @@ from app.formats.euler import euler_degrees, quaternions
 
 AXES: Final = "XYZ"
 PLAIN_ORDER: Final = "ZYX"
-"""The order of a joint whose axes mean nothing, which FBX has by default."""
+"""Rotation order of joints whose axes have no anatomical meaning; FBX uses it by default."""
 _ORDERS: Final = tuple("".join(axes) for axes in itertools.permutations(AXES))
 _DIGITS: Final = 4
-"""Digits of sums of cosines: nearer ones are alike, so that rounding decides nothing."""
+"""Decimals to which sums of cosines are rounded before comparison, so that rounding errors decide nothing."""
 
 
 def order_along(axes: AnyFloatArray | None) -> str:

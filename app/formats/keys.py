@@ -16,11 +16,15 @@ import numpy as np
 from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, FloatArray, SingleArray
 
 KeyChoice = Literal["every", "reduced", "linear"]
-"""A key on every frame, or as few as keep everything within a bound: joined by cubics, or by straight lines."""
+"""Frames that get keys: every frame, or as few as keep all errors within a bound, joined by cubics ("reduced") or
+straight lines ("linear").
+"""
 KEY_CHOICES: Final[tuple[KeyChoice, ...]] = ("every", "reduced", "linear")
 
 _LEAST_CHUNK, _MOST_CHUNK, _AT_ONCE = 64, 512, 8192
-"""Frames that are walked through one after another, and how many numbers at once: all chunks of all curves."""
+"""Least and greatest number of consecutive frames in a chunk, and number of values processed at a time over all chunks
+and curves.
+"""
 
 
 @dataclass(frozen=True, eq=False)

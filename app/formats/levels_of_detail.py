@@ -18,24 +18,26 @@ from app.arrays import AnyFloatArray, AnyIntArray, FloatArray, IntArray
 from app.formats.scene import MorphTarget, Scene, SkinnedMesh
 
 MOST_LEVELS: Final = 3
-"""The mesh itself, and the levels of `TRIANGLE_SHARES`."""
+"""Greatest number of levels, the full mesh included; see `TRIANGLE_SHARES`."""
 LevelChoice = Literal[0, 1, 2, 3]
 LEVEL_CHOICES: Final[tuple[LevelChoice, ...]] = get_args(LevelChoice)
-"""Numbers of levels to choose from; 0: as many as is usual (`levels_for`)."""
+"""Choices for the number of levels; 0 for the default (`levels_for`)."""
 TRIANGLE_SHARES: Final = (0.5, 0.25)
-"""Triangles of each lower level, of the mesh's."""
+"""Number of triangles of each reduced level, relative to the mesh."""
 LEAST_HEIGHTS: Final = (0.5, 0.2)
-"""Height of the figure on the screen, of the screen's, below which each lower level is shown."""
+"""Height of the figure relative to the screen below which each reduced level is displayed."""
 _LEAST_TRIANGLES: Final = 64
-"""A mesh of fewer has no lower levels: a reed, a finger hook."""
+"""Least number of triangles of a mesh that gets reduced levels; smaller ones are reeds or finger hooks."""
 _TOUCHING_CM: Final = 1e-4
-"""Vertices that are equal when rounded to this lie together."""
+"""Rounding in centimetres within which vertices count as one."""
 _AGGRESSIVENESS: Final = 5.0
-"""Growth of the error that is allowed. With the usual 7 a level is up to a third further from the mesh."""
+"""Growth of the error that the reduction allows. With the default of 7, levels deviate up to a third more from the
+mesh.
+"""
 _WORTH_IT: Final = 0.8
-"""Most triangles of a level, of those of the one before."""
+"""Greatest ratio of a level's triangles to those of the level before; a level with more is omitted."""
 _ONE_AT_A_TIME: Final = Lock()
-"""The library works on one mesh in a place of its own."""
+"""Lock for the reduction, since the library keeps its mesh in a global variable."""
 
 
 def levels_for(chosen: int, into_unreal: bool) -> int:

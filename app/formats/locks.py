@@ -17,7 +17,7 @@ else:
     import fcntl
 
 _BYTE: Final = 2**30
-"""The byte that is locked on Windows: far behind the content, which stays readable."""
+"""Offset of the byte that is locked on Windows, far behind the content, which stays readable."""
 _held: Final = WeakSet[IO[Any]]()
 
 

@@ -8,29 +8,29 @@ from typing import Final
 from app.formats.files import open_file
 
 _HEAD: Final = 1 << 16
-"""Bytes that are looked at; a tag at the beginning is skipped, however long it is."""
+"""Number of examined bytes at the start of a file, after a tag of any length."""
 _BOXES: Final = frozenset((b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot", b"moof", b"styp"))
 _FILMS: Final = tuple(
     bytes.fromhex(begin)
     for begin in ("1a45dfa3", "3026b2758e66cf11", "464c5601", "000001ba", "000001b3", "060e2b3402050101")
 )
-"""Matroska and WebM, ASF (WMV, WMA), Flash video, MPEG program and video streams, MXF."""
+"""Initial bytes of containers: Matroska and WebM, ASF (WMV, WMA), Flash video, MPEG program and video streams, MXF."""
 _OGG_PICTURES: Final = (b"\x80theora", b"OVP80", b"fishead\0", b"\x01video\0", b"BBCD\0")
 _PACKETS: Final = ((188, 0), (192, 4), (204, 0))
-"""Lengths of the packets of transport streams, and where in one its mark is."""
+"""Packet length of a transport stream and offset of the sync byte within a packet."""
 _MARKS: Final = 5
-"""Marks in a row that are no coincidence."""
+"""Number of consecutive sync bytes that identify a transport stream."""
 
 
 class MediaKind(Enum):
     """Kind of a sound or video file, by the library that reads its sound."""
 
     SOUND = auto()
-    """Sound for libsndfile: WAV, AIFF, FLAC, Ogg, MP3 and its other formats; also unknown files."""
+    """Sound that libsndfile reads: WAV, AIFF, FLAC, Ogg, MP3 and others; also unknown files."""
     ADTS = auto()
-    """AAC without a container: ffmpeg, which takes nothing off its beginning."""
+    """AAC without a container, read by ffmpeg, which does not remove the encoder delay at its start."""
     FILM = auto()
-    """ffmpeg: a container, with pictures or without."""
+    """A container, with or without pictures, read by ffmpeg."""
     TRANSPORT = auto()
     """An MPEG transport stream, at which the ffmpeg 7.0.2 of Linux crashes."""
 

@@ -8,16 +8,20 @@ from typing import Final
 from app.errors import FileError
 
 FPS: Final = (1, 1000)
-"""Frame rates that motion is captured, animated or played at."""
+"""Least and greatest frame rate of motion in frames per second."""
 KEPT_FPS: Final = Fraction(60)
-"""Lowest frame rate that a motion is kept at, and the one of the motions that a model is learned from."""
+"""Lowest frame rate at which motion is stored, and the rate of the motion from which models are learned."""
 FREE_FRAMES, FRAMES_PER_KB = 54_000, 50
-"""Frames of any file, a quarter of an hour at 60 frames per second, and more for its size. A frame of a body that is
-written out takes more than a hundred bytes in every format, so only what is sampled between keys meets this bound."""
+"""Limit of the number of frames: a fixed amount, a quarter of an hour at 60 frames per second, plus this many per
+kilobyte of the file. Explicit frames need more than a hundred bytes in every format, so only motion sampled between
+keys reaches this bound.
+"""
 FREE_TRANSFORMS, TRANSFORMS_PER_KB = 2**20, 512
-"""Frames times nodes that a file may have: a free allowance, plus this many for each kilobyte of its size."""
+"""Limit of frames times nodes: a fixed amount, plus this many per kilobyte of the file."""
 MOST_TRANSFORMS: Final = 2**23
-"""Frames times nodes of a file of any size: a quarter of an hour of 150 nodes at 60 frames per second."""
+"""Greatest product of frames and nodes for a file of any size: a quarter of an hour of 150 nodes at 60 frames per
+second.
+"""
 
 
 def longest_motion_s(fps: float, nodes: int, size_bytes: int) -> float:

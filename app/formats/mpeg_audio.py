@@ -25,16 +25,17 @@ _KBITS: Final = {
     (2, 2): (8, 16, 24, 32, 40, 48, 56, 64, 80, 96, 112, 128, 144, 160),
     (2, 3): (8, 16, 24, 32, 40, 48, 56, 64, 80, 96, 112, 128, 144, 160),
 }
-"""By version (1, or 2 and 2.5) and layer, from the index 1 on."""
+"""Bit rates in kbit/s by version (1, or 2 and 2.5) and layer, from index 1."""
 _CONTENTS: Final = (b"Xing", b"Info", b"VBRI")
-"""Marks of headers."""
+"""Marks of headers with the number of frames."""
 _LAYER_III_SAMPLES: Final = 1105
-"""Delay of encoder and decoder: LAME's 576 and 529. Encoders that do as the standard's example have 528 in the place of
-576, Fraunhofer's some 50 samples more: 1.2 ms to either side."""
+"""Delay of encoder and decoder in samples: LAME's 576 and 529. Encoders like the standard's example have 528 instead of
+576, Fraunhofer's about 50 samples more: a difference of at most 1.2 ms.
+"""
 _OTHER_SAMPLES: Final = 481
-"""The filter banks of both, which nothing adds to."""
+"""Delay in samples of the filter banks of encoder and decoder in layers I and II."""
 _RESYNC: Final = 1 << 16
-"""Bytes of something else that may lie between frames."""
+"""Greatest number of unrelated bytes between two frames."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ class MpegAudio:
 @dataclass(frozen=True)
 class _Frame:
     key: int
-    """Version, layer and rate: the same in all frames."""
+    """Version, layer and rate, which are equal in all frames of a file."""
     layer: int
     rate_hz: int
     length: int

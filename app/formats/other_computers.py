@@ -14,7 +14,7 @@ from typing import Final
 from app.errors import FileError
 
 AGREED: Final = "SUISOU_AGREED_HOSTS"
-"""Environment variable with the hosts that were agreed to, one a line: processes that this one begins know them too."""
+"""Environment variable with the hosts that the user has allowed, one per line, for child processes."""
 
 _URL: Final = re.compile(r"([a-z][a-z0-9+.-]+)://(.*)", re.IGNORECASE | re.DOTALL)
 _LOCAL_DEVICE: Final = re.compile(r"(?:[a-z]:|volume\{[^/]*)(?:/|$)", re.IGNORECASE)

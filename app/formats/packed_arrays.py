@@ -22,7 +22,7 @@ from app.formats.json_data import decode_json
 
 MAGIC: Final = b"SUISOU-ARRAYS-1\n"
 MOST_FILE_BYTES, MOST_TABLE_BYTES, MOST_BYTES = 2**25, 2**16, 2**27
-"""Largest sizes of a file, of its table, and of all its arrays."""
+"""Largest sizes in bytes of a file, of its table, and of all its arrays."""
 KINDS: Final = frozenset(("|u1", "<u2", "<i2", "<i4", "<f4"))
 
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Final
 
 LEAST_ACCURACY: Final = 2e-3
-"""Relative difference from which two frame rates are different ones, even if they are written coarsely."""
+"""Relative difference above which two frame rates differ, even if a file states them with few digits."""
 
 
 def exact_rate(fps: float, accuracy: float = 0.0) -> Fraction:

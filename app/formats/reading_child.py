@@ -14,9 +14,11 @@ from app.child_limits import LIMITS, confine
 from app.errors import FileError
 
 UNREADABLE, NO_MEMORY, NO_READER = 3, 4, 5
-"""Statuses of a child: the bytes cannot be read, they ask for too much, the library is not installed."""
+"""Exit statuses of a child process: the bytes cannot be read, they need too much memory, or the library is not
+installed.
+"""
 _LIMITS: Final = frozenset(-number for name in ("SIGXCPU", "SIGKILL") if (number := getattr(signal, name, 0)))
-"""The system ended the child: it had taken too long, or all the memory there is."""
+"""Exit statuses of a child process that the system ended at a limit of time or memory."""
 
 
 def read_by_child(module: str, limits: str, data: bytes, file: str, *arguments: str) -> tuple[int, bytes]:

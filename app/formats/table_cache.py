@@ -21,7 +21,7 @@ from app.version import program_version
 T = TypeVar("T")
 
 MOST_BYTES: Final = 2**24
-"""Size of the largest file in the cache; the largest so far has a tenth of it."""
+"""Largest file in the cache in bytes; real ones have at most a tenth of it."""
 
 
 def kept(kind: str, name: str, folder: Path, decoder: msgspec.msgpack.Decoder[T], make: Callable[[], T]) -> T:

@@ -13,7 +13,7 @@ from app.formats.scene import Material, Scene, SkinnedMesh
 from app.formats.textures import NO_TEXTURES, TextureUse
 
 OPAQUE: Final = 0.5
-"""Least opacity that has a colour; what lets more light through is cut out."""
+"""Least opacity of a pixel whose colour counts; more transparent ones are treated as cut out."""
 
 
 def sampled(use: TextureUse, uvs: AnyFloatArray) -> FloatArray | None:
@@ -44,7 +44,7 @@ def linear(srgb: FloatArray) -> FloatArray:
 
 
 _LINEAR: Final = linear(np.arange(256) / 255.0)
-"""Linear value of each sRGB number."""
+"""Linear value of each sRGB value 0..255."""
 
 
 def encoded_color(linear_color: tuple[float, float, float]) -> tuple[int, int, int]:

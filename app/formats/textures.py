@@ -98,7 +98,7 @@ class MaterialTextures:
 NO_TEXTURES: Final = MaterialTextures()
 
 _known: Final[WeakValueDictionary[tuple[str, str], Texture]] = WeakValueDictionary()
-"""Textures in use, so that figures from different files share equal ones."""
+"""Textures in use, so that equal textures of different files share memory."""
 
 
 def texture_of(name: str, content: bytes) -> Texture:

@@ -24,7 +24,7 @@ from app.formats.files import read_file
 T = TypeVar("T")
 
 MOST_BYTES: Final = 2**18
-"""The largest table that comes with the program has a third of it; parsing that much takes up to half a second."""
+"""Largest table in bytes; bundled ones have at most a third of it. Parsing this size takes up to half a second."""
 DEEPEST: Final = 16
 
 _LINE_PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")

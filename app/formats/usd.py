@@ -36,7 +36,7 @@ from app.formats.usd_package import open_libraries, refuse_without_usd
 
 METERS_PER_UNIT = 0.01
 LEVELS: Final = "levelOfDetail"
-"""The variant set of a SkelRoot with one variant for each level of detail of its meshes."""
+"""Variant set of a SkelRoot with a variant for each level of detail of its meshes."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class UsdSound:
 
 
 ONE_AT_A_TIME: Final = Lock()
-"""Two threads in the USD library wait for each other for ever."""
+"""Lock for the USD library, in which two threads would deadlock."""
 
 
 def write_usd(path: str | os.PathLike[str], scene: Scene, sound: UsdSound | None = None) -> None:

@@ -13,7 +13,7 @@ from typing import Final
 from app.errors import UsageError
 
 _MODULES: Final = ("Tf", "Gf", "Kind", "Sdf", "Usd", "UsdGeom", "UsdMedia", "UsdShade", "UsdSkel", "UsdUtils", "Vt")
-"""Modules of the package that are used here."""
+"""Modules of the package that Suisou uses."""
 
 
 def usd_installed() -> bool:

@@ -16,7 +16,7 @@ from app.formats.usd import ONE_AT_A_TIME
 from app.formats.usd_package import open_libraries, refuse_without_usd
 
 _SURFACE = Material("surface", (0.8, 0.8, 0.8, 1.0))
-"""Stands for all materials of a mesh: they are not read."""
+"""Replacement for all materials of a mesh, which are not read."""
 
 
 def read_scene(path: str | os.PathLike[str]) -> Scene:

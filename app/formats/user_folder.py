@@ -23,7 +23,7 @@ from app.formats.files import files_in
 V = TypeVar("V")
 S = TypeVar("S", bound="Shelf[Any]")
 Stamp: TypeAlias = frozenset[tuple[str, int, int]]
-"""Names, times and sizes of files; and why a folder could not be listed."""
+"""Names, times and sizes of the files in a folder, and the error if it could not be listed."""
 TABLE = ".toml"
 
 

@@ -18,14 +18,16 @@ from app.errors import FileError
 from app.formats.ffmpeg import ffmpeg_on, kinds_in, refusal, was_ended
 
 SUFFIXES: Final = (".mp4", ".mov", ".m4v", ".mkv", ".webm", ".avi", ".mpg", ".mpeg", ".wmv", ".ogv")
-"""Shown where one is chosen. Transport streams (.mts) are not among them: the ffmpeg 7.0.2 of Linux crashes on them."""
+"""Suffixes in file dialogs. Transport streams (.mts) are excluded, since the bundled ffmpeg 7.0.2 of Linux crashes on
+them.
+"""
 _LEAST_RATE, _MOST_RATE, _USUAL_RATE = Fraction(1), Fraction(480), Fraction(30)
 _LENGTH: Final = re.compile(rb"^  Duration: (\d+):(\d\d):(\d\d(?:\.\d+)?)", re.MULTILINE)
 _HEADER: Final = re.compile(rb"YUV4MPEG2 W(\d+) H(\d+) F(\d+):(\d+) ")
 _LONGEST_HEADER: Final = 256
 
 Picture = npt.NDArray[np.uint8]
-"""(height, width, 3), top row first."""
+"""Pixels (height, width, 3), top row first."""
 
 
 @dataclass(frozen=True)

@@ -39,10 +39,10 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "score.doubling": ("pitch",),
     "midi.stuck_notes": ("pitch",),
 }
-"""Arguments of messages that are MIDI pitches; they are shown in the notation that the user chose."""
+"""Arguments of messages that are MIDI pitches and are displayed in the user's notation, by message id."""
 
 TRANSPOSITION: Final = "transposition_semitones"
-"""Name of the argument with the written minus the sounding pitch of a player's instrument in semitones."""
+"""Name of the message argument with the written minus the sounding pitch of a player's instrument, in semitones."""
 
 FINGERINGS: Final[dict[str, tuple[str, ...]]] = {
     **dict.fromkeys(("fingering.trill", "fingering.speed"), ("label", "first")),
@@ -58,10 +58,10 @@ FINGERINGS: Final[dict[str, tuple[str, ...]]] = {
         ("label",),
     ),
 }
-"""Arguments of messages that are labels of fingerings, which `instrument_maps.fingering_words` expresses in words."""
+"""Arguments of messages that are labels of fingerings, expressed in words by `instrument_maps.fingering_words`."""
 
 DETAILS: Final = frozenset({"detail", "reason"})
-"""Arguments whose words are in `app.messages.details`."""
+"""Arguments whose texts are in `app.messages.details`."""
 
 TEXTS: Final = frozenset({"mark", "parameter", "variant", "beside", "presentation", "aspect", "scale"})
 """Arguments that may be text ids."""

@@ -22,9 +22,13 @@ from app.plan.doubling import InstrumentChange
 from app.rig import quaternion
 
 MOST_FRAMES, LEAST_FRAMES = 2**17, 256
-"""Frames of all instruments together that are in memory at once, and the fewest of each that are worth a start."""
+"""Greatest number of frames of all instruments together in memory, and least number of each that are computed at a
+time.
+"""
 LOWERS = 0.85
-"""Share of the way aside in which the instrument leaves the lips, and of the way back in which it comes to them."""
+"""Share of the way aside at which the instrument has left the lips, and of the way back at which it begins to approach
+them.
+"""
 
 
 class LastChunk:

@@ -51,10 +51,10 @@ from metadata.load import load_expressions
 from metadata.model import Body, Expression, Posture
 
 FEET_LEFT: Final = 0.1
-"""Amount of a dance from which on its feet have taken the place of all generated steps, taps and heels."""
+"""Amount of a dance above which its feet replace all generated steps, taps and heel lifts."""
 NOT_SHOWN = Envelopes.of(())
 OWN: Final = ("raised", "inhaling", "stopping", "_further", "additive", "danced_feet")
-"""Curves of `PerformanceCurves` that stand alone."""
+"""Curves of `PerformanceCurves` that are computed separately from the layers."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,9 @@ from app.motion.model import Motion, frame_count
 from app.plan.model import TimeFrame
 
 CHUNK_S = 4.0
-"""Length of a chunk: long enough that numpy's overhead is small, short enough that a correction is seen at once."""
+"""Length of a chunk in seconds: long enough for NumPy's overhead to be small, short enough for a correction to show
+immediately.
+"""
 OVERHEAD_BYTES = 1024
 """Memory of a chunk besides its numbers."""
 
@@ -59,7 +61,7 @@ class Pose:
 
 
 Posed: TypeAlias = Callable[[str, float, Pose], Pose]
-"""A player's id, a time and the pose of the performance to the pose that is seen."""
+"""Function from a player's id, a time and the pose of the performance to the displayed pose."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -38,12 +38,12 @@ from metadata.model import Expression
 
 EYES_M: Final[Mapping[Posture, float]] = {"standing": 1.58, "seated": 1.22}
 CONDUCTOR_EYES_M: Final = 1.8
-"""About how high eyes are, the conductor's on a podium."""
+"""Approximate height in metres of the eyes of a conductor on a podium."""
 
 _PLAYED_BY_LINE: Final = (*PLAYED.functions, "corrections", "name")
 """Results and values of `PLAYED` that `LINE` may read."""
 _CHECKED: Final = {""}
-"""Choreographies of players that were read once: it takes a second."""
+"""Choreographies that were already read once, which takes a second."""
 
 
 class Performance:

@@ -101,7 +101,7 @@ PLAYED: Final = StepTable(
     shown_name=_named,
     styles_known=_styles_known,
 )
-"""Steps of each player's notes, whatever the instrument is."""
+"""Steps that compute each player's notes, for any instrument or none."""
 LINE: Final = StepTable(
     notes="part.notes",
     loudness=reading(note_loudness, reading="velocity_reading"),
@@ -132,7 +132,7 @@ LINE: Final = StepTable(
         mute_kinds="mute_kinds",
     ),
 )
-"""The line of a player who has an instrument."""
+"""Steps that compute the part of a player with an instrument."""
 ASIDE: Final = ("cues", "gestures", "expressions", "problems", "glances")
 """Fields of a plan that differ while the instrument is put aside. Fields that do not differ stay the same objects,
 since motions are compared by identity."""
@@ -142,4 +142,4 @@ HELD: Final = StepTable(
     **{f"kept_{name}": reading(_kept, value=f"held_{name}") for name in ASIDE},
     shown=reading(with_parts, parts=tuple(f"kept_{name}" for name in ASIDE)),
 )
-"""Steps that leave events out of a plan whose player has several instruments."""
+"""Steps that remove events from the plan of a player with several instruments."""

@@ -21,9 +21,11 @@ BEFORE_S: Final = 24.0
 AFTER_S: Final = 36.0
 """Seconds before and after a moment whose notes are planned."""
 SURE_S: Final = 16.0
-"""Near the first and the last of these notes, nearer than this, nothing is shown: there players begin and end."""
+"""Seconds near the first and the last of these notes in which nothing is displayed, since players begin and
+end there.
+"""
 WORTH: Final = 4
-"""Number of times that the piece has to be as long as an excerpt of it."""
+"""Least length of a piece relative to an excerpt for the excerpt to save time."""
 
 
 class PerformanceExcerpt(Performance):

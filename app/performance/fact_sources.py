@@ -17,14 +17,14 @@ from app.score.mutes import is_muted
 FactSource: TypeAlias = Literal["score", "sound", "guess", "hand"]
 
 FACTS: Final = ("dynamic", "slur", "articulation", "tonguing", "fingering", "mute")
-"""Facts that are reported of each note."""
+"""Facts that are reported for each note."""
 _BLOWN: Final = "breath.blown"
 _MARKED: Final[dict[str, FactSource]] = {
     "breath.written": "score", "breath.why_written": "score", "breath.by_hand": "hand", "breath.why_by_hand": "hand"
 }  # fmt: skip
-"""Sources of breath marks by their reasons."""
+"""Origin of breath marks by their reason."""
 _TONGUING: Final = "_tongue"
-"""Ends the reasons of strokes by marks of tonguing."""
+"""Suffix of the reasons for tongue strokes that follow a mark."""
 
 
 def breath_source(event: BreathEvent) -> FactSource:

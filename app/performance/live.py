@@ -22,12 +22,13 @@ from app.plan.model import Problem, no_events
 from app.project.performers import Dancer, Player
 
 BUDGET_BYTES = 128 * 1024 * 1024
-"""Four players for thirteen minutes, fifty for a minute around the playhead; it is made twenty times as fast as it is
-played."""
+"""Memory in bytes for computed motion: four players for thirteen minutes, fifty for a minute around the playhead.
+Motion is computed twenty times as fast as it is played.
+"""
 SEEN_S = 4.0
-"""Looked at by default."""
+"""Default length in seconds of the visible range."""
 MOST_UNJUDGED = 256
-"""Motions of chunks that are kept until their contacts are judged, while others are awaited."""
+"""Greatest number of chunks whose motion is kept until its contacts are judged, while other chunks are computed."""
 BEHIND_COSTS = 3
 """Cost of a moment before the playhead, as a multiple of one at the same distance after it."""
 

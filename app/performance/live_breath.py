@@ -37,30 +37,30 @@ from metadata.library import bundled_rules
 from metadata.rules import Rule
 
 SILENT = 0.02
-"""A breath sensor that says no more than this says nothing."""
+"""Value of a breath sensor up to which it counts as zero."""
 FORMS_S = 0.06
-"""The lips have to be there at once: the note has begun."""
+"""Seconds in which the lips form; short, since the note has already begun."""
 SHUTS_S = 0.06
-"""A mouth that is open for a breath shuts in this time when a note begins."""
+"""Seconds in which a mouth that is open for a breath closes when a note begins."""
 OPENS_S = 0.16
-"""The mouth opens for a breath."""
+"""Seconds in which the mouth opens for a breath."""
 EMPTY_PAUSE_S, FULL_PAUSE_S = 0.12, 0.45
-"""Least pause of the breath in which the player inhales, with empty and with full lungs."""
+"""Least seconds without breath after which the player inhales, with empty and with full lungs."""
 LEAST_SPENT = 0.08
-"""Players breathe in only when they have breathed out enough."""
+"""Least used share of the lungs for the player to inhale."""
 RELAXES_S = 2.0
 """Seconds for which full lungs are held before the body lets go."""
 TENSION_S, PRESSED_S, AIR_S, EFFORT_S, RAISES_S = 0.09, 0.05, 0.10, 0.50, 1.6
 """Settling times of the lips after notes, and after bite and bend, of the cheeks after the air, of the face after the
 strain, and of the bell after the loudness."""
 WORKS_S, STRAINS_S = 0.35, 3.0
-"""Settling times of brows and cheeks after a note's cost, and after a strain that lasts."""
+"""Settling times in seconds of brows and cheeks after a note's effort, and after a lasting strain."""
 USUAL_BITE_S = 8.0
-"""The bite counts by how far it is from what it usually is: that settles in this time."""
+"""Settling time in seconds of the mean bite, relative to which the bite is measured."""
 OTHER_LID = 0.95
-"""The eyes do not close quite alike."""
+"""Closure of one eye relative to the other."""
 BELL_RISES = 0.5
-"""The bell rises by this share of its range from mezzoforte to the loudest, and sinks as much."""
+"""Share of the bell's range by which it rises from mezzoforte to the loudest, and sinks to the softest."""
 
 
 @dataclass(frozen=True)

@@ -25,14 +25,13 @@ from app.rig.grip.grip_pose import StationBlend, giving_for
 from instrument_maps.model import Control, Fingering
 
 LET_GO_S = 0.5
-"""Controls stay where they are in a silence this long: as in a rest of less than a beat."""
+"""Seconds of silence for which controls stay in place, as in a rest of less than a beat."""
 RAISES_S = 0.4
-"""Least time in which the height of waiting fingers changes."""
+"""Least seconds in which the height of waiting fingers changes."""
 
 
 FRAMES = 8
-"""Frames of what is given for a moment: the first is the moment, the others are evenly spaced on the way from there to
-where the hands are going."""
+"""Number of computed frames for a moment: the moment itself, and others evenly spaced up to the hands' arrival."""
 _ON_WAY = np.linspace(0.0, 1.0, FRAMES)
 
 
@@ -45,7 +44,7 @@ class Hands:
     placed: dict[str, StationBlend]
     raised: FloatArray
     arrived_s: float
-    """Time of arrival."""
+    """Time of arrival in seconds."""
 
 
 @dataclass(frozen=True)

@@ -18,16 +18,17 @@ from app.motion.curves.live_values import Reach
 PEAK = 10.0 / math.sqrt(3.0)
 """Peak acceleration of a minimum-jerk move over 1 in 1 s."""
 TURNS_RAD_S2, SHOULDER_RAD_S2, DRAWS_M_S2 = 180.0, 200.0, 12.0
-"""Largest accelerations of the turn of the whole trunk, of a shoulder, and of the rest after them: the remainder for
-each joint is then within its range."""
+"""Greatest accelerations of the trunk's rotation and of a shoulder in rad/s2, and of the drawing back of neck and head
+in m/s2; the remainder for each joint is then within its range.
+"""
 STOPS = 4.0
-"""Factor on the braking time (speed over acceleration) by which help that is already moving is prolonged."""
+"""Factor for the braking time (speed over acceleration) by which moving help is prolonged."""
 LEAST_S = 0.08
-"""Help that is nearly none takes this long."""
+"""Least duration in seconds of a change of help."""
 STAYS_S = 0.30
-"""Seconds that help no longer needed takes to recede, on top of the hand's way back."""
+"""Seconds in which help recedes after the hand has returned."""
 CHANGES = 0.004
-"""Radians and metres: less than this is no other help."""
+"""Change in radians or metres below which help counts as unchanged."""
 _PHASES = np.linspace(0.0, 1.0, 65)
 _SHARES = minimum_jerk(_PHASES)
 

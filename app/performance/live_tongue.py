@@ -16,9 +16,9 @@ from app.plan.music.dynamics import ACCENT, ACCENT_NOTES
 from app.plan.music.piece import Seeds
 
 TONGUE_UP_S, TONGUE_DOWN_S = 0.015, 0.06
-"""The tongue's stroke: it is seen as it leaves the reed or the teeth."""
+"""Seconds in which the tongue rises, and in which it visibly leaves the reed or the teeth."""
 PUSH_UP_S: Final = 0.25 * PUSH_UNTIL_S
-"""The note has begun already when the breath pushes."""
+"""Seconds in which the breath's push rises, since the note has already begun."""
 
 
 class _Stroke:

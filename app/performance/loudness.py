@@ -25,14 +25,17 @@ from app.score.marks import ACCENT_SHARES
 from app.score.model import ControllerCurve, Part
 
 _SPEAKING = ("breath", "expression", "aftertouch", "volume")
-"""Controllers that may carry the dynamics, the most telling first: wind controllers send one of the first three, and
-sequencers draw the second or the last."""
+"""Controllers that may represent dynamics, most significant first: wind controllers send one of the first three,
+sequencers usually draw the second or the last.
+"""
 _SCALING: Final = ("expression", "volume")
-"""Controllers that make what the velocities say louder or softer, as in synthesisers; the others take its place."""
+"""Controllers that scale velocities, as in synthesisers; the others replace them."""
 
 
 _STEPS: Final[IdentityCache[ControllerSteps]] = IdentityCache(64)
-"""A minute of a wind controller has ten thousand steps, and an edit of a note changes none of them."""
+"""Curves of loudness in steps: a minute of a wind controller has ten thousand, and editing a note changes
+none of them.
+"""
 
 
 def velocities_of(part: Part) -> Velocities:

@@ -27,11 +27,11 @@ from app.steps import StepRuns
 RATE_HZ: Final = 25.0
 MOST_SAMPLES: Final = 200_000
 _ASKED: Final = ("breaths", "tongues", "embouchures", "cues", "gestures", "expressions", "poses", "traces")
-"""Fields of a plan that a channel depends on besides its own curves."""
+"""Fields of a plan on which a channel depends besides its own curves."""
 
 
 CHUNK = 16384
-"""Frames made between two questions whether to stop."""
+"""Number of frames computed between two checks for cancellation."""
 
 _PLAYING: IdentityCache[PerformanceCurves] = IdentityCache(8)
 _DOUBLED: IdentityCache[tuple[Doubling, ...]] = IdentityCache(8)

@@ -18,7 +18,7 @@ from app.errors import AppError
 from app.motion.model import Motion
 
 _WORTH_FRAMES: Final = 4096
-"""Frames for which a copy is worth the time it takes to make it."""
+"""Number of frames above which copying is faster than computing."""
 _MOST: Final = 8
 
 

@@ -21,21 +21,29 @@ from app.project.ignored_problems import split_by_ignored
 from app.project.performers import Player
 
 WHOLE_FRAMES: Final = 120_000
-"""Frames of all players together up to which motion is made of all, before every fourth is posed and looked at; in
-longer pieces nothing is made of those between."""
+"""Number of frames of all players together up to which the whole motion is computed; every fourth frame is posed and
+examined. In longer pieces only the examined frames are computed.
+"""
 MOST_WORK: Final = 74_000
-"""Work on a piece at most, in frames of one player that are looked at: 44 us each. In longer pieces fewer are in each
-second, and then fewer players are looked at."""
+"""Greatest work on a piece, in examined frames of one player (44 us each). In longer pieces fewer frames per second are
+examined, then fewer players.
+"""
 NOTE_WORK: Final = 3.0
-"""Work for each note, in the same measure: it is read, planned and printed."""
+"""Work per note, in the same unit, for reading, planning and printing."""
 PLAYER_WORK, CURVE_WORK = 1300, 1.0
 """Work for each examined player, for each posed player, and for each of their notes with curves."""
 SPARSE_S: Final = 4.0
-"""Seconds of a player for each note from which a piece counts as one with few notes: slower than any chorale ..."""
+"""Seconds of a player per note above which a piece counts as having few notes: slower than any chorale; see
+`SPARSE_FRAMES`.
+"""
 SPARSE_FRAMES, SPARSE_PER_NOTE = 50_000, 4
-"""Frames of a long piece that are examined, and further frames for each note, up to the number for a short piece."""
+"""Number of examined frames in a long piece with few notes, and additional frames per note, up to the number for a
+short piece.
+"""
 LEAST_PER_S: Final = 2.0
-"""At fewer frames in a second breaks of a contact would be missed: sooner, fewer players are looked at."""
+"""Least examined frames per second, since with fewer, breaks of a contact would be missed; below this, fewer players
+are examined.
+"""
 
 
 class _Looked(NamedTuple):

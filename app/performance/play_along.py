@@ -35,9 +35,9 @@ from instrument_maps.model import Fingering
 from metadata.rules import Rule
 
 LEGATO_S = 0.012
-"""A note that begins so soon after the last one ended is not tongued: controllers send both at once."""
+"""Gap in seconds up to which a note is legato and not tongued, since controllers send end and onset together."""
 ONE_FRAME = Fraction(1)
-"""A pose has no rate."""
+"""Frame rate of a single pose, which needs none."""
 
 
 class PlayAlong:

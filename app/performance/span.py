@@ -15,7 +15,7 @@ BarRange: TypeAlias = tuple[int | None, int | None]
 """First and last bar, both included; None: from the performance's start, to its end."""
 
 _WHOLE = 1e-6
-"""A time this near to a frame, in frames, is on it."""
+"""Distance in frames within which a time counts as being on a frame."""
 
 
 class FrameSpan(msgspec.Struct, frozen=True):

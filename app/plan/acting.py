@@ -66,11 +66,11 @@ LAYERS: Final[Mapping[str, str]] = {
     "lip_motion": "lips",
     "blinks": "blink",
 }
-"""By parameter the field of `Acting` that it decides, where that is called otherwise."""
+"""Field of `Acting` that a parameter determines, for parameters with another name than the field."""
 MOST: Final = 2.0
-"""Largest amount, whatever style, habits and parameters multiply to: as far as a slider goes, and hands keep hold."""
+"""Greatest product of style, habits and parameters: the maximum of a slider, at which hands still keep hold."""
 _NOT_BY_SECTION: Final = frozenset({"stillness", "blinks"})
-"""Less of the one is more acting, and the other is no acting."""
+"""Amounts that the section's intensity does not scale: less stillness is more acting, and blinks are no acting."""
 
 
 def acting_of(parameters: PlayerParameters) -> Acting:

@@ -18,17 +18,17 @@ from app.errors import Message
 from app.plan.model import GestureEvent, PlayerPlan, Problem
 
 NEEDED_S: Final = 2.0
-"""A shorter rest is reported; assumed."""
+"""Length in seconds of a rest below which a change of instrument is reported as a problem (an assumption)."""
 USUAL_S: Final = 3.4
-"""Usual length of a change if there is time; assumed."""
+"""Usual seconds of a change if there is time (an assumption)."""
 LEAST_S: Final = 0.8
-"""The shortest change, however short the rest: it then overlaps the notes around it."""
+"""Shortest change in seconds; in a shorter rest it overlaps the notes before and after."""
 AFTER_S, BEFORE_S = 0.12, 0.3
-"""From the end of the last note to the change, and from the change to the first note: the lips are in place by then."""
+"""Seconds from the end of the last note to the change, and from the change to the next note, with the lips in place."""
 BREATH_S: Final = 0.08
-"""From the change to the breath."""
+"""Seconds from the change to the breath."""
 PUT, TAKEN = 0.42, 0.58
-"""Shares of the change at which the first is put aside, and the hand reaches the second."""
+"""Shares of the change at which the first instrument is put aside, and at which the hand reaches the second one."""
 
 
 class InstrumentChange(msgspec.Struct, frozen=True):

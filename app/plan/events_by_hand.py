@@ -10,7 +10,7 @@ from app.errors import Message
 from app.plan.acting import Acting
 
 PoseTarget: TypeAlias = Literal["bell", "head", "left_elbow", "right_elbow", "torso"]
-"""Parts of a player that the animator takes hold of."""
+"""Parts of a player that the user can pose."""
 
 
 class PoseEvent(msgspec.Struct, frozen=True, gc=False):

@@ -45,12 +45,12 @@ __all__ = ["EnsemblePlanning", "MonophonicPart", "Piece", "frame_around"]
 PREROLL_BEATS = 4.0
 PREROLL_LEAST_S = 2.0
 COME_UP_S = 3.0
-"""Least seconds of a new piece before its first note: time to be seen at rest and to raise the instrument."""
+"""Least seconds of a new piece before its first note, in which players are at rest and raise their instruments."""
 MOST_PREROLL_BEATS = 32
 START_BEATS = 2.0
-"""The preparatory beat of the start, and what is missing of the one before it where a pickup begins the piece."""
+"""Beats for the start: the preparatory beat, and a pickup's missing part of the beat before."""
 AFTER_LAST_S = 6.0
-"""Time to hold still, lower the instrument, look up and bow."""
+"""Seconds after the last note for holding still, lowering the instrument, looking up and bowing."""
 
 
 def frame_around(
@@ -318,9 +318,9 @@ LINE: Final = StepTable(
     reported=_reported,
     leading=_leading,
 )
-"""The steps from a line to what can be played of it, its times, and what to report about the rest."""
+"""Steps that compute the playable part of a line, its times, and reports about the rest."""
 SHARED_LINE: Final = StepTable(shared_line=shared_line)
-"""A line as others of a unison know it, with the felt beats of the piece."""
+"""Steps that compute a line's facts for others in unison with it, with the piece's felt beats."""
 ENSEMBLE: Final = StepTable(
     rhythms=_rhythms,
     low=reading(lowest, lines="all_times"),
@@ -335,4 +335,4 @@ ENSEMBLE: Final = StepTable(
     ending=reading(ending_of, piece="piece_felt"),
     last_s=_last_s,
 )
-"""The steps that concern all players; given are the piece, every line's times, and what of it cues depend on."""
+"""Steps that concern all players, from the piece and every line's times."""

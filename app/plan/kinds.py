@@ -25,8 +25,9 @@ Part: TypeAlias = Literal[
     "bow",
     "tracks",
 ]
-"""Parts that answer a gesture: a layer of the body (`app.motion.gestures.layers`), eyes (`app.plan.faces.glances`), or
-both."""
+"""Parts that a gesture moves: a layer of the body (`app.motion.gestures.layers`), the eyes (`app.plan.faces.glances`),
+or both.
+"""
 
 
 class GestureRow(NamedTuple):
@@ -146,7 +147,7 @@ else:
 BEFORE_NOTES: Final = tuple(kind.id for kind in BREATHS if not kind.within)
 EVENT_TEXTS: Final = {f"event.{kind.id}": kind.names for kind in (*GESTURES, *BREATHS)}
 COMMAND_TEXTS: Final = {f"action.gesture.{kind.id}": (kind.command, kind.names[1]) for kind in GESTURES if kind.command}
-"""Names of events and of the commands that add them, by id, in English and Japanese."""
+"""Names in English and Japanese of commands that add events, by text id."""
 
 
 def answered_by(part: Part) -> tuple[str, ...]:

@@ -88,7 +88,7 @@ class BreathEvent(msgspec.Struct, frozen=True, gc=False):
 
 
 Stroke: TypeAlias = Literal["ta", "ka", "da"]
-"""The tip of the tongue, its back, and the tip softly."""
+"""Strokes of the tongue: with its tip, with its back, and softly with its tip."""
 Articulation: TypeAlias = Literal["tongued", "staccato", "accent", "marcato", "tenuto"]
 ATTACK: Final = Message("tongue.attack")
 
@@ -195,7 +195,7 @@ class CueEvent(msgspec.Struct, frozen=True, gc=False):
 
 
 ACCENT_AT: Final = 0.45
-"""Part of an accent's length after which its note begins."""
+"""Share of an accent's length at which its note begins."""
 
 
 class GestureEvent(msgspec.Struct, frozen=True, gc=False):
@@ -241,9 +241,9 @@ class ExpressionEvent(msgspec.Struct, frozen=True, gc=False):
 AUDIENCE: Final = "audience"
 ABOUT: Final = "about"
 FAR_M: Final = 4.0
-"""Distance of what is looked at where nothing says it."""
+"""Distance in metres of objects of unknown distance that players look at."""
 CONDUCTOR: Final = "conductor"
-"""Id of the conductor as a giver of entries: used in places, cues and glances as the players' ids are."""
+"""Id of the conductor in places, cues and glances, in which players have theirs."""
 
 
 class GlanceEvent(msgspec.Struct, frozen=True, gc=False):

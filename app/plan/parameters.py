@@ -16,16 +16,16 @@ import msgspec
 from metadata.acting import AMOUNTS, SECTION_PLAYER, as_text, names_in
 
 Bounds: TypeAlias = tuple[float, float]
-"""Lowest and highest, both allowed."""
+"""Lowest and highest value, both allowed."""
 Value: TypeAlias = str | int | float | bool | None
 Decided: TypeAlias = Literal["breaths", "cues", "lips", "poses", "gestures", "rules", "motion"]
-"""Step of the plan that a parameter decides, or the look of a plan."""
+"""Step of the plan that a parameter influences, or the appearance of a plan."""
 
 SEED: Final = (0, 2**63 - 1)
 AUTOMATIC: Final = "auto"
-"""Text that stands for no value, as chosen automatically."""
+"""Text of a value that is chosen automatically."""
 NONE: Final = "none"
-"""No names, as a text."""
+"""Text of an empty list of names."""
 
 
 @dataclass(frozen=True)
@@ -223,29 +223,30 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         choices=((None, "choice.automatic"), (True, "choice.yes"), (False, "choice.never")), has_tip=False,
         section="player", decides=frozenset({"cues"}), is_own=True,
     )] = None
-    """None: the piece decides (the highest part that plays first leads)."""
+    """Id of the player who gives cues; None for the highest part that plays first."""
     seed: Annotated[int, Parameter(
         bounds=SEED, section="motion", row=2, decides=frozenset({"breaths", "motion"}), is_own=True,
     )] = 0
     breath_need: Annotated[float, Parameter(
         bounds=_SHARE, section="breath", decides=_BREATHS, since=6, in_older_files=0.0,
     )] = 0.35
-    """Scale of the playing and the air that a rest needs to be breathed in (`app.plan.breath.rests_for_breath`); 0:
-    every rest is breathed in (T6), 1: only when out of air."""
+    """Factor of the playing and the air after which a player breathes in a rest (`app.plan.breath.rests_for_breath`);
+    0: in every rest (T6), 1: only without air.
+    """
     circular_breathing: Annotated[bool, Parameter(
         choices=((False, "choice.no"), (True, "choice.yes")), section="breath", row=2, decides=_BREATHS,
     )] = False
     choreography: Annotated[str, Parameter(section="motion", row=1, since=8)] = ""
-    """Dance of hips, trunk and head while playing: the name of a bundled choreography or the absolute path of a
-    ``.choreography`` file; empty: they move as is generated."""
+    """Dance of hips, trunk and head while playing: name of a bundled choreography or absolute path of a
+    ``.choreography`` file; empty for generated motion.
+    """
     dance_amount: Annotated[float, Parameter(bounds=_SHARE, section="dance", since=8)] = 0.5
     dance_variation: Annotated[int, Parameter(bounds=SEED, section="dance", is_own=True, since=8)] = 0
-    """Another one is another dance to the same music, the same for everyone who has it; 0: a dance of the player's own,
-    by ``seed``."""
+    """Number of the dance, equal for all players with the same one; 0 for an individual dance by ``seed``."""
     style: Annotated[str, Parameter(section="acting", row=-1, decides=_RULES, since=10)] = SECTION_PLAYER
-    """Name of a table of ``metadata/styles`` or of the user's own."""
+    """Name of a table of ``metadata/styles`` or of the user's styles."""
     habits: Annotated[str, Parameter(section="acting", row=-1, decides=_RULES, since=10)] = ""
-    """Names of tables of ``metadata/habits`` or of the user's own, with commas between them."""
+    """Names of tables of ``metadata/habits`` or of the user's habits, separated by commas."""
     phrase_motion: Annotated[float, _times("acting", 0.5)] = 1.0
     stillness: Annotated[float, _times("acting", 0.5, "gestures")] = 1.0
     footwork: Annotated[float, _times("acting", 0.5)] = 1.0
@@ -258,12 +259,12 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     blinks: Annotated[float, _times("acting", 0.3)] = 1.0
     gestures: Annotated[float, _times("acting", 0.5)] = 1.0
     layers_off: Annotated[str, Parameter(names=AMOUNTS, decides=frozenset({"gestures", "motion"}), since=13)] = ""
-    """Amounts whose layers are not shown, whatever they are, with commas between them."""
+    """Names of amounts whose layers are disabled regardless of their values, separated by commas."""
     # fmt: on
 
 
 PARAMETERS: Final[Mapping[str, Parameter]] = declared(PlayerParameters, "parameter")
-"""Every parameter of a player by name."""
+"""All parameters of a player by name."""
 _DECIDING: Final = {
     kind: tuple(name for name, parameter in PARAMETERS.items() if kind in parameter.decides)
     for kind in get_args(Decided)

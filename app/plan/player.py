@@ -193,7 +193,7 @@ AMONG_OTHERS: Final = StepTable(
     met=reading(compared_with_others, line="shared_line"),
     shared=reading(shared_with, line="shared_line"),
 )
-"""Steps of one player's plan that depend on the others' plans."""
+"""Steps of a player's plan that depend on the others' plans."""
 BY_MUSIC: Final[dict[str, Callable[..., object] | StepInputs]] = {
     "sways": sways,
     "weight_shifts": reading(weight_shifts, times="rhythm"),
@@ -207,7 +207,7 @@ BY_MUSIC: Final[dict[str, Callable[..., object] | StepInputs]] = {
     "after_the_end": _after_the_end,
     "footwork": reading(footwork, times="rhythm", found="phrases", shifts="weight_shifts"),
 }
-"""The steps of `PLAYER` that make gestures (`app.plan.kinds.GESTURES`) from the music; they may read one another."""
+"""Steps of `PLAYER` that make gestures (`app.plan.kinds.GESTURES`) from the music and may depend on one another."""
 PLAYER: Final = StepTable(
     clock="piece.clock",
     rhythm="times.rhythm",
@@ -342,4 +342,4 @@ PLAYER: Final = StepTable(
         mutes="mutes",
     ),
 )
-"""The steps of a player's plan; given are the line's fields, its times, `AMONG_OTHERS`, and what all players share."""
+"""Steps of a player's plan, from the line's fields and times, `AMONG_OTHERS`, and values shared by all players."""

@@ -17,11 +17,11 @@ Wording: TypeAlias = Callable[[Message], str]
 """Function that returns a message's text in the reader's language."""
 
 NOTES: Final = frozenset({"note", "other", "first_note", "after_note", "anchor"})
-"""Arguments of messages that name a note by its id; an anchor may also be an event or a name."""
+"""Message arguments that are ids of notes; an anchor may also be the id of an event or a name."""
 PARTS: Final = ("side", "touch")
-"""Arguments that name a part of the body: what is wrong with another part is another kind of problem."""
+"""Message arguments that name a part of the body; problems of different parts are different kinds of problems."""
 MOST_PLACES: Final = 40
-"""More are counted only."""
+"""Greatest number of listed places; the others are counted."""
 
 
 def problem_lines(
@@ -124,7 +124,7 @@ def with_names(
 
 
 _indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
-"""Notes by id of each part that was searched, by part; made again where the part has other notes."""
+"""Notes of each searched part by id; replaced when the part's notes change."""
 
 
 def _line(

@@ -21,10 +21,10 @@ from metadata.model import Expression
 from metadata.rules import Growth, Rule, When
 
 HEIGHT_SEMITONES: Final = 12.0
-"""Above the easy range: nothing is higher."""
+"""Semitones above its threshold at which the condition has its greatest value."""
 MOST_ACCENT: Final = 0.3
 DEPTH_SEMITONES: Final = 6.0
-"""Below where the condition is just met: nothing is lower."""
+"""Semitones below its threshold at which the condition has its greatest value."""
 
 
 @dataclass(frozen=True, eq=False)

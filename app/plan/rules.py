@@ -28,11 +28,11 @@ from metadata.model import Expression
 from metadata.rules import Rule, When
 
 LEAST_S: Final = 0.2
-"""A shorter moment does not reach the face."""
+"""Length in seconds of moments below which the face does not react."""
 
 
 BETWEEN_S: Final = 0.5
-"""From one gesture of a rest to the next."""
+"""Least seconds between two gestures in a rest."""
 E = TypeVar("E", GestureEvent, ExpressionEvent)
 
 

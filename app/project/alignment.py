@@ -18,20 +18,23 @@ from app.arrays import FloatArray, IntArray
 from app.score.model import Note
 
 SAME_QUARTERS = 1 / 16
-"""Onsets this close are one: another resolution rounds, and people nudge."""
+"""Difference of onsets in quarters that counts as equal, since files have different resolutions and notes are
+nudged.
+"""
 SWITCH_COST = 3.0
-"""Cost of a change of the distance in time between two versions, in notes not found."""
+"""Cost of a change of the time offset between two versions, in notes without a partner."""
 SKIP_COST, MOST_SKIP_COST = 0.05, 6.0
-"""Cost of every note that such a change passes over, and the most: many bars may be put in at once."""
+"""Cost of every note that such a change skips, and greatest cost, since many bars may be inserted together."""
 AGAIN_COST, MOST_AGAIN_COST = 0.5, 12.0
-"""Cost of every note that is found twice where nothing was cut before, and the most."""
+"""Cost of every note that is matched twice although nothing was cut before, and greatest cost."""
 GAP_COST = 0.7
-"""Cost of a note that has no partner; two are a little dearer than a changed pitch or a moved onset, cheaper than both.
+"""Cost of a note without a partner; two cost a little more than a changed pitch or a moved onset, but less
+than both.
 """
 PITCH_COST = 1.0
 TIME_COST = 0.8
 FAR_QUARTERS = 0.5
-"""From here on farther is not dearer."""
+"""Difference of onsets in quarters above which the cost does not increase."""
 LENGTH_COST = 0.05
 
 _BINS_PER_QUARTER = 12

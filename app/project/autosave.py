@@ -28,11 +28,13 @@ from app.project.salvage import salvaged
 from app.project.storage import AUTOSAVE, Autosaved, encode_autosave, load
 
 DELAY_S: Final = 4.0
-"""From the first change that is in no file. With the writing it is at most five seconds of work that a crash costs."""
+"""Seconds from the first unsaved change to an autosave; including the writing, a crash loses at most five seconds of
+work.
+"""
 PATIENCE_S: Final = 5.0
-"""A disk that has not answered for this long, as one of the network may, is not waited for any longer."""
+"""Longest wait in seconds for a disk, such as a network disk."""
 MOST_PENDING: Final = 2
-"""One that waits for the project's disk, and one for the state folder's."""
+"""Greatest number of pending autosaves: one for the project's disk, one for the state folder's."""
 
 
 def autosave_path(document: Path) -> Path:

@@ -11,7 +11,7 @@ from app.project import limits
 from app.project.value_checks import Fault, text_faults, unique
 
 View: TypeAlias = Literal["ensemble", "front", "side", "top", "hands", "mouth", "feet"]
-"""Subject and direction of a picture; a close-up follows a player."""
+"""Subject and direction of the camera; a close-up follows a player."""
 VIEWS: Final[tuple[View, ...]] = get_args(View)
 MOST_CAMERAS: Final = 100
 

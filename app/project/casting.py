@@ -13,35 +13,37 @@ from app.chance import chance, seed_of
 from instrument_maps.map_table import Posture
 
 SPACING_M = 1.3
-"""Between neighbours: room for a long instrument's bell and an elbow."""
+"""Distance in metres between neighbours, with space for a long instrument's bell and an elbow."""
 ARC_RAD = math.radians(150.0)
-"""Largest part of a circle the players stand on; the open side is the audience's."""
+"""Largest angle in radians of the arc on which players stand; the open side faces the audience."""
 LEAST_RADIUS_M = 1.1
 MOST_IN_ARC = 12
-"""More sit in rows, as a band does."""
+"""Greatest number of players in an arc; more sit in rows like a band."""
 CONDUCTOR_AWAY_M, CONDUCTOR_STEP_M = 1.9, 0.05
-"""From the nearest player."""
+"""Distance in metres of the conductor from the nearest player, and step by which it is increased."""
 FRONT_RADIUS_M, ROW_DEPTH_M = 2.6, 1.5
-"""Radius of the first of several rows, and room behind it for a slide and a stand."""
+"""Radius of the first of several rows, and distance between rows for a slide and a stand, in metres."""
 ELBOW_M = 0.36
 """Distance in metres from a player's middle to an elbow, the least space needed at a side."""
 BACK_M = 0.35
-"""From a player's middle to the back of a chair."""
+"""Distance in metres from a player's centre to the back of the chair."""
 CLEAR_M = 0.12
-"""Between what neighbours hold."""
+"""Distance in metres between the instruments of neighbours."""
 
 DANCER_ROOM_M = 2.4
-"""Between a dancer's place and any other performer: steps to a side, and an arm."""
+"""Distance in metres between a dancer's place and any other performer, for side steps and an arm."""
 
 NATURAL_AMPLITUDE = 0.5
 AMPLITUDE_SPREAD = 0.12
-"""Players move by as much more or less than a natural amount (T7: random values so that they differ)."""
+"""Greatest random difference of a player's amplitude from the natural one (T7: random values so that players
+differ).
+"""
 
 
 FAR_REACH_M = 0.4
-"""A hand that travels this far works at the end of an arm."""
+"""Travel in metres of a hand that works at the end of an arm."""
 LONG_ARMS = 0.9
-"""Arms are long from this share of the longest on."""
+"""Length of arms that count as long, relative to the longest."""
 
 
 class StagePosition(msgspec.Struct, frozen=True):

@@ -30,7 +30,7 @@ _SETTINGS: Final = (
     *("seed", "preroll_beats", "section_intensity", "felt_beat_quarters"),
     *("conductor", "audio", "video", "read_timing", "imported", "ignored_problems", "cameras"),
 )
-"""Fields of a project whose values are written as they are."""
+"""Fields of a project whose values are stored unchanged."""
 
 
 class _Group(NamedTuple):

@@ -20,8 +20,9 @@ from instrument_maps.map_table import Posture
 from instrument_maps.model import InstrumentMap
 
 TOGETHER_S: Final = 1.0
-"""The longest total time for which two instruments of one musician may sound at once: a held last note, a pickup
-written early. More makes two musicians."""
+"""Longest total seconds for which two instruments of one musician may sound simultaneously, as for a held last note or
+an early pickup. More overlap requires two musicians.
+"""
 
 
 def embodied(players: tuple[Player, ...]) -> tuple[Player, ...]:

@@ -15,7 +15,7 @@ from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import ROOT, InstrumentMap
 
 LIPS_AHEAD_M = 0.12
-"""Distance of the lips before the middle of the body."""
+"""Distance in metres of the lips in front of the body's centre."""
 
 _FOOTPRINTS: IdentityCache[Footprint] = IdentityCache(128)
 

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Final
 
 PULLED_DOWN: Final = (24, 30, 48, 60, 120)
-"""Nominal rates that television slows by 1000/1001; 29.97 means 30000/1001 and not 2997/100."""
+"""Nominal rates for which television uses 1000/1001 of the rate; 29.97 means 30000/1001 and not 2997/100."""
 
 USUAL_RATES: Final = (
     Fraction(24000, 1001),
@@ -26,10 +26,10 @@ USUAL_RATES: Final = (
 have)."""
 
 USUAL_RATE: Final = Fraction(60)
-"""Rate of a new piece's animation, of its export and of the live pose."""
+"""Default rate of a new piece's animation, its export and the live pose, in frames per second."""
 
 USUAL_FILM_RATE: Final = Fraction(30)
-"""Rate of a film of the viewport, unless the piece has fewer frames per second."""
+"""Default rate of a film of the viewport, unless the piece has fewer frames per second."""
 
 
 _STORED: Final = re.compile(r"[1-9][0-9]{0,8}(?:/[1-9][0-9]{0,8})?", re.ASCII)

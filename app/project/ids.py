@@ -26,7 +26,7 @@ MADE_PART: Final = "part:"
 READ_PART: Final = "file:"
 
 MOST_TAKE_NOTES: Final = 1_000_000
-"""Most notes of one take; more are left out."""
+"""Greatest number of notes in a take; further notes are omitted."""
 
 _NUMBERED = re.compile(r"(?:^|:)([nft]:)(\d+)$", re.ASCII)
 

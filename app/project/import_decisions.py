@@ -17,10 +17,10 @@ from app.score.tempo import TempoMap
 from app.score.track_channel import TrackChannel
 
 Place: TypeAlias = tuple[int, int, int]
-"""Track, channel, and which of its player's instruments."""
+"""Track, channel, and index of the instrument among its player's."""
 
 MOST_ROWS: Final = 2 * MOST_STREAMS
-"""Rows that a project keeps: those of the file, and those of tracks that earlier versions of it had."""
+"""Greatest number of stored rows: those of the file, and those of tracks in earlier versions of the file."""
 
 
 class TrackMark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

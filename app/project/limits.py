@@ -16,11 +16,11 @@ from app.score import limits as of_score
 
 LAST_TICK: Final = of_score.LAST_TICK
 TICKS_PER_QUARTER: Final = (1, 32767)
-"""The 15 bits of a MIDI file's division."""
+"""Range of ticks per quarter in a MIDI file (15 bits)."""
 MICROSECONDS_PER_QUARTER: Final = (5_000.0, 120_000_000.0)
-"""Wider than what a MIDI file can say (24 bits) and its reader accepts, so that a tempo can still be scaled."""
+"""Range of tempi in microseconds per quarter, wider than a MIDI file's (24 bits) so that every tempo can be scaled."""
 BPM: Final = (5.0, 1000.0)
-"""Quarters per minute that the user may set."""
+"""Range of tempi that the user can set, in quarters per minute."""
 TEMPO_RATIO: Final = (0.25, 4.0)
 METRE_NUMERATOR: Final = (1, 255)
 METRE_DENOMINATORS: Final = (1, 2, 4, 8, 16, 32, 64)
@@ -33,10 +33,10 @@ OFFSET_S: Final = (-86_400.0, 86_400.0)
 STAGE_M: Final = (-1000.0, 1000.0)
 TURN_RAD: Final = (-1000.0, 1000.0)
 MOST_TEXT: Final = of_score.MOST_TEXT
-"""Characters of any one text."""
+"""Greatest number of characters of any text."""
 MOST_ID: Final = 500
 MOST_NAME: Final = of_score.MOST_NAME
-"""Characters of a name that the user gives."""
+"""Greatest number of characters of a name given by the user."""
 MOST_PLAYERS: Final = 1000
 MOST_DANCERS: Final = 200
 CHOREOGRAPHY_INDEX: Final = (0, 2**31 - 1)
@@ -44,7 +44,7 @@ CHOREOGRAPHY_INDEX: Final = (0, 2**31 - 1)
 MOST_TAKES: Final = 2000
 MOST_TAKE_EVENTS: Final = 5_000_000
 TAKE_US: Final = (-(10**13), 10**13)
-"""Performance times of a take, microseconds: four months."""
+"""Range of performance times in a take in microseconds: four months."""
 CLEANING: Final[Mapping[str, Bounds]] = {
     "ghost_s": (0.0, 0.5),
     "ghost_loudness": (0.0, 1.0),
@@ -54,6 +54,6 @@ CLEANING: Final[Mapping[str, Bounds]] = {
     "grid_quarters": (1 / 32, 16.0),
     "align": (0.0, 1.0),
 }
-"""Bounds of `app.score.take.Cleaning`, by field."""
+"""Bounds of the fields of `app.score.take.Cleaning`."""
 MOST_NUMBER: Final = 1e12
-"""Largest number that has no bound of its own."""
+"""Greatest value of numbers without a bound of their own."""

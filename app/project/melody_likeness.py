@@ -10,12 +10,12 @@ import numpy as np
 from app.arrays import FloatArray
 
 ALIKE: Final = 0.25
-"""Melodies that share this much are one, whatever they are called."""
+"""Share of common groups of notes from which two melodies count as the same."""
 SKETCH: Final = 32
-"""The most turns that a sketch of a melody has."""
+"""Greatest number of groups of notes in the sketch of a melody."""
 SKETCH_BITS: Final = 32
 _GRAM: Final = 3
-"""Notes that make a turn of the melody."""
+"""Number of consecutive notes in a group."""
 _MIX: Final = np.uint64(0x9E3779B97F4A7C15)
 
 

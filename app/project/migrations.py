@@ -125,7 +125,9 @@ STRUCTURE: Final[Mapping[int, Migration]] = {
     15: _with_stopped,
     17: _with_outfits,
 }
-"""By the version that they lead to. New parameters say themselves since which version they are there."""
+"""Functions that convert a project file, by the version that they produce. New parameters state the version since which
+they exist.
+"""
 
 
 def _migration(version: int) -> Migration:
@@ -139,7 +141,7 @@ def _migration(version: int) -> Migration:
 CURRENT: Final = max(
     *STRUCTURE, *(parameter.since for table in (PARAMETERS, DANCER_PARAMETERS) for parameter in table.values())
 )
-"""The version that is written."""
+"""Version of the project format that is written."""
 MIGRATIONS: Final = {version: _migration(version) for version in range(2, CURRENT + 1)}
 
 

@@ -46,7 +46,7 @@ from instrument_maps.model import Control, InstrumentMap
 from metadata.model import Expression
 
 DANCER_PARAMETERS: Final[Mapping[str, Parameter]] = declared(Dancer, "dancer_parameter")
-"""Every parameter of a dancer by name."""
+"""All parameters of a dancer by name."""
 
 
 class CompSpan(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

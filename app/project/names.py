@@ -18,7 +18,9 @@ _DEVICES = frozenset(
 )
 _FORBIDDEN = re.compile(r'[<>:"/\\|?*]')
 _LONGEST_NAME_BYTES = 80
-"""Leaves room for an instrument and an ending within the 255 bytes of common file systems and Windows' short paths."""
+"""Greatest number of bytes in a name, which leaves room for an instrument and a suffix within the 255 bytes of common
+file systems and Windows' short paths.
+"""
 
 
 def clean_name(text: str) -> str:

@@ -20,7 +20,7 @@ from metadata.library import HABITS, STYLES
 _CASTING: Final = ("instrument", "character")
 _DANCED: Final = "choreography"
 _GENERATED: Final = "none"
-"""Value of a choreography for a body that moves as is generated, and of habits for none."""
+"""Value of a choreography that means generated motion, and of habits that means none."""
 _STYLE, _HABITS = "style", "habits"
 
 

@@ -42,7 +42,7 @@ class PartChange:
 
 
 PartChanges: TypeAlias = Mapping[str, tuple[PartChange, ...]]
-"""The changes of each part, by its id."""
+"""Changes of each part, by the part's id."""
 
 
 def changes_by_part(before: Score, now: Score) -> PartChanges:

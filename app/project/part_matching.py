@@ -12,7 +12,7 @@ from app.project.melody_likeness import ALIKE, shares, turns
 from app.score.model import Part, Score
 
 _NAMED = 0.4
-"""Likelihood of a part that was rewritten from end to end."""
+"""Similarity of names from which a completely rewritten part is the same part."""
 
 
 def matched_parts(old: Score, new: Score, hints: Sequence[Place | None]) -> list[tuple[int, int]]:

@@ -34,9 +34,9 @@ from metadata.model import Expression
 VERSION: Final = 2
 SUFFIX: Final = ".toml"
 PARAMETER_NAMES: Final = ("amplitude", "style", "habits", "layers_off", *AMOUNTS)
-"""Parameters of a player that are acting."""
+"""Parameters of a player that concern acting."""
 _NOT_ACTING: Final = frozenset({*BREATH_KINDS, "cue", "fingering", "embouchure", MARK})
-"""Events of these kinds belong to the playing."""
+"""Kinds of events that concern playing instead of acting."""
 
 
 class PlayerMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

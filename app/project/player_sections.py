@@ -12,7 +12,7 @@ from instrument_maps.instrument_names import vocabulary
 from instrument_maps.library import Library, library
 
 GROUPED_FROM: Final = 6
-"""Players from which on a list shows their sections."""
+"""Number of players from which a list of players is grouped by section."""
 
 
 class PlayerSection(NamedTuple):
@@ -36,7 +36,7 @@ class PlayerSection(NamedTuple):
 
 
 _SECTIONS: IdentityCache[tuple[PlayerSection, ...]] = IdentityCache(1)
-"""A single entry, for the piece that is open: the players of one that is closed are let go of."""
+"""Sections of the open piece; a single entry, so that the players of closed pieces are freed."""
 
 
 def sections(project: Project) -> tuple[PlayerSection, ...]:

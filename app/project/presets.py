@@ -31,7 +31,7 @@ from metadata.model import Expression
 T = TypeVar("T")
 
 _SHARED: Final = tuple(name for name, parameter in PARAMETERS.items() if not parameter.is_own)
-"""A preset is for many."""
+"""Parameters in presets: those that can apply to many players."""
 _NAME: Final = "name"
 
 

@@ -33,7 +33,7 @@ from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import InstrumentMap
 
 _NAMED: Final = 0.32
-"""Likelihood of a track that was rewritten from end to end, where all else is the same."""
+"""Similarity of names from which a completely rewritten track is the same track if everything else is equal."""
 
 
 @dataclass(frozen=True)

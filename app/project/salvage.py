@@ -15,10 +15,10 @@ from app.project.value_checks import Fault
 T = TypeVar("T")
 
 _MOST: Final = 1000
-"""Faults looked at; with more of them the whole value of a field is at fault."""
+"""Number of examined errors in a field; with more, the whole value is discarded."""
 _FIELD: Final = re.compile(r"\w+", re.ASCII)
 _FIELDS: Final = {"edited_notes": "read_notes", "edited_curves": "read_curves"}
-"""Fields of a project that its file calls otherwise."""
+"""Names of fields of a project that differ from the keys of its file."""
 
 
 class Salvaged(NamedTuple):

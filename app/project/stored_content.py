@@ -39,14 +39,14 @@ from metadata.model import Expression
 
 _FORMER: Final = ".".join(("score", "instrument_from_file_name"))
 _RENAMED: Final = {_FORMER: "score.instrument_from_title"}
-"""Ids of older versions, which have no words any more, and what says the same now."""
+"""Current message id for each obsolete id that has no text any more."""
 
 _PLACE = re.compile(r"^(.*?)(?: - at (`key` in )?`\$?\.?(.*?)`)?$", re.DOTALL)
 _CHECKED: Final = (
     *("audio", "video", "players", "dancers", "expressions", "score", "edited_notes", "takes"),
     *("edited_curves", "read_timing", "imported"),
 )
-"""Keys whose content may hold nothing that is not known."""
+"""Keys whose content must not contain unknown fields."""
 
 
 class Content(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
@@ -71,17 +71,17 @@ class Content(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
     expressions: tuple[Expression, ...]
     score: Score
     edited_notes: dict[str, tuple[Note, ...]]
-    """By part that was read from a MIDI file: the file's version of the notes that were edited or deleted here."""
+    """Original notes that were edited or deleted, by the part read from a MIDI file."""
     takes: dict[str, PlayerTakes]
-    """By player."""
+    """Takes by player."""
     edited_curves: dict[str, tuple[ControllerCurve, ...]]
-    """By part that was read from a MIDI file: the file's controllers where they were edited here."""
+    """Original controllers that were edited, by the part read from a MIDI file."""
     read_timing: ReadTiming | None
     imported: ImportDecisions | None
     ignored_problems: dict[str, tuple[IgnoredProblem, ...]] = {}
-    """By player or dancer; left out where there are none, as in files written before it was there."""
+    """Ignored problems by player or dancer; omitted if there are none, as in files of earlier versions."""
     cameras: tuple[CameraBookmark, ...] = ()
-    """Left out likewise."""
+    """Camera bookmarks; omitted if there are none."""
 
 
 def content_of(project: Project, path: Path) -> Content:

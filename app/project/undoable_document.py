@@ -14,7 +14,7 @@ from app.project.check import require_sound
 from app.project.model import Project
 
 MOST_STEPS = 1000
-"""Steps kept; the oldest go first."""
+"""Greatest number of undo steps; the oldest are discarded first."""
 
 
 @dataclass(frozen=True, eq=False)

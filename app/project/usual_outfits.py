@@ -18,9 +18,9 @@ from app.score.track_instrument import use_of
 CONCERT, JAZZ = "concert_black", "jazz_suit"
 BASSES: Final = frozenset(range(32, 40))
 CHORDS: Final = frozenset((*range(8), *range(16, 21), *range(24, 32)))
-"""Programs of General MIDI: basses; pianos, organs and guitars."""
+"""General MIDI programs of chord instruments: basses; pianos, organs and guitars."""
 MOST_IN_JAZZ: Final = 18
-"""Winds of a large jazz orchestra; a band with more is a concert band, whatever else plays."""
+"""Greatest number of winds in a jazz orchestra; a larger group is a concert band, whatever else plays."""
 
 
 def outfit_of_piece(contents: PieceContents, players: int) -> str:

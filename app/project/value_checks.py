@@ -15,11 +15,11 @@ from app.project.performers import Dancer, Player
 from app.rig.people.wardrobe import TINTS
 
 Fault: TypeAlias = tuple[str, str]
-"""The key path, and what is wrong there."""
+"""Key path of a value, and its error."""
 
 COLOUR: Final = re.compile(r"#[0-9a-fA-F]{6}", re.ASCII)
 MOST_NAME: Final = 60
-"""Characters of a performer's name in a message."""
+"""Greatest number of characters of a performer's name in a message."""
 
 
 def about(

@@ -13,7 +13,7 @@ from app.score.track_channel import TrackChannel
 from instrument_maps.instrument_names import vocabulary
 
 PERCUSSION: Final = "percussion"
-"""Assignment of a part, in place of an instrument, whose notes dancers hear as percussion."""
+"""Assignment of a part that no player plays and whose notes dancers hear as percussion."""
 Split: TypeAlias = Literal["sustained", "every", "never"]
 
 

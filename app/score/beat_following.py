@@ -12,7 +12,7 @@ from app.errors import Argument, Message
 from app.score.metre_map import MetreMap
 
 SURE: Final = 0.5
-"""Bars with less confidence are to be checked by ear."""
+"""Confidence below which bars must be checked by ear."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,9 @@ _WITH_NEXT: Final = {
     "audio.tempo_fitted": ("audio.tempo_fitted_with_next", -1.0),
     "video.offset_found": ("video.offset_found_with_next", -1.0),
 }
-"""Messages with the second likeliest place; offsets are the less the later the music is in the recording."""
+"""Messages that also name the second most likely position, with the weight of its confidence; offsets count less the
+later the music begins in the recording.
+"""
 
 
 def message_of_place(id: str, arguments: dict[str, Argument], runner_up: RunnerUp | None) -> Message:

@@ -15,13 +15,13 @@ from app.errors import AppError
 from app.score.tempo import TempoChange, TempoMap
 
 _RATE_HZ: Final = 200
-"""Rate of the envelope: 5 ms, finer than a beat is played."""
+"""Rate in Hz of the envelope: 5 ms, finer than the precision of beats."""
 _SPREAD_S: Final = 0.02
 _LEAST_NOTES: Final = 8
 TIGHTNESS: Final = 60.0
-"""Cost of a beat that is longer or shorter than the others; the usual 100 is for bands that keep time."""
+"""Cost of differences between consecutive beats; the usual value of 100 is for bands that keep time."""
 _SMOOTHED: Final = 32
-"""Width of the Gaussian that smooths the envelope, as a fraction of a beat (Ellis)."""
+"""Standard deviation of the Gaussian that smooths the envelope, as the denominator of a fraction of a beat (Ellis)."""
 _SLOWEST_US, _FASTEST_US = 2_000_000.0, 200_000.0
 
 

@@ -20,21 +20,21 @@ from app.score.model import MOST_BEND
 USUAL_SEMITONES: Final = 2.0
 """Default range of pitch bends in semitones; the unit of pitch bend curves (`app.score.model.ControllerCurve`)."""
 _MEMBER_SEMITONES: Final = 48.0
-"""Range of the members of a new MPE zone."""
+"""Default range in semitones of a new MPE zone's member channels."""
 _DATA, _DATA_FINE, _INCREMENT, _DECREMENT = 6, 38, 96, 97
 _UNREGISTERED: Final = (98, 99)
 _REGISTERED_FINE, _REGISTERED = 100, 101
 RESET: Final = 121
-"""Reset all controllers."""
+"""Number of the controller "reset all controllers"."""
 PARAMETERS: Final = frozenset({_DATA, _DATA_FINE, _INCREMENT, _DECREMENT, *_UNREGISTERED, 100, 101, RESET})
-"""Controllers by which a range is set."""
+"""Controllers that set a range."""
 _BEND, _ZONE, _NULL = (0, 0), (0, 6), (127, 127)
 _LOWER, _UPPER = 0, 15
-"""Manager channels of the two zones."""
+"""Manager channels of the lower and upper MPE zone."""
 _MOST_MEMBERS: Final = 15
 _MOST_SEMITONES: Final = 127
 _ROUNDING: Final = 1e-3
-"""Semitones: the highest step of a wheel is a little less than its range."""
+"""Tolerance in semitones, since the highest value of a pitch wheel is slightly less than its range."""
 
 
 class _Channel(msgspec.Struct):

@@ -10,7 +10,7 @@ from typing import Final
 import msgspec
 
 _MOST_TOGETHER: Final = 0.05
-"""Largest share of a melody's notes that covers others: legato and short wrong notes of a wind controller."""
+"""Greatest share of a melody's notes that overlap others, by legato or by short wrong notes of a wind controller."""
 
 
 class ChannelNotes(msgspec.Struct):

@@ -10,11 +10,11 @@ import msgspec
 Use: TypeAlias = Literal["melodic", "rhythm", "effect"]
 System: TypeAlias = Literal["", "gm", "gs", "xg", "gm2"]
 DRUM_CHANNEL: Final = 9
-"""Channel 10, which has the percussion of General MIDI."""
+"""Index of channel 10, the percussion channel of General MIDI."""
 EFFECT_PROGRAMS: Final = range(120, 128)
-"""General MIDI's sound effects, from the fret noise of a guitar to a gun shot."""
+"""General MIDI programs of sound effects, from guitar fret noise to gunshot."""
 KIT_PROGRAMS: Final = frozenset((0, 1, 2, 3, 4, 8, 16, 24, 25, 26, 27, 28, 29, 30, 31, 32, 40, 48, 49, 50))
-"""Numbers of drum kits in GS, XG and GM2, those of effects aside."""
+"""Program numbers of drum kits in GS, XG and GM2, except for effect kits."""
 _EFFECT_KITS: Final = (56, 57)
 _DRUM_BANKS: Final = frozenset((120, 126, 127))
 _PERCUSSION_BANK, _MELODY_BANK, _EFFECT_KIT_BANK, _KIT_BANK, _EFFECT_BANK = 120, 121, 126, 127, 64

@@ -21,19 +21,21 @@ from app.score.tracks import SentKind, TrackEvents
 from instrument_maps.instrument_names import vocabulary
 
 _PLAYED_SHARE: Final = 0.8
-"""A controller is dynamics where it is up under such a share of the notes; a vibrato comes and goes."""
+"""Least share of the notes during which a controller is above its minimum to represent dynamics; vibrato comes and
+goes.
+"""
 _LEAST_ROTATING: Final = 5
-"""Notes of a track that say whether its channels rotate."""
+"""Number of notes of a track from which rotation of its channels can be recognised."""
 _ROTATING_SHARE: Final = 0.75
-"""Share of the notes that come on another channel than the one before, where the channels rotate."""
+"""Least share of notes on another channel than the previous note for channels to rotate."""
 _UNISON_SHARE: Final = 0.9
-"""Share of the notes that the channels of two voices in unison strike together."""
+"""Least share of notes that two channels play together to be two voices in unison."""
 _FEW: Final = 8
-"""More channels than these may rotate with channel 10 among them: no drum kit takes its turn so."""
+"""Number of channels above which channel 10 may take part in a rotation, since drum kits do not rotate."""
 _LEGATO_SHARE: Final = 0.5
 """Largest share of the shorter note by which two notes of one line overlap."""
 _LEGATO_NOTES: Final = 0.9
-"""Share of the notes that must keep to `_LEGATO_SHARE` in a line."""
+"""Least share of the notes of a line that satisfy `_LEGATO_SHARE`."""
 
 _Points = dict[int, float]
 _Span = tuple[int, int, int]

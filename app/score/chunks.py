@@ -11,9 +11,9 @@ from app.errors import FileError, Message
 from app.formats.files import read_file
 
 MOST_BYTES = 2**26
-"""Largest size of a file; a symphony has some hundreds of kilobytes."""
+"""Largest file in bytes; a symphony has some hundreds of kilobytes."""
 INCOMPLETE: Final = frozenset({"midi.track_cut_off", "midi.track_truncated", "midi.tracks_missing"})
-"""Warnings of a file of which music is missing."""
+"""Warnings about files in which music is missing."""
 _END_OF_TRACK = b"\xff\x2f\x00"
 
 

@@ -19,50 +19,57 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.score.take import Cleaning, Controlled, Played, Take
 
 Fault: TypeAlias = Literal["", "ghost", "silent", "slip", "double"]
-"""Reason for which a note is excluded: short and soft; no audible breath; a finger or an octave key that was late;
-struck twice. Empty: it is kept."""
+"""Reason for excluding a note: short and soft (ghost), no audible breath (silent), a late finger or octave key (slip),
+struck twice (double); empty for a note that is kept.
+"""
 
 SILENT_SHARE: Final = 0.4
-"""Hysteresis: a note whose breath stays below this share of `Cleaning.ghost_loudness` is inaudible, however long it
-is; above the whole of it it is audible, however short."""
+"""Hysteresis of audibility: a note whose breath stays below this share of `Cleaning.ghost_loudness` is inaudible
+regardless of its length; one that exceeds `ghost_loudness` is audible, however short.
+"""
 _FLICKER_VELOCITY: Final = 10
-"""Velocity up to which a note cannot have been meant; see `_ALIVE_S` for louder ones."""
+"""Velocity up to which a note without audible breath is unintentional; see `_ALIVE_S` for louder ones."""
 _ALIVE_S: Final = 3.0
-"""Seconds around a note without audible breath from which a louder note cannot have been meant either."""
+"""Seconds around a note without audible breath within which a louder note is unintentional too."""
 _TOUCHING_S: Final = 0.012
-"""Notes this near to one another are legato."""
+"""Gap in seconds below which notes are legato."""
 _OCTAVES: Final = (12, 24)
 _OCTAVE_SLIP_S: Final = 0.13
 """Longest slip of the octave keys, in seconds; see `_BESIDE_SLIP`."""
 _BESIDE_SLIP: Final = 1.8
-"""Factor by which the notes before and after a slip are longer: notes of about one length are a figure."""
+"""Factor by which the notes before and after a slip are longer than it; notes of similar lengths are a figure."""
 _PULSE_NOTES: Final = 8
-"""Notes before and after a note over which the usual time between onsets is taken; with fewer than three there is
-none."""
+"""Number of notes before and after a note whose median time between onsets is the pulse; unknown with fewer
+than three.
+"""
 _PULSES: Final = (0.25, 0.5, 1.0, 2.0, 3.0, 4.0)
-"""Parts and multiples of it that notes are apart."""
+"""Multiples of the pulse by which onsets are separated."""
 _ON_TIME: Final = 0.1
-"""An ornament comes before its note where that is on time and the ornament is not: by this factor, as a logarithm."""
+"""Logarithm of the factor by which a note must be closer to the pulse than the ornament before it."""
 _RESTRUCK_S: Final = 0.06
-"""A note that begins again within this time of its end was not struck again, where the breath goes on: a tongue would
-have stopped it."""
+"""Gap in seconds below which a repeated note was not struck again if the breath continues; tonguing would have
+interrupted the breath.
+"""
 _GOES_ON: Final = 0.7
-"""The breath goes on where it stays above this share of what it is just before and after."""
+"""Share of the breath before and after a gap above which the breath continues."""
 _STROKE_VELOCITY, _LIKE_BREATH = 10, 0.15
-"""A note sent so much louder or softer than the one before was struck again, unless the breath differs too, by more
-than this share: many controllers send the breath as the velocity."""
+"""Change of velocity from which a note was struck again, and relative change of the breath above which the velocity is
+attributed to the breath, which many controllers send as velocity.
+"""
 _STROKES, _STEADY = 3, 0.15
-"""Least number of strokes of one pitch in equal steps, and the share within which they are equal, to be struck on
-purpose."""
+"""Least number of strokes of one pitch in equal steps, and relative difference of equal steps, for intentional
+repetition.
+"""
 _DETACHED: Final = 0.5
-"""Share of the changes of pitch within a breath that have a gap, from which the player detaches notes without
-breath; see `_LEAST_CHANGES`."""
+"""Share of the changes of pitch within a breath with a gap, from which the player separates notes without breathing;
+see `_LEAST_CHANGES`.
+"""
 _LEAST_CHANGES: Final = 4
-"""Changes of pitch that `_DETACHED` needs to apply."""
+"""Least number of changes of pitch for `_DETACHED` to apply."""
 _AROUND_S: Final = (0.15, 0.02)
-"""From so long before a moment until so long before it is just before; after it in the same way."""
+"""Start and end, in seconds before and after a moment, of the two windows in which the breath is compared."""
 _TRILL_S, _TRILL_SEMITONES, _TRILL_NOTES = 0.16, 4, 5
-"""Longest notes, widest interval and least number of notes of two pitches in turn that are a trill."""
+"""Longest note in seconds, widest interval in semitones and least number of alternating notes of a trill."""
 
 
 @dataclass(frozen=True, eq=False)

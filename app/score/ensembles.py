@@ -23,21 +23,21 @@ from instrument_maps.instruments import Ensemble, Instrument
 from instrument_maps.name_words import words_of
 
 _LEAST_SHARE: Final = 0.98
-"""Least share of a part's notes that its instrument's range holds."""
+"""Least share of a part's notes within its instrument's range."""
 _MOST_AWAY: Final = 8.0
-"""Mean distance in semitones of the parts' medians from the usual ones beyond which it is another ensemble."""
+"""Mean distance in semitones of the parts' medians from the usual ones above which it is a different ensemble."""
 _MOST_AWAY_NAMED: Final = 14.0
-"""The limit `_MOST_AWAY` where the title names the ensemble."""
+"""Limit that replaces `_MOST_AWAY` if the title names the ensemble."""
 _FEW_SHARE: Final = 0.02
-"""Share of the lowest and the highest notes that say nothing about a compass."""
+"""Share of lowest and highest notes that is ignored in determining a compass."""
 _AROUND: Final = 11
-"""Semitones that a part moves about its usual median, within what is easy for the instrument."""
+"""Usual deviation in semitones of a part's median, within the easy range of the instrument."""
 _END: Final = 0.5
-"""Weight of a semitone at an end of the compass against one of the median, and again beyond what is easy."""
+"""Weight of a semitone at an end of the compass relative to one of the median; applied again outside the easy range."""
 _LEGATO_SHARE: Final = 0.5
-"""Share of a note that may sound into the next one of a line."""
+"""Share of a note that may overlap the next one in a line."""
 _LINE_SHARE: Final = 0.95
-"""Notes of a line that end when the next one begins."""
+"""Least share of a line's notes that end before or shortly after the next one begins."""
 
 
 def named_by_ensemble(channels: Sequence[TrackChannel], title: str) -> list[TrackChannel]:

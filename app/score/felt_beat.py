@@ -16,13 +16,13 @@ from app.score.metre_map import FeltBeats, MetreMap
 from app.score.tempo import TempoMap
 
 SLOWEST_BPM = 40.0
-"""Slower beats are divided, if they are longer than a quarter."""
+"""Tempo in beats per minute below which beats longer than a quarter are divided."""
 FASTEST_BPM = 208.0
-"""Faster beats are taken two at a time; the quickest mark of a metronome."""
+"""Tempo in beats per minute above which beats are counted in twos; the highest mark of a metronome."""
 FASTEST_IN_THREE_BPM = 160.0
-"""Faster beats of a bar of three are taken all three at a time."""
+"""Tempo in beats per minute above which the beats of a bar of three are counted as one."""
 STEADY_BARS = 9
-"""Bars whose median is the tempo, so that a ritardando or a fermata does not change how one counts."""
+"""Number of bars whose median is the tempo, so that a ritardando or fermata does not change the beat."""
 
 
 def felt_beats(clock: TempoMap, metre_map: MetreMap, bars: IntArray) -> FeltBeats:

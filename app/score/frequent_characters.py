@@ -44,10 +44,10 @@ CYRILLIC: Final = {
     )
     for letter in letters
 }
-"""Letters of Russian, and how unlikely they are, in nats."""
+"""Negative log likelihood of Russian letters in nats."""
 ACCENTED: Final = frozenset("äöüßéèêëàâáãåçñíìîïóòôõøúùûœæ")
 CENTRAL: Final = frozenset("ąćęłńóśźżáčďéěíňřšťúůýžľôäöőüű")
-"""Letters with marks of Polish, Czech, Slovak and Hungarian."""
+"""Accented letters of Polish, Czech, Slovak and Hungarian."""
 GREEK: Final = {
     form: cost + capital
     for letters, cost in (
@@ -62,4 +62,4 @@ GREEK: Final = {
     for form, capital in ((letter, 0.0), (letter.upper(), 1.2))
     if len(form) == 1
 }
-"""Letters of Greek, and how unlikely they are, in nats."""
+"""Negative log likelihood of Greek letters in nats."""

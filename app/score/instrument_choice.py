@@ -28,13 +28,15 @@ from instrument_maps.instruments import Instrument
 
 _NEEDED_SHARE = 0.5
 LEAST_OUTSIDE: Final = 0.1
-"""The share of a part's notes beyond its instrument's range from which on its pitches are taken for written ones, or
-its program for another instrument's."""
+"""Share of a part's notes outside its instrument's range from which its pitches are considered to be written ones, or
+its program that of another instrument.
+"""
 _OWN_SHARE = 0.96
 _FEW = 3
 _FEW_SHARE = 0.9
-"""A part for an instrument is played on just this one where it has nearly all notes that any has, not on another size
-or key of it for the sake of a few; three in a short part may be more."""
+"""Share of notes, relative to the best instrument of a family, from which the named size or key is kept although others
+fit more notes; a short part may have three misfits more.
+"""
 
 
 class MapChoice(msgspec.Struct, frozen=True):
@@ -82,13 +84,13 @@ class How(Enum):
     """Evidence by which the instrument maps of a track were found."""
 
     SAID = "said"
-    """Its names or its program."""
+    """Decided by the names or the program of the part."""
     ENSEMBLE = "ensemble"
-    """The staves together, which are those of a known ensemble."""
+    """Decided by all staves together, which match a known ensemble."""
     TITLE = "title"
-    """The title of the piece, as the file holds it; what the file is called says nothing."""
+    """Decided by the title in the file; the file's name does not count."""
     RANGE = "range"
-    """Nothing but its notes."""
+    """Decided by the range of the notes alone."""
 
 
 class MapCandidates(msgspec.Struct, frozen=True):

@@ -17,19 +17,19 @@ from app.score.tempo import TempoMap
 from app.score.track_channel import TrackChannel
 
 _AWAY: Final = 5
-"""Semitones beyond the instrument's range, at least: a wrong note or a pedal note lies nearer."""
+"""Least distance in semitones from the instrument's range; wrong notes and pedal notes are nearer."""
 _APART: Final = 7
-"""Semitones between them and the music, at least: samplers leave half an octave free."""
+"""Least distance in semitones from the music; samplers leave half an octave free."""
 _MOST_PITCHES: Final = 24
-"""Two octaves of articulations."""
+"""Greatest number of pitches: two octaves of articulations."""
 _MOST_SHARE: Final = 0.4
-"""Largest share of the notes: several follow one switch."""
+"""Greatest share of the notes; several notes follow each switch."""
 _SHORT_S: Final = 0.25
-"""A note that lasts no longer may be a key switch; a longer one is, if it is held while the music sounds."""
+"""Length in seconds up to which a note may be a key switch; a longer one must be held while the music sounds."""
 _BEFORE_S: Final = 2.0
-"""Most seconds before the next note of the music."""
+"""Greatest seconds before the next note of the music."""
 _MOST_ODD: Final = 0.2
-"""Share of them that may be neither short nor held."""
+"""Greatest share of key switches that are neither short nor held."""
 
 
 def without_key_switches(

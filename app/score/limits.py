@@ -14,20 +14,20 @@ from app.score.model import Score
 
 LAST_TICK: Final = 2**31 - 1
 MOST_HOURS: Final = 12
-"""Longer than any concert."""
+"""Greatest duration of a piece in hours, longer than any concert."""
 MOST_QUARTERS: Final = 200_000
-"""Twelve hours at 277 a minute."""
+"""Greatest length of a piece in quarters: twelve hours at 277 per minute."""
 MOST_BARS: Final = 200_000
 MOST_TEXT: Final = 10_000
-"""Characters of any one text."""
+"""Greatest number of characters of any text."""
 MOST_NAME: Final = 200
-"""Characters of a name."""
+"""Greatest number of characters of a name."""
 MOST_STREAMS: Final = 256
-"""Parts of a file, played or not: sixteen ports of sixteen channels."""
+"""Greatest number of parts in a file, played or not: sixteen ports of sixteen channels."""
 MOST_PARTS: Final = 128
-"""That a file's players may play: more than any band has."""
+"""Greatest number of played parts: more than in any band."""
 MOST_PLAYER_HOURS: Final = 256
-"""Hours of all players together: in a piece of more than two hours fewer may play, of twelve hours 21."""
+"""Greatest total hours of all players; in a piece of more than two hours fewer may play, of twelve hours 21."""
 
 
 def most_parts(hours: float) -> int:

@@ -23,7 +23,7 @@ _CHANNEL: Final = re.compile(
     re.IGNORECASE,
 )
 _LEAST_TRACKS: Final = 3
-"""Tracks of a line that no zone announces."""
+"""Least number of tracks of a line without an announced zone."""
 
 
 class SpreadLine(NamedTuple):

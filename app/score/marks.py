@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 import msgspec
 
 Source: TypeAlias = Literal["sound", "score"]
-"""Origin of a part. In a score the absence of marks means something: a note that is not slurred is tongued."""
+"""Origin of a part: a performance or a score. In a score the absence of marks has a meaning: a note without slur is
+tongued.
+"""
 
 
 class Marking(NamedTuple):
@@ -64,17 +66,17 @@ MARKINGS: Final = (
     Marking("position"),
 )
 SFORZANDI: Final = frozenset({"sf", "sfz", "sffz", "fz", "rf", "rfz", "sfzz"})
-"""Dynamics of one note, played louder than those around it: they stand beside the one that holds."""
+"""Dynamics of a single note, played louder than those around it, in addition to the dynamic in force."""
 ACCENT_SHARES: Final[Mapping[str, float]] = {"accent": 1.2, "marcato": 1.3}
-"""Velocity that a reader of notation gives to accented notes, as a multiple of the others'."""
+"""Velocity of accented notes in notation programs, relative to the others'."""
 MARK: Final = "mark"
-"""Begins the ids of marks."""
+"""Prefix of the ids of marks."""
 MARK_KINDS: Final[Mapping[str, Marking]] = {kind.id: kind for kind in MARKINGS}
 WRITABLE: Final = (
     *("slur", "non_legato", "staccato", "staccatissimo", "tenuto", "accent", "marcato"),
     *("double_tongue", "triple_tongue", "flutter_tongue", "breath", "caesura", "crescendo", "diminuendo"),
 )
-"""Kinds that are offered to be written by hand, beside dynamics."""
+"""Kinds of marks that the user can add, besides dynamics."""
 WRITABLE_DYNAMICS: Final = ("ppp", "pp", "p", "mp", "mf", "f", "ff", "fff", "sfz", "fp")
 if TYPE_CHECKING:
     MarkKind: TypeAlias = str

@@ -21,17 +21,17 @@ from app.arrays import FloatArray, IntArray
 from app.score.metre_map import Metre
 
 STEPS: Final = 4
-"""Cells in a quarter: signals are looked at sixteenth by sixteenth."""
+"""Number of cells per quarter: signals have a resolution of sixteenths."""
 MOST_CELLS: Final = 4096
-"""The first 256 bars of a piece tell enough."""
+"""Greatest number of examined cells, 256 bars."""
 MOST_LINES: Final = 32
 LEAST_NOTES: Final = 24
 LEAST_ON_GRID: Final = 0.5
 """Mean resultant length 0..1 of onsets around the sixteenths below which quarters say nothing about the notes."""
 TRIPLE_LEAST: Final = 0.85
-"""Least probability that bars are in three for a metre to be assumed; see `BAR_LINES_LEAST`."""
+"""Least probability of bars in three for a metre to be assumed; see `BAR_LINES_LEAST`."""
 BAR_LINES_LEAST: Final = 0.5
-"""Least probability that the bar lines found are bar lines."""
+"""Least probability that the found bar lines are correct."""
 LAGS: Final = (6, 8, 12, 16, 18, 24, 32, 36, 48)
 """Numbers of cells after which a bar may repeat."""
 USUAL_LAGS: Final = (6, 8, 10, 12, 14, 16, 18, 20, 22, 24)

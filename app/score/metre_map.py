@@ -21,13 +21,13 @@ import numpy.typing as npt
 from app.arrays import IntArray
 
 FeltBeats: TypeAlias = tuple[tuple[int, int], ...]
-"""The beat that is felt from each tick on, as (tick, ticks), by tick; at least one."""
+"""Felt beats as (tick, length in ticks) from each tick on, in ascending order; at least one."""
 
 _PLACE = re.compile(r"^\s*([-−]?\d+)(?:\s*[.|:]\s*(\d+)(?:\s*[.|:]\s*(\d+))?)?\s*$")
 _MOST_KEPT = 16
-"""Spans whose bars and beats are kept."""
+"""Number of ranges whose bars and beats are cached."""
 _MOST_BAR, _MOST_BEAT = 1_000_000, 10_000
-"""Numbers that are typed are kept within these."""
+"""Greatest numbers of a bar and a beat that can be entered."""
 
 
 class Metre(msgspec.Struct, frozen=True):

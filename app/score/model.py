@@ -16,10 +16,10 @@ from app.score.metre_map import Metre, MetreMap
 from app.score.tempo import TempoMap
 
 MOST_VOICES: Final = 16
-"""Players who share a track."""
+"""Greatest number of players who share a track."""
 
 MOST_BEND: Final = 63.5
-"""Whole tones: 127 semitones, the widest whole range that MIDI can set."""
+"""Greatest bend in whole tones: 127 semitones, the widest integer range in MIDI."""
 
 CurveKind: TypeAlias = Literal["breath", "volume", "expression", "aftertouch", "pitch_bend", "bite"]
 
@@ -92,7 +92,7 @@ class Marker(msgspec.Struct, frozen=True):
 
 
 SAME_SOUND: Final = {22: 42, 26: 46}
-"""Sounds for notes outside the 47 sounds of a General MIDI drum kit that are an edge of one of them."""
+"""Replacement for sounds of a drum kit outside the 47 of General MIDI that are similar to one of them."""
 
 
 class PercussionHit(msgspec.Struct, frozen=True, gc=False):
@@ -185,7 +185,7 @@ class Part(msgspec.Struct, frozen=True, dict=True):
 
 
 _LEFT_OUT_OF_PARTS: Final = frozenset({"score.stray_notes", "score.key_switches"})
-"""Reasons for leaving out some notes of a part that is played."""
+"""Reasons for omitting single notes of a played part."""
 
 
 class UnplayedPart(msgspec.Struct, frozen=True):

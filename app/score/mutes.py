@@ -16,7 +16,7 @@ from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
 
 MUTED_TRUMPET: Final = 59
-"""The one muted sound of General MIDI's wind programs."""
+"""General MIDI's only program of a muted wind instrument."""
 
 _MUTE: Final = r"(?:sord(?:\.|in[oai]?|ine)?|mutes?|muted|dämpfern?|d[äa]mpfer|sourdines?|surdinas?|ミュート|弱音器)"
 _ON: Final = re.compile(
@@ -32,9 +32,9 @@ _HAND: Final = re.compile(
     r"gestopft|gest\.?|stopped|hand[- ]?stopped|bouch[ée]|chiuso|chius[ae]|ゲシュトップ|ストップ奏法", re.IGNORECASE
 )
 STOPPED_SIGN: Final = "+"
-"""Sign of a stopped note: it applies to the notes that begin with it."""
+"""Sign of a stopped note, which applies to the notes that begin at it."""
 OPEN_SIGN: Final = "o"
-"""Sign that ends stopping, where a score has it."""
+"""Sign that ends stopping in some scores."""
 _OFF: Final = re.compile(
     r"(?:.*\b)?(?:senza|without|no|ohne|sans|sem|sin|remove|take off|via|ôtez|enlevez)\s+"
     rf"(?:(?:the|la|le|les|il)\s+)?{_MUTE}.*"
@@ -48,10 +48,10 @@ _IN_NAME: Final = re.compile(
 
 Span = tuple[int, int]
 Change = tuple[int, str]
-"""Tick, and the kind of mute that is in the bell from there on, as in `NAMED`; ``mute``: not said."""
+"""Tick, and kind of the mute used from there on, as in `NAMED`; ``mute`` for an unknown kind."""
 MuteName: TypeAlias = Literal["straight", "cup", "harmon", "plunger", "bucket", "hat", "practice", "solotone"]
 NAMED: Final[tuple[MuteName, ...]] = get_args(MuteName)
-"""Kinds of mutes that a score names."""
+"""Kinds of mutes that scores name."""
 How: TypeAlias = Literal["open", "mute", "hand"] | MuteName
 _NAMES: Final[dict[str, MuteName]] = {
     **{name: name for name in NAMED},

@@ -15,7 +15,7 @@ from app.score.model import Note, Part, Score, UnplayedPart, transposed
 from instrument_maps.instruments import Instrument
 
 _MOST_PLACES: Final = 5
-"""Places that a message lists."""
+"""Greatest number of places listed in a message."""
 
 
 def about_notes(id_: str, part: str, notes: Sequence[Note], piece: Score, **more: Argument) -> Message:

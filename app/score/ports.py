@@ -8,7 +8,7 @@ from typing import Any, Final
 import mido
 
 _MOST_PORTS: Final = 16
-"""Most ports of one track; further names are taken for the first one's."""
+"""Greatest number of ports of one track; further names count as the first port."""
 
 
 def split_by_port(messages: Sequence[Any]) -> list[Sequence[Any]]:

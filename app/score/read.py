@@ -53,9 +53,9 @@ from app.score.track_instrument import named_by_title
 from app.score.tracks import TrackEvents, gather, no_notes
 
 UNENDED_QUARTERS: Final = 4
-"""The longest a note lasts that nothing ends."""
+"""Length in quarters of a note without an end."""
 _LONGEST_MARKER = 1000
-"""Characters; whatever is longer is no name of a place, and is cut."""
+"""Greatest number of characters of a marker; longer ones are no names of places and are cut."""
 
 
 def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoice]) -> Score:

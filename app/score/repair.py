@@ -31,8 +31,9 @@ _PORT, _END_OF_TRACK, _SET_TEMPO, _TIME_SIGNATURE = 0x21, 0x2F, 0x51, 0x58
 _LENGTHS = {_PORT: 1, _SET_TEMPO: 3, _TIME_SIGNATURE: 4}
 _TEXTS = frozenset((1, 2, 3, 4, 6, 7, 9))
 _LONGEST_EXCLUSIVE = 1024
-"""Bytes of a system-exclusive message that is put together from pieces; longer ones say nothing that the score
-needs."""
+"""Greatest size in bytes of a system-exclusive message that is joined from pieces; longer ones are irrelevant to the
+score.
+"""
 
 _SUSPICIOUS = tuple(bytes([status]) for status in range(0xF0, 0xFF))
 _OVERLONG = re.compile(rb"[\x80-\xff]{4}")

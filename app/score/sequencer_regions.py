@@ -22,7 +22,7 @@ from app.score.track_instrument import is_named, use_of
 _COPY: Final = re.compile(r"(?:[ _-]*(?:copy|kopie|copie|copia|コピー)(?:[ _]*\d+)?|[ _]*#\d+|\.\d+)+$", re.IGNORECASE)
 """Suffixes that sequencers add to the name of another region."""
 _LEGATO_SHARE: Final = 0.5
-"""Share of a region's last note that may sound into the next region."""
+"""Share of a region's last note that may overlap the next region."""
 
 
 def groups(channels: Sequence[TrackChannel]) -> list[tuple[int, ...]]:

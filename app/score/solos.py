@@ -27,10 +27,10 @@ _ALL: Final = re.compile(
 )
 _NUMERALS: Final = ("I", "II", "III", "IV")
 _LEGATO_SHARE: Final = 0.5
-"""Share of the shorter of two notes that they overlap at most in a line."""
+"""Greatest overlap of two notes of a line, as a share of the shorter one."""
 
 Word = tuple[int, int]
-"""Tick, and the number of the player who plays alone from there on, from 1; 0 for all."""
+"""Tick, and number (from 1) of the player who plays alone from there on; 0 for all."""
 
 
 def words_of_players(texts: Sequence[tuple[int, str]]) -> tuple[Word, ...]:

@@ -50,10 +50,11 @@ Port: TypeAlias = tuple[int, bytes]
 
 FIRST_PORT: Final[Port] = (0, b"")
 LATE_QUARTERS: Final = 4
-"""Most quarters after a channel's first note at which its first description may come: programs write it into the first
-bar, some ticks apart."""
+"""Greatest number of quarters after a channel's first note for its first description, since programs write descriptions
+some ticks apart in the first bar.
+"""
 _MOST_CHANGES: Final = 256
-"""Changes of one channel by tracks other than its own that are looked at, of each kind; a piece has a few."""
+"""Greatest number of examined changes of a channel by other tracks, of each kind; a piece has a few."""
 
 
 class Setup(NamedTuple):
@@ -244,7 +245,7 @@ def _part_values(
 
 _Made = TypeVar("_Made")
 _CENTRE, _MOST_BENT = 0x40, 24
-"""The value of a bend of no semitones, and the most semitones."""
+"""Value for a bend of no semitones, and greatest bend in semitones."""
 
 
 class _Row(NamedTuple):

@@ -23,18 +23,21 @@ CHORD_S: Final = 0.045
 """Largest difference between the onsets of notes struck together by two players or two fingers: in trios these
 differences have standard deviations of 30 to 50 ms (Rasch 1979, Acustica 43, 121-131)."""
 SEVERAL: Final = 4
-"""Notes in a row that must sound together with others before another player is assumed; see `SUSTAINED_S`."""
+"""Number of consecutive notes that must sound together with others before another player is assumed; see
+`SUSTAINED_S`.
+"""
 SUSTAINED_S: Final = 0.4
 """Seconds for which such notes must sound together in all: two quarters of a fast march; an accident of the fingers
 lasts a tenth."""
 _SEVERAL_DOUBLED: Final = 8
-"""The same for octaves and unisons: editions give a bass an octave to choose from for a cadence."""
+"""Same number for octaves and unisons, since editions offer a bass an alternative octave in cadences."""
 _MUCH: Final = 0.25
-"""Share of the track's notes that sound together from which another player is there, however short the track is."""
+"""Share of a track's simultaneous notes from which a second player is assumed, however short the track."""
 
 _ROUNDING_S: Final = 1e-9
-"""Below the shortest note, above the rounding of seconds of any piece: a note that begins just where the one before is
-released does so at every place and tempo."""
+"""Tolerance in seconds: below the shortest note, above rounding errors, so that a note starting at the end of another
+one does not overlap it.
+"""
 
 
 class VoiceSpans(NamedTuple):

@@ -19,7 +19,7 @@ from app.score.tracks import LEAST_TEMPO, TrackEvents
 _SMPTE_RATES = {24: Fraction(24), 25: Fraction(25), 29: Fraction(30000, 1001), 30: Fraction(30)}
 _LARGEST_DENOMINATOR = 64
 UNSTATED: Final = (Metre(0, 4, 4),)
-"""The metre of a file without a time signature, as the standard has it."""
+"""Metre of a file without a time signature, according to the standard."""
 
 
 class Assumed(msgspec.Struct, frozen=True):

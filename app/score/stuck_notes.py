@@ -18,9 +18,9 @@ from app.score.tempo import TempoMap
 from app.score.tracks import TrackEvents
 
 ALONE_S: Final = 3600.0
-"""A note that sounds for longer than this after all others have ended is stuck."""
+"""Seconds for which a note sounds after all others have ended from which it is stuck."""
 BESIDE_S, TIMES = 600.0, 2.0
-"""In a piece of other notes also one that sounds for longer than this, and than so many times all of the piece."""
+"""Seconds of a note, and multiple of the remaining piece's duration, above which it is stuck too."""
 
 
 class _Long(NamedTuple):

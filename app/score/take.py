@@ -263,7 +263,7 @@ _USUAL: Final[Mapping[str, CurveKind]] = {
     "channel_pressure": "aftertouch",
     "pitch_bend": "pitch_bend",
 }
-"""Kinds of curve that controllers carry unless a mapping says otherwise."""
+"""Kinds of curves of controllers without a mapping."""
 
 
 def _source(message: mido.Message) -> tuple[str, float]:

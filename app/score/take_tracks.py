@@ -21,25 +21,25 @@ from app.score.track_channel import TrackChannel
 from instrument_maps.instrument_names import vocabulary
 
 RECORDED: Final = "Suisou: recorded take"
-"""Text of a track that ``suisou record`` wrote."""
+"""Text of a track written by ``suisou record``."""
 
 TakeReason: TypeAlias = Literal["", "recorded", "name", "breath"]
-"""Evidence that a track is a take: its file says so, its name, the breath and the timing; empty: it is none."""
+"""Reason for considering a track a take: a text in the file, its name, or breath and timing; empty if it is none."""
 
 _FAMILY: Final = "wind_controllers"
 _BREATHS: Final[tuple[CurveKind, ...]] = ("breath", "expression", "aftertouch", "volume")
-"""Kinds of curve that may carry the breath, the likeliest first."""
+"""Kinds of curves that may represent the breath, the most likely first."""
 _SENT_PER_S: Final = 5.0
-"""Changes per second of a breath controller that is blown, while notes sound."""
+"""Least number of changes per second of a blown breath controller during notes."""
 _AUDIBLE, _SILENT = 0.15, 0.06
 _TOGETHER_S, _TOGETHER_SHARE = 0.15, 0.03
-"""Longest overlap, and share of notes that exceed it, of a single line."""
+"""Greatest overlap in seconds, and share of notes that exceed it, in a single line."""
 _GRID: Final = 12
-"""Steps of a quarter that notes are written on: sixteenths and triplets."""
+"""Number of steps in a quarter on which notes are written: sixteenths and triplets."""
 _ON_GRID: Final = 0.5
-"""Share of notes on a step of the grid below which they were played."""
+"""Share of notes on these steps below which the notes were played live."""
 _REST_S, _FALLS = 0.15, 0.8
-"""Length of a rest, and the share of such rests in which a breath that is blown falls below what can be heard."""
+"""Length of a rest in seconds, and share of such rests in which a blown controller falls below the audible level."""
 _LEAST_NOTES: Final = 4
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from app.arrays import AnyFloatArray, AnyIntArray, FloatArray
 
 _Pieces: TypeAlias = tuple[list[float], list[float], list[float]]
-"""Knots, values at them, slopes after them."""
+"""Knots, values at the knots, and slopes after them."""
 
 DEFAULT_MICROSECONDS_PER_QUARTER = 500_000.0
 

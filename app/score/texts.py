@@ -22,30 +22,31 @@ from instrument_maps.instrument_names import vocabulary
 from instrument_maps.name_words import is_wide
 
 _MOST_TEXTS: Final = 200
-"""Texts that decide, and bytes of each."""
+"""Greatest number of texts that are examined, and of bytes in each."""
 _MOST_BYTES: Final = 120
 _MOST_NAMES: Final = 64
 _KNOWN: Final = 8.0
-"""Worth of a name of the vocabulary, in nats as all costs."""
+"""Benefit of a name from the vocabulary, in nats like all costs."""
 _KNOWN_BY_ONE: Final = 2.0
-"""Worth of a name of a single character, which may be chance."""
+"""Benefit of a name with a single character, which may be a coincidence."""
 _OWN_ENCODING: Final = 9.0
-"""Cost of an encoding that is not the file's."""
+"""Cost of an encoding that differs from the file's other texts."""
 _UNREADABLE: Final = 25.0
 _BESIDE_LATIN: Final = 6.0
-"""For a character of another script that touches a small Latin letter: "Flöte" in CP932."""
+"""Cost of a character of another script next to a small Latin letter, such as "Flöte" read as CP932."""
 _NOT_ASCII: Final = re.compile(r"[^\x00-\x7f]+")
 _SHORT: Final = 8
 _NO_LETTERS: Final = re.compile("[\u0080-\u009f\u0180-\u0217\u021c-\u02bb\u02bd-\u036f\u0460-\u058f\u0700-\u07ff]")
 _BOMS: Final = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_BE, "utf-16"), (codecs.BOM_UTF16_LE, "utf-16"))
 
 _FREQUENT, _USUAL, _RARE, _ODD = 6.2, 8.8, 12.0, 14.0
-"""Costs of Chinese characters: the 300 of a list make half of a text, the other 3500 of the first level of a character
-set nearly all the rest, the 3000 of its second level a hundredth."""
+"""Costs of Chinese characters by frequency: a list of 300 makes up half of a text, the other 3500 of a character set's
+first level nearly all the rest, the 3000 of the second level a hundredth.
+"""
 _FREQUENT_HANGUL, _USUAL_HANGUL = 5.2, 8.5
 _KANA, _HALF_KANA, _HALF_MARK = 3.8, 4.0, 7.0
 _NO_WORD: Final = 5.0
-"""For a character that stands as none of its script does: a single half width kana, a dash within a word."""
+"""Cost of a character in an impossible position for its script: a single half-width kana, a dash within a word."""
 
 
 class TextDecoder:
@@ -326,7 +327,7 @@ def _greek_cost(text: str) -> float:
 
 
 _FRENCH: Final = re.compile("č[cdfgprs]")
-"""Pairs that no Czech text has, but "Pièce" and "Prière" in a Western encoding."""
+"""Letter pairs that occur in no Czech text, but in "Pièce" and "Prière" with a wrong encoding."""
 
 
 def _central_cost(text: str) -> float:

@@ -13,10 +13,10 @@ from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
 
 _KIT, _EFFECT, _VOICE = "drums", "effect", "voice"
-"""Ids in the vocabulary."""
+"""Ids of drums, effects and voices in the vocabulary."""
 _KIT_NOTES = range(35, 60)
 _MOST_DRUMS = 6
-"""Most sounds of a part of small percussion; one of more is a tune, as steel drums have."""
+"""Greatest number of sounds in a part of small percussion; more indicate a melody, as of steel drums."""
 _NO_PROGRAM = 0
 _SAYS_NOTHING = re.compile(
     r"(?:(?:midi|new|part|track|staff|voice|channel|untitled|instrument|spur|stimme|system|piste|pista)[a-h]?|"
@@ -24,7 +24,7 @@ _SAYS_NOTHING = re.compile(
     r"дорожка|трек|канал|パート|トラック|チャンネル|트랙|채널|音轨|音軌|轨道|軌道|通道|[\W\d_])*",
     re.IGNORECASE,
 )
-"""Names that programs give to unnamed tracks."""
+"""Names that programs give to tracks without a name."""
 _ORDINAL = r"(?:1[0-6]|[1-9]|VIII|VII|VI|IV|V|III|II|I)(?:st|nd|rd|th|er|[.aoºª°])?"
 _NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 _PLAYERS = re.compile(

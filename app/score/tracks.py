@@ -20,12 +20,13 @@ from app.score.sound_module import FIRST_PORT, Port, Setup, Setups
 from app.score.texts import TextDecoder
 
 CONTROLLERS: Final[dict[CurveKind, int]] = {"breath": 2, "volume": 7, "expression": 11, "bite": 16}
-"""The curves that are MIDI controllers, and their numbers."""
+"""Numbers of the MIDI controllers by kind of curve."""
 LEAST_TEMPO: Final = 10_000
-"""Microseconds per quarter: nothing is played at 6000 quarters a minute, so less is damage."""
+"""Least microseconds per quarter; a smaller value (over 6000 quarters per minute) is damage."""
 SentKind: TypeAlias = CurveKind | Literal["modulation", "timbre"]
-"""Modulation is the dynamics of sampled winds and strings or the depth of a vibrato; timbre may be the breath of an MPE
-controller."""
+"""Kinds of sent curves. Modulation is the dynamics of sampled winds and strings or the depth of vibrato; timbre may be
+the breath of an MPE controller.
+"""
 _KINDS: Final[dict[int, SentKind]] = {
     1: "modulation",
     74: "timbre",
@@ -33,13 +34,13 @@ _KINDS: Final[dict[int, SentKind]] = {
 }
 _NOTES_OFF = frozenset({120, 123})
 _BANK: Final = 0
-"""Controller 0, the MSB of a bank."""
+"""Controller 0, the MSB of the bank."""
 _LONGEST_EXCLUSIVE: Final = 256
-"""Bytes of a message to a sound module; longer ones are dumps of its memory."""
+"""Greatest size in bytes of a message to a sound module; longer ones are memory dumps."""
 _SOUND_MODULES: Final = frozenset((0x41, 0x43, 0x7E))
-"""Roland, Yamaha, and what all makers share."""
+"""Manufacturer ids of Roland, Yamaha, and of universal messages."""
 _TRACKS_NAMED: Final = 8
-"""Most tracks that are named of a file without notes."""
+"""Greatest number of tracks listed for a file without notes."""
 
 
 class TrackEvents(msgspec.Struct):

@@ -36,9 +36,9 @@ LEGATO_OVERLAP_S: Final = 0.030
 
 
 _LEGATO_OF_A_QUARTER: Final = 8
-"""Part of a quarter; voices that overlap by less are legato."""
+"""Divisor of a quarter; notes of voices that overlap by less are legato."""
 _HOMOPHONIC: Final = 0.5
-"""Players move together where such a share of the notes that sound together begins together."""
+"""Share of the simultaneous notes with simultaneous onsets from which players move together."""
 
 _UNISON_NUMBERS: Final = 10_000_000
 _ROUNDING_TICKS = 1e-6

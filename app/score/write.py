@@ -50,19 +50,19 @@ from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
 
 MOST_TEMPO: Final = 0xFFFFFF
-"""Microseconds per quarter: the 24 bits of the event."""
+"""Greatest microseconds per quarter: 24 bits."""
 _LONGEST_DELTA: Final = 0x0FFFFFFF
-"""Ticks between two events: four groups of seven bits."""
+"""Greatest number of ticks between two events: four groups of seven bits."""
 _CHANNELS: Final = tuple(channel for channel in range(16) if channel != DRUM_CHANNEL)
 
 _KIT: Final = "drums"
-"""Id in the vocabulary."""
+"""Id of drums in the vocabulary."""
 
 # What comes first at one tick: what ends a note comes before what begins the next, controllers before both begin.
 _OFF, _PROGRAM, _CONTROL, _ON = range(4)
 
 _Event: TypeAlias = tuple[int, int, mido.Message | mido.MetaMessage]
-"""Tick, place among those of the tick, message."""
+"""Tick, order within the tick, and message."""
 
 
 class PartPlayer(msgspec.Struct, frozen=True):

@@ -15,7 +15,7 @@ from app.score.take_tracks import RECORDED
 
 TICKS_PER_QUARTER: Final = 960
 _PLAYED_EARLY_S: Final = 0.25
-"""Seconds before the first beat within which a note is meant for it."""
+"""Seconds before the first beat within which a note belongs to that beat."""
 
 
 def write_take(

@@ -57,11 +57,11 @@ from widgets.common.actions import actions
 from widgets.common.font import apply_font
 
 STOP_S = 3.0
-"""Workers that are asked to stop when the editor ends get this long."""
+"""Seconds that workers get to stop when the editor ends."""
 READY_S = 20.0
-"""A picture waits this long until all motion is made and the status line is quiet; it can do without."""
+"""Seconds that a screenshot waits for complete motion and an idle status line; it is taken anyway afterwards."""
 PICTURE_S = 60.0
-"""A picture waits this long for plans and motion."""
+"""Longest wait in seconds of a screenshot for plans and motion."""
 
 
 @dataclass(frozen=True)

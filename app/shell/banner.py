@@ -17,12 +17,12 @@ from widgets.common.layouts import STRETCH, in_row
 from widgets.common.plain import Label
 
 NARROW_PX = 560
-"""In a banner narrower than this the answers stand below the question."""
+"""Width in pixels below which the answers of a banner are below the question."""
 LEAST_PX = 240
 _BREAKS = re.compile(r"([_./-])")
 
 Texts = Callable[[], tuple[str, tuple[str, ...]]]
-"""The question and the answers in the language of the editor."""
+"""Function that returns the question and the answers in the editor's language."""
 
 
 class Banner(Retranslated, QFrame):

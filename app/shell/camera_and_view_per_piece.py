@@ -24,7 +24,7 @@ from app.shell.workspaces import Workspaces
 from widgets.timeline.panel import TimelinePanel, VisibleRange
 
 _MOST_PLAYERS: Final = 100
-"""Selected players that are remembered."""
+"""Greatest number of selected players that are stored."""
 
 
 class PieceView(msgspec.Struct, frozen=True):

@@ -31,7 +31,7 @@ _LARGEST_PX: Final = 2048
 _DEPTHS: Final = float(2**20)
 """Number of depth levels from the rearmost to the foremost point."""
 _CLOSE: Final = 1.3
-"""Points in a pixel's width."""
+"""Distance of drawn points relative to a pixel's width."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from instrument_maps.key_chart import COLUMN, HOLE, PAD, ChartedKey, KeyChart, i
 TICK_PX = 3.0
 """Width of a key in pixels if there is no more room."""
 LEAST_SIGN_PX = 9.0
-"""Keys less tall have no sign."""
+"""Height in pixels of a key from which its sign is drawn."""
 
 
 @dataclass(frozen=True)

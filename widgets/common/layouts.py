@@ -26,7 +26,7 @@ Item: TypeAlias = Part | int | tuple[Part, int] | tuple[QWidget, int, Qt.Alignme
 """A widget or layout, optionally with a stretch factor and alignment; a gap in pixels; or `STRETCH`."""
 Margins: TypeAlias = int | tuple[int, int, int, int]
 _FRAME: Final = QSize(40, 80)
-"""Room left for a window's frame and the desktop's bars, pixels."""
+"""Space in pixels for a window's frame and the desktop's bars."""
 _LEAST_SCROLLED_PX: Final = 200
 """Least height of a scrolled area."""
 

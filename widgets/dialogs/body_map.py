@@ -51,7 +51,7 @@ _BODY: Final[Mapping[str, tuple[float, float]]] = {
     "leftToes": (0.088, 0.942),
 }
 _PALM: Final = (0.305, 0.700)
-"""Middle of the enlarged left palm."""
+"""Centre of the enlarged left palm, as shares of the picture's width and height."""
 _FINGERS: Final[Mapping[str, tuple[tuple[float, float], float, tuple[float, float, float]]]] = {
     # First joint from the palm's middle, degrees from upright (towards the thumb), how far along the joints are.
     "Thumb": ((-0.050, 0.035), 48.0, (0.0, 0.045, 0.082)),

@@ -51,7 +51,7 @@ _TAKES: Final[Mapping[TakeReason, str]] = {
 }
 """Text ids of the reasons why a track looks like a take; each mentions the cleaning."""
 _INSTRUMENT_LETTERS = 31
-"""Width of the column of instruments: the longest names would leave the notes no room."""
+"""Greatest width of the column of instruments in letters, so that the longest names leave space for the notes."""
 _ROWS_AT_ONCE, _ROWS_LATER = 14, 4
 """Number of rows made before the first display, and in each later turn of the event loop."""
 

@@ -22,7 +22,7 @@ from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
 
 LEAD: Final = 4
-"""Number of first clicks that are not counted."""
+"""Number of clicks at the beginning that are not evaluated."""
 COUNTED: Final = 12
 PERIOD_S: Final = 0.6
 _AFTER_S: Final = 0.5

@@ -14,7 +14,7 @@ from app.editor.design_tokens import Tokens
 from app.score.track_channel import TrackChannel
 
 ROW_PX = 40
-"""Height of a row of the import."""
+"""Height in pixels of a row in the import dialog."""
 
 
 class NotesPreview(QWidget):

@@ -33,13 +33,13 @@ from widgets.dialogs.progress_dialog import WorkingDialog, stopping
 
 Pictures = npt.NDArray[np.uint8]
 Draw = Callable[[float], Pictures]
-"""Time in seconds to a picture (H, W, 3 or 4)."""
+"""Function from a time in seconds to a picture (H, W, 3 or 4)."""
 Film = Callable[[int, int, tuple[float, float], View | CameraBookmark | None, bool], Draw]
 """Function from width, height, span in seconds, view (None for the viewport's present one) or bookmark, and a flag to a
 function that draws the pictures in order.
 """
 Sound = Callable[[float, float, int], SingleArray]
-"""Start, end in seconds and samples per second to (N, 2) samples of the sound; runs in the background."""
+"""Function from start and end in seconds and a sample rate to samples (N, 2) of the sound; runs in the background."""
 
 SIZES: Final = ((1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (1080, 1920))
 _WHOLE, _LOOP, _SELECTION = "whole_piece", "loop", "selection"

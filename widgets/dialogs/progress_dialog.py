@@ -19,7 +19,7 @@ from widgets.common.text import sentence
 
 _PARTS = 1000
 _LEAST_SHARE, _LEAST_S = 0.02, 0.5
-"""Less done, or in a shorter time, foretells nothing."""
+"""Completed share and elapsed seconds below which no remaining time is estimated."""
 
 
 def stopping(stop: threading.Event, stop_requested: StopRequested) -> StopRequested:

@@ -21,7 +21,7 @@ from widgets.common.plain import Label
 from widgets.common.text import sentence
 
 _LIST_PX = 130
-"""Four players are seen."""
+"""Height in pixels of the list: four players."""
 
 
 class StreamDialog(Retranslated, QDialog):

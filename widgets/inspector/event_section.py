@@ -59,7 +59,7 @@ _WORDS: Final = {
         "event_section.fade_out_tip",
     ),
 }
-"""Label, unit and tip of each number."""
+"""Text ids of label, unit and tool tip of each number."""
 
 
 class EventSection(Retranslated, QWidget):

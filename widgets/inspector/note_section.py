@@ -47,7 +47,7 @@ _WORDS: Final = {
     "effort": ("note_section.effort", "", "note_section.effort_tip"),
     "air": ("note_section.air", "", "note_section.air_flow_tip"),
 }
-"""Label, unit and tip of each number."""
+"""Text ids of label, unit and tool tip of each number."""
 
 
 class NoteSection(Retranslated, QWidget):

@@ -31,7 +31,7 @@ from app.editor.session import Session
 from widgets.common.icons import icon
 
 ID_ROLE: Final = Qt.ItemDataRole.UserRole + 1
-"""A row's id, str."""
+"""Item role of a row's id (str)."""
 AnyIndex: TypeAlias = QModelIndex | QPersistentModelIndex
 _BAR_PX = 5
 

@@ -42,7 +42,7 @@ LABEL_PX = 88
 PORTRAIT_PX = 28
 PORTRAITS_AFTER_MS = 3000
 _SECTIONS = ("motion", "acting", "breath", "face", "player")
-"""Sections from the top; the most used first."""
+"""Sections from top to bottom, the most used first."""
 _FOLDED = frozenset({"acting"})
 _POSTURE = "posture"
 _TITLES: Final = (

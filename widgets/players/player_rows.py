@@ -13,7 +13,7 @@ from app.project.performers import Player
 from widgets.players.ordered_list import ID_ROLE, AnyIndex
 
 ROW_ROLE: Final = Qt.ItemDataRole.UserRole
-"""A row's contents, `PlayerRow` or `SectionRow`."""
+"""Item role of a row's content, `PlayerRow` or `SectionRow`."""
 
 
 @dataclass(frozen=True)

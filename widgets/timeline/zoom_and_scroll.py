@@ -16,10 +16,10 @@ from widgets.timeline.model.visible_time import TimeView
 
 ZOOM_A_NOTCH = 1.2
 PAN_A_NOTCH = 0.12
-"""Share of the visible span per notch of the wheel."""
+"""Share of the visible range per notch of the mouse wheel."""
 
 SCROLL_A_S = 1000
-"""Steps of the scroll bar in a second."""
+"""Steps of the scroll bar per second."""
 
 
 class WheelTurn(NamedTuple):

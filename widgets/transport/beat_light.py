@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from app.editor.session import Session
 
 FLASH_S = 0.11
-"""Duration of a flash."""
+"""Duration of a flash in seconds."""
 _BAR, _BEAT, _OFF = "bar", "beat", "off"
 
 

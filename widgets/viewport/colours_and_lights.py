@@ -40,13 +40,13 @@ class Emphasis:
 
     rings: Mapping[int, Color] = field(default_factory=dict)
     podium: tuple[float, float, Color] | None = None
-    """Conductor's place: x, z, and the colour of the rings that mark it."""
+    """Position (x, z) of the conductor in metres and colour of the rings that mark it; None without a conductor."""
     in_the_way: frozenset[int] = frozenset()
     wireframe: bool = False
     props: bool = True
     """True if straps and chairs are drawn."""
     video: Picture | None = None
-    """Seen behind the players ..."""
+    """Video picture drawn behind the players; None without a video."""
     video_opacity: float = 1.0
     """Opacity of the video's picture, 0..1."""
     in_motion: bool = False
@@ -60,7 +60,7 @@ def direction(x: float, y: float, z: float) -> Color:
 
 
 KEY = direction(-0.55, 1.0, 0.72)
-"""Towards the key light: above the audience's left, as a stage is lit."""
+"""Direction towards the key light: above the audience's left, as on a stage."""
 
 
 def rgb(text: str) -> Color:

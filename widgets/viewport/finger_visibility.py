@@ -14,7 +14,7 @@ from instrument_maps.model import InstrumentMap
 from widgets.viewport.cast import Stage
 
 Direction = tuple[float, float]
-"""Turn from the player's front towards their left, height of the eye, both in degrees."""
+"""Direction of the eye in degrees: rotation from the player's front towards their left, and elevation."""
 
 _SIDES_DEG = (-12.0, 12.0, -24.0, 24.0, -48.0, 48.0, -72.0, 72.0)
 _HEIGHTS_DEG = (14.0, 34.0)

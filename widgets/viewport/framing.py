@@ -28,7 +28,7 @@ _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
     "feet": (-28.0, 16.0),
 }
 _HALF_M: dict[View, float] = {"mouth": 0.115, "feet": 0.30}
-"""Half the height of a close-up's picture, at least."""
+"""Least half height in metres of a close-up's picture, by view."""
 _HANDS_MARGIN = 1.25
 """Height of the picture relative to that of the hands' bones, so that hands and part of the instrument are visible."""
 _FINGERS = tuple(
@@ -48,7 +48,7 @@ _FINGERS = tuple(
 HEAD_M = 0.16
 """Distance in metres from a head's joint to its crown."""
 _BUST_M = 0.3
-"""From the middle of the head to the side of a bust's box."""
+"""Distance in metres from the centre of the head to the side of a bust's box."""
 BODY_M = 0.55
 """Distance in metres from the middle that a player with an instrument takes."""
 

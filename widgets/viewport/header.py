@@ -42,9 +42,9 @@ _SHOWN: Final[dict[Shown, tuple[str, str]]] = {
 }
 """Text ids and icons of the additional display options."""
 FULL_SCREEN = "application.full_screen"
-"""The shell's: only a window can fill the screen."""
+"""Action of the shell, since only a window can fill the screen."""
 _BETWEEN: Final = " · "
-"""Sign between the parts of the note."""
+"""Separator between the parts of the note."""
 _OF_CAMERAS: Final = ("cameras.keep", "cameras.update", "cameras.rename", "cameras.remove")
 
 

@@ -31,9 +31,9 @@ _BONES = (
 )
 _HEAD_UP_M = (0.0, 0.09, 0.02)
 LIMBS = len(_BONES) + 4
-"""Bones, two feet, the instrument, the seat."""
+"""Number of limbs: bones, two feet, the instrument and the seat."""
 SHADING, HELD = len(_BONES), len(_BONES) + 2
-"""The first limbs shade the player as well as the floor; the place of the instrument."""
+"""Number of limbs that shade the player as well as the floor, and index of the instrument."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -40,7 +40,7 @@ class SplitMesh:
 
     mesh: Mesh
     vertices: IntArray
-    """Original vertex of every vertex."""
+    """Index of the original vertex of each vertex."""
     materials: IntArray
     triangles: IntArray
 

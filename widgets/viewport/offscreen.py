@@ -28,7 +28,7 @@ from widgets.viewport.panel import Draw, ViewportPanel
 T = TypeVar("T")
 
 _CAPTION_PX = (10, 24)
-"""Least and greatest size of the letters under a picture."""
+"""Least and greatest font size in pixels of captions."""
 _CAPTION_PER_WIDTH = 1 / 26
 _DOT = " · "
 """Separator between parts of a caption."""

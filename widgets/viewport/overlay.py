@@ -19,17 +19,17 @@ from widgets.viewport.handles import Handle
 
 HANDLE_RADIUS_PX = 13.0
 CROWN_M = np.array([0.0, 0.12, 0.0])
-"""Top of the head in the frame of its joint, in metres."""
+"""Position of the crown in the frame of the head's joint in metres."""
 NAME_UP_M = 0.19
 _RING_PX = HANDLE_RADIUS_PX + 2.0
 _FACE_M, _FACE_HALF_M = np.array([0.0, 0.08, 0.04]), 0.13
-"""Middle of the face in the frame of the head's joint, and half the side of a square around it, in metres."""
+"""Centre of the face in the frame of the head's joint, and half the side of a square around it, in metres."""
 _STEPS, _SAME_PX2 = 5, 1e-3
 """Number of distances tried for a label, and difference of areas in square pixels that counts as equal."""
 _SIDES = ((0.0, -1.0), (0.0, 1.0), (1.0, 0.0), (-1.0, 0.0), (1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
 """Directions to the right and down in order of preference."""
 CLOSE_MM, NEAR_MM = 2.0, 4.0
-"""A touch within the first is right, within the second all but right."""
+"""Distances in millimetres within which a touch is displayed as correct, and as almost correct."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +49,7 @@ class OverlayMarks:
 
     names: Sequence[NameTag] = ()
     skeletons: Sequence[tuple[int, str]] = ()
-    """Rows of the stage with their colour."""
+    """Skeletons that are drawn: rows of the stage with their colour."""
     touches: Sequence[ContactReading] = ()
     handles: Sequence[Handle] = ()
     grasped: PoseTarget | None = None

@@ -51,13 +51,13 @@ from widgets.viewport.scene import ViewportScene
 from widgets.viewport.video import BesideVideo, VideoStrip
 
 Draw = Callable[[float], npt.NDArray[np.uint8]]
-"""Draws a film's picture of a time in seconds (height, width, 4)."""
+"""Function that draws a film's picture (height, width, 4) of a time in seconds."""
 
 QUICK_S = 0.02
 """Seconds below which a picture may be drawn twice."""
 FRAME_MS = 16
 WAIT_MS = 90
-"""Interval in milliseconds at which a missing pose is looked for."""
+"""Interval in milliseconds at which a missing pose is requested again."""
 REST = 4.0
 """Pause between pictures while figures are loaded, relative to the time of the last picture, since each picture delays
 loading.
@@ -74,7 +74,7 @@ MENU = (
     *(f"viewport.{what}" for what in SHOWN),
     *("", "viewport.pose", "application.full_screen"),
 )
-"""The menu under the right button: actions, and lines between groups."""
+"""Context menu: actions, and separators between groups."""
 
 
 class ViewportPanel(Retranslated, QWidget):

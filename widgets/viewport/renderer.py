@@ -45,12 +45,12 @@ _NO_LOOK = (0.0, 0.0, 0.0, 0.0)
 MIDDLE_M = np.array([0.0, 1.0, 0.0])
 """Approximate position of a player's chest in metres."""
 SPREAD_M = 1.25
-"""No part of a player or instrument is farther from the chest."""
+"""Greatest distance in metres of parts of a player or instrument from the chest."""
 SHADOW_RADIUS_M = 1.9
 OVER = ("src_alpha", "one_minus_src_alpha", "zero", "one")
 """Blending over the existing picture, which stays opaque."""
 SEEN_THROUGH = 0.85
-"""Share of omitted pixels of a transparent player."""
+"""Share of the pixels that are omitted to draw a player transparently."""
 
 
 _SHADERS = Path(__file__).with_name("shaders")

@@ -27,10 +27,10 @@ from app.rig.mesh import Mesh
 from widgets.viewport.shape_model import SHAPE, SURFACE, Geometry, MorphTargets
 
 MOST_FILES: Final = 128
-"""Most files of characters and instruments, earlier versions included; the oldest go."""
+"""Greatest number of cached files of characters and instruments, earlier versions included; the oldest are deleted."""
 _ALIGNED: Final = 64
 _BEGINNING: Final = struct.Struct("<II")
-"""Format of the head's length, and the CRC-32 of everything after it."""
+"""Format of the beginning of a file: length of the head, and CRC-32 of the remaining content."""
 _KINDS: Final = {
     "shape": SHAPE,
     "surface": SURFACE,

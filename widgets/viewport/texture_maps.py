@@ -18,7 +18,7 @@ NEAR_PX: Final = 1024
 MOST_BYTES: Final = 192 * 2**20
 """Limit in bytes of all textures on the card, plus a third for mipmaps; the least recently drawn are dropped."""
 BLENDED: Final = 2.0
-"""Value of the cutoff for transparency by dithering."""
+"""Cutoff value that means transparency by dithering."""
 MULTISAMPLED, WHOLE_PIXELS = 0.02, 0.25
 """Least share of a pixel that cut-out parts must cover: with multisampling, and without, where thin brows would
 otherwise break up.

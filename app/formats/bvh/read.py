@@ -30,15 +30,18 @@ _FREE_ROTATIONS: Final = 2**20
 _CHANNELS: Final = {name.lower(): name for axis in AXES for name in (f"{axis}position", f"{axis}rotation")}
 _SCALES: Final = frozenset(f"{axis.lower()}scale" for axis in AXES)
 _MILLISECONDS: Final = (2.0, 200.0)
-"""A frame time in this range would be of 5 to 500 frames per second in milliseconds, and in seconds of no motion."""
+"""Range of frame times that are milliseconds (5 to 500 frames per second); in seconds they would be too slow for
+motion.
+"""
 _RATES: Final = (
     *(12, 15, 23.976, 24, 25, 29.97, 30, 48, 50, 59.94, 60, 72, 75, 90),
     *(100, 119.88, 120, 144, 150, 180, 200, 240, 250, 300, 360, 480, 500),
 )
 """Frame rates of film, games and motion capture. A frame time near one of them is read as that rate, unless it also
-fits one in milliseconds."""
+fits a rate in milliseconds.
+"""
 _NEAR: Final = 0.002
-"""Part of a rate by which another may differ to be the same of `_RATES`."""
+"""Relative difference below which a rate equals one of `_RATES`."""
 _MOTION: Final = re.compile(r"(?:^|[\r\n])[ \t]*MOTION(?=\s|$)", re.IGNORECASE)
 _FRAMES: Final = re.compile(r"\s*Frames\s*:\s*(\S+)\s+Frame[ \t]*Time\s*:\s*(\S+)", re.IGNORECASE)
 _DECIMAL_COMMA: Final = re.compile(r"[-+]?[0-9]*,[0-9]+(?:[eE][-+]?[0-9]+)?")

@@ -21,9 +21,9 @@ from app.formats.fixed_point import table_text
 from app.formats.joint_angles import AXES, channel_degrees
 
 _ORDER = "ZXY"
-"""Order of joints that have none of their own."""
+"""Rotation order of joints without an order of their own."""
 _ROWS = 256
-"""Frames whose text is made at once."""
+"""Number of frames converted to text at a time."""
 
 
 def write_bvh(path: str | os.PathLike[str], clip: BvhClip) -> None:

@@ -15,17 +15,19 @@ from app.formats.joint_angles import AXES, PLAIN_ORDER, channel_degrees, channel
 from app.formats.scene import Bone, Clip
 
 EULER_ORDER = PLAIN_ORDER
-"""FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx. It is that of a pre-rotation."""
+"""Rotation order "XYZ" of FBX, in which x is applied first, so that the matrix is Rz Ry Rx; also used for
+pre-rotations.
+"""
 ORDERS = ("ZYX", "YZX", "XZY", "ZXY", "YXZ", "XYZ")
-"""By the value of FBX's ``RotationOrder``."""
+"""Rotation orders by the value of FBX's ``RotationOrder``."""
 STEADY_DEG, STEADY_CM = 1e-3, 1e-4
-"""Change of an axis up to which reduced keys keep one: that much is rounding."""
+"""Change of an axis in degrees or centimetres below which reduced keys omit it as rounding."""
 
 # Linear keys. The bits beside "linear" (4) and the tangent data are those that every reader has met before.
 _KEY_FLAGS = np.array([0x6104], dtype=np.int32)
 _KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
 CUBIC, OWN_SLOPES = 0x8, 0x400 | 0x800
-"""Bits of a cubic key, and of one with slopes of its own on both sides; FBX SDK, ``FbxAnimCurveDef``."""
+"""Flags of a cubic key, and of a key with independent slopes on both sides (``FbxAnimCurveDef`` of the FBX SDK)."""
 LINEAR = 0x4
 
 

@@ -19,7 +19,7 @@ from app.formats.fbx.byte_cache import ByteCache
 from app.formats.fbx.encode import LARGE_VERSION, MAGIC, Element, Property
 
 _DEEPEST = 32
-"""Files of real programs nest up to about 8 records."""
+"""Greatest nesting depth of records; files of real programs have about 8 levels."""
 
 # DEFLATE cannot pack more than 1032 bytes into one.
 _LARGEST_RATIO = 1032

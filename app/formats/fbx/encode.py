@@ -22,7 +22,7 @@ import numpy.typing as npt
 MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
 VERSION = 7400
 LARGE_VERSION = 7500
-"""Version with 64-bit offsets, which older programs refuse: taken only for what does not fit otherwise."""
+"""File version with 64-bit offsets, used only for large files, since older programs refuse it."""
 
 # One fixed triple that belongs together, so that the same scene gives the same bytes.
 CREATION_TIME = "1970-01-01 10:00:00:000"
@@ -33,7 +33,7 @@ FOOTER_END = bytes.fromhex("f85a8c6adef5d97eece90ce3758f290b")
 _LARGEST_OFFSET = 2**31 - 1
 _RAW_ARRAY_BYTES = 128
 _SMALL_BYTES = 1024
-"""Records with no more are put together."""
+"""Records up to this size in bytes are joined before writing."""
 _LEVEL = 1
 
 _ARRAY_CODES = {"f4": b"f", "f8": b"d", "i4": b"i", "i8": b"l", "b1": b"b"}

@@ -31,9 +31,11 @@ T = TypeVar("T")
 ByteArray: TypeAlias = npt.NDArray[np.uint8]
 
 MOST_BYTES: Final = 2**30
-"""Largest file; characters have a hundredth of it."""
+"""Largest file in bytes; characters have a hundredth of it."""
 MOTION: Final = "motion"
-"""The child's constant; this process does not import it."""
+"""Argument of the child process that requests motion; must equal the constant in `foreign_child`, which this process
+does not import.
+"""
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,29 +21,32 @@ from app.child_limits import confine_this_process
 from app.formats.motion_limits import longest_motion_s
 
 NO_READER: Final = 5
-"""Status at the end: the library is not there, or cannot be loaded. There is no wheel for some Pythons."""
+"""Exit status: the library is missing or cannot be loaded; there is no wheel for some Python versions."""
 try:
     import ufbx
 except ImportError:
     os._exit(NO_READER)
 
 FREE_NUMBERS, NUMBERS_PER_BYTE = 2**20, 4
-"""Numbers that a file may ask for: a free allowance, plus this many for each byte of its size. A real program's file
-takes a fifth of that; arrays of equal values can be packed a thousand times as small."""
+"""Limit of the numbers in a file: a fixed amount, plus this many per byte. Real files need a fifth of it; arrays of
+equal values can be compressed by a factor of a thousand.
+"""
 
 FREE_MOTION_NUMBERS: Final = 2**24
-"""Numbers of motion: few keys may stand for many frames. Two minutes of a hundred nodes at 60 frames per second."""
+"""Fixed amount of motion values, since few keys may represent many frames: two minutes of a hundred nodes at 60 frames
+per second.
+"""
 FIGURE_LIMITS, MOTION_LIMITS = "ufbx.figure", "ufbx.motion"
 """Rows of `app.child_limits.LIMITS`."""
 MOTION: Final = "motion"
-"""The argument that asks for nodes and their animation in the place of meshes."""
+"""Argument that requests nodes and their animation instead of meshes."""
 TRANSFORM: Final = 10
-"""Numbers of a transform: translation, rotation xyzw, scale."""
+"""Number of values of a transform: translation, rotation xyzw, scale."""
 MOST_S: Final = 24 * 3600.0
 USUAL_FPS, OTHERWISE_FPS = (1.0, 240.0), 30.0
 
 DEEPEST: Final = 500
-"""Deepest nesting of nodes, as in glTF."""
+"""Greatest nesting depth of nodes, as for glTF."""
 
 T = TypeVar("T")
 _kept: list[object] = []

@@ -19,7 +19,7 @@ from app.formats.scene import Material
 from app.formats.textures import MaterialTextures, Texture, TextureUse
 
 MOST_BESIDE: Final = 2**27
-"""Bytes of all images beside a file."""
+"""Greatest total size in bytes of all image files beside an FBX file."""
 FOLDERS: Final = (".", "Textures", "textures", "Texture", "Tex", "tex", "images", "Images")
 _MOST_FILES: Final = 256
 _FARTHEST: Final = 1e6

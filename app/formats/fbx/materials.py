@@ -24,14 +24,14 @@ from app.formats.scene import Material
 DIELECTRIC_REFLECTANCE = 0.04
 """Reflectance of skin, cloth and lacquer at normal incidence (glTF 2.0, appendix B)."""
 _BLENDER_SPECULAR = 0.25
-"""SpecularFactor of that reflectance in Blender."""
+"""Value of SpecularFactor that Blender uses for that reflectance."""
 # A metal without any diffuse part is black in viewers that have nothing to reflect.
 _METAL_DIFFUSE = 0.4
 
 SHADING_MODEL = "PHONG"
-"""The FBX SDK knows it in any case of letters (measured on 2019.2), ufbx as "Phong" and "phong" only."""
+"""Name of the shading model: the FBX SDK ignores case (tested with 2019.2), ufbx accepts only "Phong" and "phong"."""
 PHYSICAL_MATERIAL = {"ClassIDa": 1030429932, "ClassIDb": -559038463, "SuperClassID": 3072}
-"""Class of 3ds Max's Physical Material; the parameters are below ``3dsMax|Parameters``."""
+"""Class ids of 3ds Max's Physical Material; its parameters are children of ``3dsMax|Parameters``."""
 
 
 @dataclass(frozen=True)

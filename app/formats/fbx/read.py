@@ -28,7 +28,7 @@ from app.formats.scene import Bone, Clip, MorphTarget, NodePlace, Scene, Skinned
 
 MOST_BYTES = 2**30
 _BLOCK = 16384
-"""Frames times bones worked on at once, which stay in a core's cache."""
+"""Number of values (frames times bones) processed at a time, so that they fit a processor core's cache."""
 
 _NOT_SUPPORTED = (
     "PostRotation", "RotationOffset", "RotationPivot", "ScalingOffset", "ScalingPivot",

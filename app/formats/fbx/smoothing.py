@@ -14,10 +14,10 @@ from app.arrays import AnyFloatArray, IntArray
 from app.formats.scene import SkinnedMesh
 
 GROUPS: Final = 31
-"""Bits of a group that a signed number has; surfaces that do not touch share them."""
+"""Number of smoothing groups in a signed 32-bit integer; surfaces that do not touch may share a group."""
 _PLACES: Final = 1e5
 _DIRECTIONS: Final = 1e3
-"""Resolution at which places (parts of a centimetre) and normals (parts of one) count as equal."""
+"""Steps per centimetre and per unit of a normal within which positions and normals count as equal."""
 
 
 def smoothing_groups(mesh: SkinnedMesh) -> IntArray:

@@ -18,9 +18,11 @@ from app.formats.fbx.encode import Element
 from app.formats.fbx.graph import FbxObject, ObjectGraph, numbers, properties_of
 
 MOST_VALUES = 2**25
-"""Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer."""
+"""Greatest number of values: frames times bones, and vertices times influences; far above real files, and small enough
+for any computer.
+"""
 _MOST_FRAMES = 2**20
-"""Longest clip in frames, some hours: a few keys could claim to span any length."""
+"""Greatest number of frames in a clip, some hours, since a few keys could claim any length."""
 _KEY_PARTS = ("right slope", "next left slope", "weights", "velocities")
 _ANIMATED = {
     "Lcl Rotation": ("LimbNode", 3),

@@ -12,7 +12,9 @@ from app.formats.gltf.model import GltfChannel
 from app.formats.keys import slerp
 
 _KEY_TOLERANCE = 1e-5
-"""Seconds, and part of a time: far below a frame, above the rounding of float32 and of sums of it."""
+"""Tolerance of key times in seconds and relative to the time: far below a frame, above the rounding of sums
+in float32.
+"""
 
 
 def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:

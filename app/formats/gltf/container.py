@@ -15,7 +15,7 @@ from app.errors import FileError
 MAGIC: Final = b"glTF"
 JSON: Final = 0x4E4F534A
 BINARY: Final = 0x004E4942
-"""Kinds of chunks."""
+"""Codes of the two kinds of chunks, JSON and binary."""
 
 
 def field(owner: object, name: str) -> Any:

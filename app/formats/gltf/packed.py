@@ -33,7 +33,9 @@ DRACO: Final = "KHR_draco_mesh_compression"
 MESHOPT: Final = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 FREE_BYTES: Final = 2**23
 MOST_TIMES: Final = 64
-"""Bytes that the parts of a file may become: so many, and so many times its size. Real files become 2 to 20 times."""
+"""Limit of the decompressed size: a fixed number of bytes plus this multiple of the file's size. Real files need 2 to
+20 times.
+"""
 _NOTHING: Final = {"byteLength": 0, "uri": "data:,"}
 
 

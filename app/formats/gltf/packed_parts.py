@@ -7,7 +7,7 @@ from typing import Final, Literal, TypeAlias
 import msgspec
 
 INDICES: Final = ""
-"""Name of a mesh's triangles among its attributes; no attribute has it."""
+"""Key of a mesh's triangles among its attributes; no attribute has this name."""
 LIMITS_ROW: Final = "unpacker"
 """Row of `app.child_limits.LIMITS`."""
 Mode: TypeAlias = Literal["ATTRIBUTES", "TRIANGLES", "INDICES"]

@@ -36,9 +36,9 @@ from app.formats.gltf.self_contained import read_whole
 
 MOST_NODES = 20_000
 DEEPEST = 500
-"""Deepest nesting of nodes; strands of hair have some dozens of bones."""
+"""Greatest nesting depth of nodes; strands of hair have some dozens of bones."""
 _FREE_NUMBERS = 2**19
-"""Numbers that the repeated meshes of a small file may add up to."""
+"""Fixed amount of numbers in repeated meshes that a small file may have."""
 _ANIMATED = {"translation": 3, "rotation": 4, "scale": 3}
 _INTERPOLATIONS = ("LINEAR", "STEP", "CUBICSPLINE")
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6

@@ -20,10 +20,9 @@ from app.formats.files import read_file
 from app.formats.gltf.container import BINARY, JSON, MAGIC, field, split
 
 MOST_BYTES: Final = 2**30
-"""Largest file; characters have a hundredth of it."""
+"""Largest file in bytes; characters have a hundredth of it."""
 MOST_BESIDE: Final = 2**27
-"""Bytes of all files beside a glTF document together: a small document may name anything, and the bytes are held
-several times."""
+"""Greatest total size in bytes of all files that a glTF document names, since they are held in memory several times."""
 _SCHEME: Final = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 

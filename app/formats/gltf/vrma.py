@@ -30,7 +30,7 @@ from app.formats.scene import Bone, Clip, NodePlace, Scene, SkinnedMesh, check_s
 EXTENSION: Final = "VRMC_vrm_animation"
 LOOK_AT: Final = "lookAt"
 GAZE_EXPRESSIONS: Final = ("lookUp", "lookDown", "lookLeft", "lookRight")
-"""Presets that an animation must not have: the gaze says it."""
+"""Expressions that an animation must not contain, since the gaze replaces them."""
 PRESETS: Final = frozenset(
     (
         *("happy", "angry", "sad", "relaxed", "surprised", "neutral"),
@@ -40,7 +40,7 @@ PRESETS: Final = frozenset(
 )
 _UNTURNED: Final = np.array([0.0, 0.0, 0.0, 1.0])
 _FIRST: Final = 1
-"""Node of the first bone."""
+"""Index of the first bone's node."""
 
 
 def write_vrma(

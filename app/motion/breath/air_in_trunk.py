@@ -15,34 +15,35 @@ from app.plan.model import BreathEvent, GestureEvent
 from metadata.model import BREATH_MORPHS, BreathMotion
 
 LEAD_S = 0.03
-"""The trunk is widest this long before a breath ends, as the lungs are full."""
+"""Seconds before the end of a breath at which the trunk is widest."""
 LONGEST_S = 14.0
-"""Air lasts no longer."""
+"""Longest time in seconds for which air decreases."""
 SPENT_S = 4.0
-"""Seconds of playing after which most of the air is gone; shorter phrases leave air in proportion."""
+"""Seconds of playing after which most of the air is used; shorter phrases use a proportional amount."""
 KEPT = 0.15
-"""Share of the air that is left when the next breath is drawn."""
+"""Share of the air that is left when the next breath begins."""
 FLAT = 0.12
-"""Level before the first breath."""
+"""Filling of the lungs before the first breath."""
 BELLY_LEADS = 0.85
-"""The belly widens ahead of the ribs: it is this power of how full the trunk is."""
+"""Exponent applied to the filling of the trunk for the belly, which thus widens earlier than the ribs."""
 
 
 EXHALE_S = 3.0
 FULLEST = 1.4
 LEAST_DRAWN = 0.4
-"""However soon breaths follow each other, each has this much room: no breath goes unseen, also where a bell sinks."""
+"""Least increase in filling for each breath, so that every breath is visible even if breaths follow each other quickly
+or the bell sinks.
+"""
 BREATH_LEAD_S = 0.03
-"""The inhalation is complete this long before the breath's end."""
+"""Seconds before the end of a breath at which inhalation is complete."""
 RESTS_S: Final = 6.0
-"""In a shorter rest no quiet breath is seen."""
+"""Length in seconds of a rest below which no quiet breathing is shown."""
 QUIET_FROM_S, QUIET_UNTIL_S = 1.8, 1.6
-"""Seconds after the instrument goes down at which quiet breathing begins, and before it is up again at which it
-ends."""
+"""Seconds after the instrument is lowered at which quiet breathing begins, and before it is raised at which it ends."""
 QUIET_WAYS = ((1.3, 1.8), (1.6, 2.3), (0.3, 1.1), (0.6, 1.0))
-"""Bounds of the seconds in, out and of the pause, and of the depth."""
+"""Ranges of a quiet breath: seconds of inhaling, of exhaling and of the pause, and the depth."""
 MOST_QUIET: Final = 60
-"""No rest has more of them, however long it is."""
+"""Greatest number of quiet breaths in a rest."""
 
 
 class LungCurves(NamedTuple):

@@ -14,15 +14,15 @@ from app.motion.curves.curve import Curve, Envelopes
 from app.plan.model import BreathEvent
 
 SHOWN: Final = 0.8
-"""Least share of a breath's own lean that the trunk goes back by."""
+"""Least backward lean of the trunk in a breath, as a share of the breath's own lean."""
 LOOKED_AT: Final = (0.5, 0.625, 0.75, 0.875, 0.97)
-"""Shares of a breath at which the trunk may be farthest back: in its second half, as the lungs fill."""
+"""Examined times of the farthest backward lean, as shares of a breath: in its second half, when the lungs fill."""
 LEAST_RAD: Final = 1e-4
-"""A smaller lean is none: nothing of it is shown."""
+"""Leans smaller than this angle in radians are zero."""
 BACK_S: Final = 0.6
-"""The trunk is back where it would be within this time after the breath, ..."""
+"""Seconds after the breath within which the trunk returns to its path; see `LEAST_BACK_S`."""
 LEAST_BACK_S: Final = 0.15
-"""... or by the next breath, but no sooner than this."""
+"""Least time in seconds of that return if the next breath comes earlier than `BACK_S`."""
 
 
 def leaning_further(

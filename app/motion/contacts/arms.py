@@ -23,7 +23,9 @@ from app.rig.model import Skeleton
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 
 ELBOW_OUT = 1.8
-"""The elbow goes out by this multiple of the angle its shoulder comes forwards, so that the wrist stays straighter."""
+"""Angle by which the elbow moves outwards, as a multiple of the angle by which the shoulder moves forward, which keeps
+the wrist straighter.
+"""
 
 
 @dataclass(frozen=True)

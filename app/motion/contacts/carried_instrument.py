@@ -22,9 +22,9 @@ from instrument_maps.hold import Carriage
 X_AXIS, Y_AXIS, Z_AXIS = np.eye(3)
 
 SETTLED = 0.6
-"""Part of their amplitude, and of their sway once more, that players keep whose instrument lies on the lap."""
+"""Factor for the amplitude of players whose instrument lies on the lap; applied twice to their sway."""
 FREE_DEG = 10.0
-"""An instrument whose carriage has this much room from end to end goes along with the head."""
+"""Least total range in degrees of a carriage from which the instrument follows the head."""
 
 
 @dataclass(frozen=True)

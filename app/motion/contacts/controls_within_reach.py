@@ -23,11 +23,13 @@ from app.rig.grip.grip_pose import HandHold, StationBlend, hand_targets
 from app.rig.ik import arm
 
 LONGEST = 0.997
-"""Share of its length an arm is stretched at most for a hand that is carried: the elbow is 9 degrees from straight."""
+"""Greatest extension of an arm for a carried hand, as a share of the arm's length: the elbow is 9 degrees from
+straight.
+"""
 EASE = 0.006
-"""The arm comes to that softly, within this share of its length before it: up to there it goes as requested."""
+"""Range of extension below `LONGEST`, as a share of the arm's length, in which the limit is approached smoothly."""
 HALVINGS = 24
-"""Times the span is halved in which the place is sought: to a ten-millionth of the travel."""
+"""Number of bisections that find the place of a hand, exact to a ten-millionth of the travel."""
 
 
 @dataclass(frozen=True)

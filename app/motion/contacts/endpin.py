@@ -18,7 +18,7 @@ from instrument_maps.hold import Carriage
 from instrument_maps.model import Endpin
 
 UPRIGHT = 0.5
-"""A pin that points less down than this (the cosine) is not what an instrument stands on."""
+"""Least cosine between an endpin and the vertical for the instrument to stand on it."""
 
 
 @dataclass(frozen=True)

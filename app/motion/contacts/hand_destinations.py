@@ -21,17 +21,21 @@ from app.rig.model import Skeleton
 from instrument_maps.wind import Stopped, Water
 
 USUAL_ARM_M: Final = 0.5
-"""Upper and lower arm of an adult: places are farther from longer arms."""
+"""Length in metres of upper and lower arm of an adult, by which destinations are scaled."""
 PAGE_M: Final = np.array([0.0, -0.02, 0.54])
-"""The middle of the music from between the shoulders, which is where the eyes read (`app.motion.faces.gaze`)."""
+"""Centre of the music relative to the point between the shoulders, in metres, where the eyes read
+(`app.motion.faces.gaze`).
+"""
 ELBOW_M: Final = np.array([0.01, -0.22, 0.07])
-"""About where an elbow is that reaches ahead, from its shoulder; outwards, up and ahead."""
+"""Approximate position of the elbow of an arm that reaches forward, relative to its shoulder in metres: outwards, up,
+forward.
+"""
 PAGE_PALM: Final = np.array([-0.6, -0.75, 0.25])
-"""Direction of the palm that turns a page: outwards, up and ahead."""
+"""Direction of the palm that turns a page: outwards, up, forward."""
 ELBOW_LOW: Final = np.array([0.5, -1.0, -0.25])
-"""Direction of the elbow of such an arm; likewise."""
+"""Direction of the elbow in which it hangs low: outwards, up, forward."""
 KEY_ELBOW: Final = 0.4
-"""Share of that direction for a hand at the water key."""
+"""Share of `ELBOW_LOW` in the elbow's direction for a hand at the water key."""
 
 
 def hands_off_instrument(

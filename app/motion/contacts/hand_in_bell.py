@@ -20,11 +20,11 @@ from app.rig.model import Skeleton
 from instrument_maps.wind import Stopped
 
 STOPPING: Final = "stopping"
-"""Name of the hand in the bell among what hands do (`app.motion.gestures.body_layers.BodyMotion.hands`)."""
+"""Key of the hand in the bell in `app.motion.gestures.body_layers.BodyMotion.hands`."""
 FINGERS_KEPT: Final = ("index", "middle", "ring", "little")
-"""Fingers that lie on the wall of the bell whatever the palm does."""
+"""Fingers that lie on the wall of the bell, regardless of the palm's motion."""
 CLOSES_S: Final = 0.28
-"""The hand closes and opens the bell in this time."""
+"""Seconds in which the hand closes and opens the bell."""
 READY_S: Final = 0.03
 """Seconds before the first note of a passage at which the hand is in place."""
 

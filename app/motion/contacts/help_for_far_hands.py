@@ -21,20 +21,22 @@ from app.rig.model import Skeleton
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 
 AT_EASE = 0.985
-"""Share of its length an arm reaches without help from the shoulder."""
+"""Share of an arm's length up to which it reaches without help from the shoulder."""
 STRETCHED = 0.985
 """Length of a stretched arm, as for the farthest places, as a share of the whole arm."""
 NEAREST = 0.33
-"""A hand is kept at least this share of the arm's length away (the elbow bent by 141 degrees)."""
+"""Least distance of a hand from its shoulder, as a share of the arm's length (an elbow bent by 141 degrees)."""
 EASE_M = 0.008
 LEAST_M = 1e-6
-"""The shoulder's help sets in over about this distance."""
+"""Distance in metres over which the shoulder's help sets in."""
 CLAVICLE_RAD = float(np.deg2rad(28.0))
-"""Most the shoulder comes towards a far hand."""
+"""Greatest rotation in radians of the shoulder towards a far hand."""
 TURN_RAD = float(np.deg2rad(50.0))
-"""Most hips and trunk turn for a far hand."""
+"""Greatest rotation in radians of hips and trunk towards a far hand."""
 FOLLOWS_RAD, TURNS_ALONG_RAD = float(np.deg2rad(4.5)), float(np.deg2rad(2.5))
-"""Clavicle and trunk go along with a hand that its control takes out and back, long before its arm is stretched."""
+"""Rotations in radians of clavicle and trunk that follow a hand moving with its control, before its arm is
+stretched.
+"""
 
 
 @dataclass(frozen=True)

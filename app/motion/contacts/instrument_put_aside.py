@@ -21,21 +21,25 @@ from app.rig.ik import arm
 from app.rig.model import Skeleton
 
 SWING_RAD = float(np.deg2rad(52.0))
-"""Angle from the lowered place to that of the first instrument put aside ..."""
+"""Angle in radians from the lowered position to that of the first instrument put aside."""
 NEXT_RAD = float(np.deg2rad(44.0))
-"""... and by how much more each further one."""
+"""Additional angle in radians for each further instrument put aside."""
 FARTHEST = 2
 LEAST_M = 1e-6
 DOWN_RAD = float(np.deg2rad(10.0))
-"""Angle by which the arm comes down; more would bring the bells of two instruments together below the shoulder."""
+"""Angle in radians by which the arm is lowered; with more, the bells of two instruments would collide below the
+shoulder.
+"""
 OUT_M, LONGEST = 0.04, 0.93
-"""Distance by which the arm goes out, clear of the body, and the largest share of the arm's length that it may need."""
+"""Distance in metres by which the arm moves outwards, clear of the body, and greatest extension as a share of the arm's
+length.
+"""
 HANGS_RAD = 1.25
-"""Angle from the T-pose down to an arm that holds nothing."""
+"""Downward angle in radians from the T-pose of an arm that holds nothing."""
 LOOKS_RAD = {"neck": 0.16, "head": 0.2}
 LOOKS_DOWN_RAD = {"neck": 0.06, "head": 0.16}
 TURNS = {"spine": 0.09, "chest": 0.16, "upperChest": 0.12}
-"""Neck and head look where the hand goes, and the trunk turns by these shares of the arm's swing."""
+"""Rotation of the trunk's joints towards the hand, as shares of the arm's swing; neck and head look there too."""
 
 
 @dataclass(frozen=True)

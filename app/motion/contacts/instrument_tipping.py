@@ -19,11 +19,13 @@ from app.rig.grip.grip_pose import StationBlend, giving_for
 from app.rig.ik import arm
 
 MOST_DEG, STEP_DEG = 40, 2
-"""An instrument tips no further either way from where it is played; in such steps it is tried."""
+"""Greatest tip of an instrument from its playing position in either direction, and step of the tried angles, in
+degrees.
+"""
 NEARLY_RAD = float(np.deg2rad(0.25))
-"""Angle by which a wrist may leave its range further when the instrument tips."""
+"""Additional angle in radians by which tipping the instrument may move a wrist outside its range."""
 RAISED_RAD = float(np.deg2rad(12.0))
-"""Angle by which an elbow may rise when the instrument tips: no player flaps the arms for a nod."""
+"""Greatest angle in radians by which tipping the instrument may raise an elbow, so that arms do not flap for a nod."""
 
 
 def with_bell_room(player: PlayerBody) -> PlayerBody:

@@ -30,7 +30,7 @@ from metadata.model import Body, EmbouchureWeights
 
 _CURVED: IdentityCache[GripPose] = IdentityCache(128)
 _PLAYERS: IdentityCache[PlayerBody] = IdentityCache(128)
-"""Holds with curved fingers, and what of players does not change with time: a player goes on with the same."""
+"""Grips with curved fingers and other values of a player that do not change with time."""
 
 
 def put_aside_transform(

@@ -13,22 +13,25 @@ from app.motion.curves.soft_bounds import softly_capped
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
 
 HELP_EASE_S = 0.10
-"""Trunk and shoulders come towards a far hand this long before it goes there, and back as long after."""
+"""Seconds before a hand moves far out at which trunk and shoulders begin to help, and after its return at which they
+end.
+"""
 SHOULDER_EASE_S = 0.05
-"""The shoulder, which is lighter, this long."""
+"""Same time in seconds for the shoulder, which is lighter."""
 ROOM_EASE_S = 0.06
-"""Time in which that help gives way to a hand that comes near."""
+"""Seconds in which the help recedes for a hand that comes near."""
 HELP_EASE_RAD = 0.06
-"""Help that would push a shoulder into a near hand is held back within about this angle."""
+"""Range in radians over which help is limited that would push a shoulder into a near hand."""
 HIPS_TURN = 0.16
 TRUNK_TURNS = {"spine": 0.18, "chest": 0.34, "upperChest": 0.32}
-"""Shares of the turn for a far hand."""
+"""Shares of the trunk's joints in the rotation towards a far hand."""
 NECK_TURNS_BACK = {"neck": 0.5, "head": 0.5}
 DRAWS_RAD = {"neck": float(np.deg2rad(-8.0)), "head": float(np.deg2rad(14.0))}
-"""For the farthest places the neck draws back and the head bows; the trunk stays upright, since leaning it brings
-shoulder and lips no nearer to each other ..."""
+"""Angles in radians by which the neck draws back and the head bows for the farthest places; leaning the trunk would
+bring shoulder and lips no nearer to each other.
+"""
 DRAW_DOWN_RAD, DRAW_RIGHT_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(8.0))
-"""... and the bell sinks and turns towards the far hand's shoulder."""
+"""Angles in radians by which the bell sinks and turns towards the far hand's shoulder."""
 
 
 def smoothed_help(parts: list[Help], half: int) -> Help:

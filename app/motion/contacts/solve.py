@@ -50,13 +50,13 @@ from app.rig.grip.grip_pose import hand_targets
 from instrument_maps.model import Endpin
 
 CHUNK = 4096
-"""Frames solved at once: few enough to stay in the processor's cache."""
+"""Number of frames solved at a time, so that they fit the processor's cache."""
 LEAST_DRAWN_M = 0.01
-"""However little giving way brings, it is never divided by less ..."""
+"""Least divisor in metres for the effect of the help, if the help has hardly any."""
 LEAST_LEANT_M = 0.005
-"""... nor is how far a small lean takes the head aside."""
+"""Least divisor in metres for the sideways displacement of the head by a small lean."""
 LEAST_NEAR_PER_M = 1e-3
-"""Eyes look at things at most a kilometre away."""
+"""Least reciprocal distance in 1/m of an object that the eyes look at: a kilometre."""
 
 
 @dataclass(frozen=True)

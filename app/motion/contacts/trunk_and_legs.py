@@ -21,16 +21,19 @@ Side = Literal["left", "right"]
 SIDES: tuple[Side, Side] = ("left", "right")
 
 LEGS_BLEND_M = 0.003
-"""The hips hang from the shorter leg; where both are as long the hand-over is rounded by about this much."""
+"""Difference in metres of the legs' reaches over which the limit changes smoothly from one leg to the other; the
+shorter one limits the hips.
+"""
 STRAIGHTEST = 0.9995
-"""Share of its length a leg or an arm is stretched at most."""
+"""Greatest extension of a leg or arm, as a share of its length."""
 BALL = (-0.9, 1.5)
-"""Ball of the foot if there is no joint of the toes: its distance below and ahead of the ankle, by the ankle's height.
+"""Position of the ball of the foot without a toes' joint: above and in front of the ankle, relative to the ankle's
+height.
 """
 HEEL = (-1.0, -0.45)
-"""The same of the heel."""
+"""Position of the heel, likewise."""
 SIT_BONES_M = 0.09
-"""Distance from the hips down to the axis about which a seated player leans the pelvis."""
+"""Distance in metres from the hips down to the axis about which a seated player leans the pelvis."""
 X_AXIS = np.array([1.0, 0.0, 0.0])
 FOOT_PARTS = ("heel", "toes", "ahead", "up", "aside", "push")
 

@@ -22,10 +22,11 @@ from app.motion.contacts.trunk_and_legs import Trunk, hips_path, trunk
 from app.rig import quaternion
 
 CLEAR_M = 0.035
-"""On its way down and up the instrument swings ahead by this much, clear of the chin ..."""
+"""Distance in metres by which the instrument swings forward while it is lowered or raised, to pass the chin."""
 CHIN_M = 0.06
-"""... and by less where it goes less far down than from the lips to below the chin: one that stays has nothing to
-pass."""
+"""Height in metres from the lips to below the chin; an instrument that is lowered by less swings forward by
+proportionally less.
+"""
 
 
 @dataclass(frozen=True)

@@ -19,17 +19,19 @@ from metadata.model import Body
 from metadata.skeleton_profile import SkeletonProfile
 
 EASE_RAD = float(np.deg2rad(3.0))
-"""The elbow begins to go this much before the end of the range."""
+"""Angle in radians before the end of a wrist's range at which the elbow begins to rotate."""
 MOST_RAD = float(np.deg2rad(25.0))
-"""Most an elbow goes round."""
+"""Greatest rotation of an elbow in radians."""
 LOST_RAD = float(np.deg2rad(18.0))
-"""A wrist that is more than this beyond its range, and wholly one that is twice as far, is no matter of the elbow."""
+"""Angle in radians beyond a wrist's range from which the elbow's help decreases; at twice this angle it is zero."""
 PROBE_RAD = 0.02
-"""Turn that probes the effect on the wrist ..."""
+"""Rotation of the elbow in radians by which its effect on the wrist is measured."""
 STIFF = 0.18
-"""... and where that is about so little, it is turned less ..."""
+"""Effect on the wrist (rad per rad) below which the elbow is rotated less."""
 VAIN = 0.1
-"""... and here hardly: where the effect passes zero, the elbow would be flung from one side to the other."""
+"""Effect on the wrist (rad per rad) below which the elbow is hardly rotated, since near zero it would alternate between
+both sides.
+"""
 ROUNDS = 2
 LEAST_SINE = 1e-9
 
@@ -152,6 +154,6 @@ class BellRoom:
 
 
 ROOM_EASE_RAD = float(np.deg2rad(2.0))
-"""The ends of that room are approached so softly."""
+"""Angle in radians over which the limits of the elbow's room are approached smoothly."""
 
 ANYWHERE = BellRoom()

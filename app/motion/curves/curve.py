@@ -16,7 +16,7 @@ import numpy as np
 from app.arrays import FloatArray
 
 ROUNDING_S = 1e-9
-"""Moves whose times touch may overlap by this much."""
+"""Overlap in seconds of adjacent moves that is attributed to rounding."""
 
 
 def frame_times(first_frame_s: float, fps: Fraction, first_frame: int, frames: int) -> FloatArray:

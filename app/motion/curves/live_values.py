@@ -10,12 +10,13 @@ import math
 from dataclasses import dataclass
 
 LEAST_MOVE_S = 1e-3
-"""No move is shorter."""
+"""Shortest move in seconds."""
 SETTLED = 5.83
 """Time constants after which a critically damped spring is within 2 % of its target."""
 HURRIES = 0.6
-"""A way that has to be finished or turned back from before another one takes this share of the time, and the other as
-long as it takes."""
+"""Share of the available time for finishing or reversing the current move if another one must follow; the other move
+gets the remaining time.
+"""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from app.arrays import FloatArray
 from app.motion.curves.curve import EVERYWHERE
 
 REACH = 2
-"""Points to either side that have a part in a sample."""
+"""Number of points on either side that influence a sample."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,19 +21,19 @@ BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S = 0.08, 0.03, 0.16
 BLINK_S = BLINK_DOWN_S + BLINK_SHUT_S + BLINK_UP_S
 ENTRY_GUARD_S = 0.20
 SLOT_S: Final = 1.3
-"""A blink at most in each such part of time, beside those at the ends of phrases."""
+"""Length in seconds of the periods in which there is at most one blink, besides those at the ends of phrases."""
 AT_BREATH, IN_REST, IN_PHRASE = 0.8, 0.40, 0.14
-"""Chances of a blink at a breath, in a rest and in a phrase."""
+"""Probabilities of a blink at a breath, in a rest and in a phrase."""
 BREATH_LEAD_S, BREATH_SPREAD_S = 0.06, 0.14
 """Seconds before a breath at which a phrase's blink begins, and the range by which it may be later."""
 APART_S: Final = 1.1
 """Seconds that other blinks keep away from a phrase's blink."""
 LAG_S = (0.004, 0.014)
-"""Range of the delay of one eye; which one is the player's."""
+"""Range in seconds of the delay of one eye; which eye depends on the player."""
 LEAST_SHUT = (0.90, 0.98)
-"""Range of the largest closure of that eye."""
+"""Range of the greatest closure of the delayed eye."""
 HALF = (0.15, 0.55)
-"""A few blinks close the eyes but half: how many, and how far."""
+"""Probability of a half blink, and its closure."""
 
 
 def blinks_of(plan: PlayerPlan, silences: Silences, seed: int, amount: float) -> tuple[Envelopes, Envelopes]:

@@ -22,33 +22,35 @@ from instrument_maps.wind import Air
 from metadata.face_model import FaceMotion
 
 Whole: TypeAlias = npt.NDArray[np.int32]
-"""Whole numbers on the grid, `ONE` for 1: a product of two has 24 bits, and wider ones take twice as long."""
+"""Fixed-point numbers, with `ONE` for 1: a product of two has 24 bits; wider ones take twice as long."""
 
 STEP_S: Final = 0.05
 BITS: Final = 12
 ONE: Final = 1 << BITS
 """The number 1 in fixed point."""
 WORKING_S: Final = 0.10
-"""Seconds before and after a moment whose notes decide how hard a face works."""
+"""Seconds before and after a moment whose notes determine the effort shown in the face."""
 CONTOUR_S, AROUND_S = 0.25, 1.6
-"""Seconds around a moment over which notes are averaged, and the wider range with which that mean is compared."""
+"""Seconds around a moment over which notes are averaged, and the longer time with whose mean that average is
+compared.
+"""
 CONTOUR: Final = 3.0
-"""A third of the range of tension or loudness between both is a whole rise."""
+"""Factor of that difference: a third of the range of tension or loudness is a full rise."""
 LIGHT: Final = 0.35
-"""A load below this may last for ever."""
+"""Load 0..1 that can be sustained without tiring."""
 PHRASE_REST_S: Final = 0.6
-"""A phrase ends at a breath, and at a rest this long."""
+"""Length in seconds of a rest that ends a phrase; a breath ends it too."""
 PEAK: Final = 0.62
-"""Place in a phrase, as a share, of its highest tension."""
+"""Position of a phrase's greatest tension, as a share of the phrase."""
 WHOLE_PHRASE_S: Final = 4.0
-"""A shorter phrase has less of it."""
+"""Length in seconds of a phrase with the full tension; shorter ones have proportionally less."""
 TIRES_S: Final = 16.0
-"""Lips tire by what they did in this time: they do without a rest ..."""
+"""Time in seconds over which load is averaged for the fatigue of the lips."""
 TIRED_FROM, TIRED_AT = 0.25, 0.65
-"""... from this mean load to this one."""
+"""Mean loads at which fatigue begins and is complete."""
 TIRED_STEPS: Final = 32
 AFTER_S: Final = 8.0
-"""Behind the last note the face comes to rest within this time."""
+"""Seconds after the last note within which the face relaxes."""
 
 
 class Exertion(NamedTuple):

@@ -23,14 +23,14 @@ EYE_SIDES: Final[tuple[EyeSide, ...]] = get_args(EyeSide)
 
 SHAPES_RAD: Final[Mapping[str, float]] = {name: math.radians(deg) for name, deg in
                                           {"In": 40.0, "Out": 40.0, "Up": 30.0, "Down": 35.0}.items()}  # fmt: skip
-"""Turn of an eye by a shape at weight 1; ARKit leaves it open."""
+"""Rotation of an eye in radians by a shape at weight 1; ARKit does not define it."""
 ASIDE_RAD, UP_RAD, DOWN_RAD = 0.6, 0.47, 0.56
-"""Farthest turn of the eyes in the head."""
+"""Greatest rotation of the eyes in the head in radians: sideways, up, down."""
 _EASE_RAD: Final = 0.05
 NEAREST_M: Final = 0.2
-"""Eyes converge on nothing nearer."""
+"""Least distance in metres at which the eyes converge."""
 USUAL_EYE_M: Final = np.array([0.03, 0.035, 0.076])
-"""A left eye from the joint of an adult's head, for skeletons without eyes."""
+"""Position of a left eye relative to the joint of an adult's head in metres, for skeletons without eyes."""
 
 
 def shape_name(side: EyeSide, way: str) -> str:

@@ -22,17 +22,17 @@ from app.plan.sampled_lip_curves import SampledCurves
 from app.steps import StepTable, reading
 
 FORM_S = 0.26
-"""The lips form in this time before the first note of a phrase, and let go as slowly after its last."""
+"""Seconds in which the lips form before the first note of a phrase and relax after its last."""
 SHIFT_S = 0.09
-"""From one note's tension to the next."""
+"""Seconds of the transition between the tensions of two notes."""
 SHIFT_SHARE = 0.45
 HOLD_S = 0.8
-"""In rests shorter than this the lips stay formed (but for a breath)."""
+"""Length in seconds of a rest below which the lips stay formed, except for breaths."""
 SWELL_S = 0.35
-"""Effort and air swell and fade slowly, over several notes."""
+"""Seconds in which effort and air change, over several notes."""
 
 SHALLOWEST = 0.5
-"""However shallow a breath, the mouth opens by this share of a full one's."""
+"""Opening of the mouth for the shallowest breath, relative to a full breath."""
 
 
 def _tracked(spans_s: FloatArray, targets: FloatArray, shift_s: float, rest_value: float | None) -> Curve:
@@ -225,5 +225,6 @@ FACE: Final = StepTable(
     expressions=reading(_shown, plan="plan_of_expressions"),
     face=FaceCurves,
 )
-"""The steps of a face; given are the plan, the player's ``embouchure_tension`` (1 is as planned) and lungs, and the
-``face_motion`` of the body."""
+"""Steps that compute a face from the plan, the player's ``embouchure_tension`` (1 is as planned) and lungs, and the
+body's ``face_motion``.
+"""

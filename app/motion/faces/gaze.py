@@ -30,37 +30,38 @@ SACCADE_BASE_S, SACCADE_S_RAD = 0.035, 0.12
 """Duration of a saccade: a base in seconds, and seconds for each radian."""
 HEAD_TURN_S = 0.45
 HEAD_LAG_S: Final = 0.18
-"""Delay of the head behind its target: with the curve's own rounding it begins some 80 ms after the eyes."""
+"""Delay in seconds of the head's curve; due to the curve's rounding it begins about 80 ms after the eyes."""
 HEAD_STEP_S: Final = 0.05
 MOST_YAW_RAD, MOST_UP_RAD, MOST_DOWN_RAD = 0.5, 0.15, 0.4
 MUSIC_PITCH_RAD, MUSIC_M = 0.20, 0.65
-"""The music on its stand lies about 12 degrees below the line of sight, and at this distance from the eyes."""
+"""Downward angle to the music in radians (about 12 degrees) and its distance from the eyes in metres."""
 LINE_RAD, SYSTEM_RAD, SYSTEMS = 0.075, 0.018, 6
-"""Half the width of a line of music, the angle down to the next one, and their number on a page."""
+"""Half the width of a line of music and the angle between lines in radians, and the number of lines on a page."""
 LINE_S = (5.0, 8.0)
-"""In this time a line is read."""
+"""Range of the seconds in which a line is read."""
 FIXATION_S: Final = 0.65
 LOOK_S: Final = 1.9
 """Longest look away from the music, in seconds."""
 UP_IN_PHRASE, ABOUT_IN_REST = 0.10, 0.5
-"""Chances of a look: up while playing, and about in a rest."""
+"""Probabilities of a look up while playing, and of a look around in a rest."""
 BACK_S: Final = 0.8
-"""Time before an entry at which the eyes are on the music again."""
+"""Seconds before an entry at which the eyes are on the music again."""
 CUE_LEAD_S, CUE_BACK_BEATS = 0.3, 0.6
 ASIDE_RAD: Final = 0.22
 AUDIENCE_S: Final = 0.9
-"""Time after the last note at which the eyes go up to the audience."""
+"""Seconds after the last note at which the eyes look up to the audience."""
 CLOSE_S: Final = 0.14
 """Shortest fixation, in seconds."""
 PLAYING_SHARE, RESTING_SHARE, READING_SHARE = 0.35, 0.6, 0.25
-"""Shares of the gaze's turn that the head follows."""
+"""Shares of the gaze's rotation that the head follows while playing, resting and reading."""
 HEAD_TURNS = 0.5
-"""Share of the allowed turn that the head makes with a look (`app.motion.gestures.body_layers`)."""
+"""Share of the allowed rotation that the head makes with a look (`app.motion.gestures.body_layers`)."""
 EYES_RAD: Final = 0.52
-"""Eyes turn no further in the head: what is further aside comes in sight with the head."""
+"""Greatest rotation of the eyes in the head in radians; the head turns for the remainder."""
 PLAYING_TURN_RAD, FREE_TURN_RAD, LOW_ENOUGH = 0.2, 2.0, 0.7
-"""Turn left to the head with the instrument at the lips, the larger one once it is nearly lowered, and how low that
-is."""
+"""Allowed rotation of the head in radians with the instrument at the lips and with it lowered, and the share of
+lowering from which the second value applies.
+"""
 
 
 @dataclass(frozen=True)
@@ -321,5 +322,4 @@ GAZE: Final = StepTable(
     plan_of_looks=partial(only, fields=("breaths", "cues", "glances", "styles")),
     gaze=reading(plan_gaze, plan="plan_of_looks"),
 )
-"""The steps of a gaze, which depends on the times of notes but not on what they are; given are the plan and
-`Watching`."""
+"""Steps that compute a gaze from the plan and `Watching`; it depends on the times of notes but not on their pitches."""

@@ -20,15 +20,15 @@ LEFT, RIGHT = "Left", "Right"
 PAIRS: Final = tuple(
     name.removesuffix(LEFT) for name in ARKIT_MORPHS if name.endswith(LEFT) and not name.startswith("eyeLook")
 )
-"""Morphs that are there for either side, but for those that turn the eyes."""
+"""Names without side of morphs that exist on both sides, except for those that rotate the eyes."""
 STRONGER_SIDE: Final = 0.75
-"""Share of the pairs in which the same side is the stronger one."""
+"""Share of the pairs in which the same side is stronger."""
 VARIES: Final = 0.012
-"""Slow variation of the difference of left and right, as a share of the size."""
+"""Slow variation of the difference between left and right, relative to its size."""
 RATE_VARIES_RAD: Final = 0.8
-"""Phase by which a vibrato comes early or late now and then: some 0.3 Hz."""
+"""Variation of a vibrato's phase in radians: about 0.3 Hz."""
 MOST: Final = 2.5
-"""Limit of noise, as a multiple of its root mean square."""
+"""Greatest value of noise, as a multiple of its root mean square."""
 _BANDS: Final = {
     # Root mean square 1, by the frequencies it is made of.
     "lips": (0.25, 1.1),

@@ -17,22 +17,22 @@ from app.plan.model import PlayerPlan
 PREPARES_S: Final = 0.14
 SETTLES_S: Final = 0.22
 PREPARES_SHARE: Final = 0.35
-"""In quick notes it begins after this share of the note before."""
+"""Share of the previous note after which the preparation begins, in quick notes."""
 SLURRED: Final = 0.35
-"""Size of a slurred note's motion, as a share of an attack's."""
+"""Size of a slurred note's motion relative to an attack's."""
 WHOLE_S: Final = 0.45
-"""Shorter notes are attacked with less."""
+"""Length in seconds of a note with a full attack; shorter notes have a smaller one."""
 RESTED_S, RESTED = 0.5, 1.4
-"""Length of a rest after which an attack is firmer, and the amount."""
+"""Length in seconds of a rest after which an attack is stronger, and the factor."""
 EASES_S, BACK_S = 0.30, 0.16
-"""In a gap the tension eases in the first and is back in the second."""
+"""Seconds in which the tension decreases in a gap, and returns after it."""
 EASED: Final = 0.7
 GAP_S: Final = 0.12
-"""A shorter gap is none to the lips."""
+"""Length in seconds of a gap below which the tension does not decrease."""
 VIBRATO_FROM_S: Final = 0.6
-"""Shorter notes have no vibrato, ..."""
+"""Length in seconds of a note from which vibrato begins."""
 VIBRATO_WHOLE_S: Final = 1.6
-"""... those of this length all of it; ..."""
+"""Length in seconds of a note with full vibrato."""
 VIBRATO_AFTER_S, VIBRATO_IN_S, VIBRATO_OUT_S = 0.28, 0.75, 0.12
 """Seconds after the onset at which vibrato begins, of its fade-in, and before the end at which it stops."""
 

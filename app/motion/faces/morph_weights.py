@@ -24,13 +24,13 @@ from metadata.face_model import EmbouchureKind, EmbouchureWeights, FaceMotion
 from metadata.model import Body, Expression, at_amplitude
 
 AROUND_FROM, AROUND_BY = 0.32, 0.06
-"""Lowered by less than this, the lips begin to part for what goes between them; by less than that they have."""
+"""Lowering (0..1) of the instrument below which the lips begin to part for it, and below which they have parted."""
 EASES: float = 0.5
-"""Between notes the tension lets go by this share."""
+"""Share by which the tension decreases between notes."""
 RECORDED_LIPS: float = 0.08
-"""Share of the generated motion of lips that stays where they were recorded."""
+"""Share of the generated motion of the lips that remains where their motion was recorded."""
 TIRED_WANDERS: float = 0.8
-"""Additional wandering of tired lips."""
+"""Additional random motion of tired lips."""
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,9 @@ from app.plan.model import PlayerPlan
 
 REST_S = 1.0
 QUICK_S = 0.16
-"""From one onset to the next: what is quicker is a run."""
+"""Time in seconds between onsets below which notes are a fast run."""
 CARRIED_S = 1.3
-"""Seconds for which an instrument is on its way to or from the lips."""
+"""Seconds for which an instrument is moved to or from the lips."""
 
 
 @dataclass(frozen=True, eq=False)

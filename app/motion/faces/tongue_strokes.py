@@ -15,19 +15,19 @@ from app.motion.curves.curve import Envelopes
 from app.plan.model import Articulation, PlayerPlan, TongueEvent
 
 RISES_S: Final = 0.06
-"""The tongue is on its way to reed or teeth before it touches them, ..."""
+"""Seconds before its contact at which the tongue begins to move to the reed or the teeth."""
 FALLS_S: Final = 0.08
-"""... and on its way back after it has left them; ..."""
+"""Seconds after its contact in which the tongue moves back."""
 SOFTLY: Final = 1.6
-"""Factor on the time of a soft stroke, which has no edge."""
+"""Factor for the duration of a soft stroke, which has no clear edge."""
 NEAR_SHARE: Final = 0.42
-"""In quick strokes each takes at most this share of the step to the next one, before its contact and after it."""
+"""Greatest share of the time to the next stroke that the motion before or after a contact takes."""
 PUSHED: Final[dict[Articulation, float]] = {"staccato": 0.3, "accent": 0.7, "marcato": 1.0}
-"""Strength of the breath's push in an attack."""
+"""Strength of the breath's push at an attack, by articulation."""
 PUSH_FROM_S: Final = 0.07
-"""Seconds before an attack at which a push begins."""
+"""Seconds before an attack at which the push begins."""
 PUSH_UNTIL_S: Final = 0.20
-"""Seconds after an attack at which a push is over."""
+"""Seconds after an attack at which the push ends."""
 
 
 def tip_strokes(plan: PlayerPlan) -> Envelopes:

@@ -16,7 +16,9 @@ from app.plan.model import FingeringEvent
 from app.score.metre_map import FeltBeats, beat_ticks_at
 
 APART_S = 3.0
-"""Notes this far apart, and by a beat, know nothing of one another: ways back, home and out again take less."""
+"""Gap in seconds between notes, at a beat, beyond which their finger motions are independent; returning and approaching
+take less.
+"""
 
 
 @dataclass(frozen=True)

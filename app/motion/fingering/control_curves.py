@@ -21,41 +21,40 @@ from app.score.metre_map import FeltBeats, beat_ticks_at
 from instrument_maps.model import Control
 
 SLOWEST_FRAME_S = 1.0 / 24.0
-"""A note is judged up to one frame after its onset; no move, however hurried, begins before that."""
+"""Longest frame in seconds: notes are judged up to one frame after the onset, and no move begins earlier than that
+allows.
+"""
 STILL_IN_PLACE_M = 0.004
-"""A slide this near its place is in its place."""
+"""Distance in metres within which a slide counts as in place."""
 STILL_SHARE = 0.25
-"""Largest such share of a way so short that it is hardly seen at all ..."""
+"""Greatest remaining share of a short, hardly visible move that counts as in place."""
 STILL_PRESSED = 0.07
-"""... and the share of other ways."""
+"""Same share for other moves."""
 MOST_BACK_SHARE = 0.9
-"""Largest share of a short rest that goes to the way back, however short the way out."""
+"""Greatest share of a short rest for the way back, since the way out needs time too."""
 _PHASES: Final = np.linspace(0.0, 0.5, 201)
 _PROGRESS: Final = minimum_jerk(_PHASES)
 _PRESSED_PHASE: Final = float(np.interp(STILL_PRESSED, _PROGRESS, _PHASES))
 """Share of the time of a minimum-jerk move at which a key's motion becomes visible."""
 LEAST_HELD_SHARE = 0.25
-"""Share of a note, from its onset to the next, in which no control leaves its place at all, however hurried."""
+"""Share of a note, from its onset to the next one's, in which no control leaves its place."""
 TAIL_SHARE = 0.65
-"""Largest share of a sounding note that a slide may take where its own share would fling the hand.
-
-The ear takes a note's pitch from its beginning, and the next note's tongue covers its end: with the first third in its
-place (to `STILL_IN_PLACE_M`, four hundredths of a semitone) a note is in tune. Longer notes lose less: see
-`TAIL_PEAK_M_S`.
+"""Greatest share of a sounding note that a slide move may take if its own share would require too high a speed. The ear
+determines pitch at the beginning of a note, and the next attack covers its end: with the first third in place (to
+`STILL_IN_PLACE_M`, 0.04 semitones) a note is in tune. Longer notes lose less: see `TAIL_PEAK_M_S`.
 """
 TAIL_PEAK_M_S = 2.05
-"""Peak speed of a slide that takes more than its own share of a note, if the tail is long enough.
-
-Measured on six pieces, the hand's speed is 0.84 to 0.87 of that, as the instrument gives way: under 1.8 m/s.
+"""Peak speed in m/s of a slide that takes more than its own share of a note, if the note is long enough. Measured on
+six pieces, the hand's speed is 0.84 to 0.87 of it, since the instrument moves too: below 1.8 m/s.
 """
 PEAK_TO_MEAN = 15.0 / 8.0
 """Peak speed of a minimum-jerk move as a multiple of its mean speed."""
 RELEASE_S = 0.12
-"""A finger's way back to rest after a note, unhurried."""
+"""Seconds in which a finger returns to its place after a note."""
 CARRY_BACK_S = 0.25
-"""A slide's way back to rest, unhurried, takes at least this long ..."""
+"""Least seconds in which a slide returns to its place; see `CARRY_BACK_SHARE`."""
 CARRY_BACK_SHARE = 0.5
-"""... and goes at this share of the speed the map gives."""
+"""Speed of a slide's return, as a share of the speed in the instrument's map."""
 
 
 def need_s(control: Control, distance: float) -> float:

@@ -22,21 +22,23 @@ from app.rig.grip.grip_pose import StationBlend, giving_for
 from instrument_maps.model import InstrumentMap
 
 TRAVEL_S = 0.17
-"""An unhurried way from one key to another."""
+"""Seconds of a finger's unhurried move between two keys."""
 AHEAD_S = 0.10
-"""A finger that has time is over its key this long before it goes down."""
+"""Seconds before pressing at which a finger with enough time is above its key."""
 HOME_S = 0.9
-"""Seconds without work after which a finger goes home."""
+"""Seconds without work after which a finger returns to its home position."""
 LEAST_TRAVEL_S = 0.05
-"""Least time between two keys; in less, the finger is on its way while the one comes up and the other goes down ..."""
+"""Least time in seconds of a move between two keys; if there is less, the move overlaps releasing one key and pressing
+the other.
+"""
 STAYS_SHARE = 0.12
-"""... but for this share of each of these moves, in which the keys hardly move."""
+"""Share of releasing and pressing, in which keys hardly move, that this overlap leaves free."""
 SHORTEST_S = 0.002
-"""No way is shorter, however the notes lie."""
+"""Shortest move in seconds."""
 SLOW_NOTE_S, FAST_NOTE_S = 0.5, 0.12
-"""Fingers wait low where notes follow each other as slowly as this, and highest where as fast."""
+"""Mean times in seconds between notes at which waiting fingers are lowest and highest."""
 NEIGHBOURS = 3
-"""Notes before and after that make a passage fast."""
+"""Number of notes before and after a note that determine the speed of a passage."""
 
 
 Span: TypeAlias = tuple[float, float]

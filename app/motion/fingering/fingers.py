@@ -69,4 +69,4 @@ FINGERS: Final = StepTable(
     curves="plan.additive",
     additive=reading(Additive.of, events="curves"),
 )
-"""The steps of the fingers, and of the animator's own curves."""
+"""Steps that compute the fingers and the user's own curves."""

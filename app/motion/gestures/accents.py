@@ -12,9 +12,9 @@ from app.motion.curves.curve import rows_changed_s
 from app.plan.model import ACCENT_AT, GestureEvent
 
 DOWN_HALF, BEFORE_HALF, AFTER_HALF = 0.27, 0.19, 0.23
-"""Half widths of the dip, of what prepares it and of what follows it, as shares of an accent's length."""
+"""Half widths of the dip, of the preparation before it and of the rebound after it, as shares of an accent's length."""
 BEFORE, AFTER = 0.25, 0.14
-"""Height of the body before and after it, as shares of the dip."""
+"""Height of the body in the preparation and the rebound, as shares of the dip."""
 
 
 @dataclass(frozen=True, eq=False)

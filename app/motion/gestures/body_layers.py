@@ -27,15 +27,15 @@ from app.plan.events_by_hand import PoseTarget
 from metadata.model import Posture
 
 EYES_BACK = 0.6
-"""Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
+"""Share of the head's rotation to the instrument that the eyes compensate, to see the music and the others."""
 QUIET, QUIET_AIR = 0.45, 0.3
-"""Apparent filling of the lungs by a quiet breath, and its air, as shares of a full one."""
+"""Apparent filling of the lungs and use of air by a quiet breath, as shares of a full one."""
 LIFT_SHARE = 0.7
 FREE_AMPLITUDE = 0.5
-"""Amplitude at which the head goes fully along with a trunk that turns for a far hand."""
+"""Amplitude at which the head fully follows a trunk that turns for a far hand."""
 ELBOWS: Final[dict[str, PoseTarget]] = {"left": "left_elbow", "right": "right_elbow"}
 STEP_IN_HIPS = 0.3
-"""Hips go along with a foot that is put ahead."""
+"""Share of a foot's forward displacement that the hips follow."""
 
 
 class StyleShares(NamedTuple):

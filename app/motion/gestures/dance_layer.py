@@ -31,15 +31,19 @@ CHANNELS: Final = (
 """Channels of a layer: place of the hips (to the left, ahead, up), and the angles by which hips, chest and head lean
 forward, turn to the left and lean to the left, all three seen from the floor."""
 SINKS_M: Final = 0.014
-"""Distance by which the bent knees of a dancer lower the hips, which go up and down from there by less."""
+"""Distance in metres by which the bent knees of a dancer lower the hips; their vertical motion about this height is
+smaller.
+"""
 BREATH_ROOM: Final = 0.9
 """Reduction of the nodding of hips and trunk while the player breathes in: the breath has to be seen."""
 BREATH_TURN_ROOM: Final = 0.6
 """Reduction of turning and leaning aside while the player breathes in."""
 BREATH_EASE_S: Final = 0.35
-"""... and it comes to that within this time, and goes back in as much."""
+"""Seconds before and after a breath in which these reductions take effect and end."""
 LEGS_EASE_M: Final = 0.008
-"""Hips that roll hang from one leg, then from the other; the hand-over is rounded by about this much."""
+"""Difference in metres of the legs' reaches over which the limit changes smoothly from one leg to the other when the
+hips roll.
+"""
 
 
 @dataclass(frozen=True, eq=False)

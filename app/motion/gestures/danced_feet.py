@@ -25,50 +25,50 @@ MoveKind = Literal["step", "heel", "toes"]
 MOVE_KINDS: Final[tuple[MoveKind, ...]] = get_args(MoveKind)
 
 LIFT_M: Final = 0.08
-"""Height of the ball of a foot half way of the largest step, at full amount."""
+"""Height in metres of the ball of the foot in the middle of the largest step."""
 HEEL_RAD: Final = float(np.deg2rad(24.0))
-"""Angle of the heel above the ball in the largest step or lifted heel."""
+"""Angle in radians of the sole with the heel raised in the largest step or heel lift."""
 TOES_RAD: Final = float(np.deg2rad(5.5))
-"""Angle of lifted toes above the heel, of a player who stands on bent knees: ankles are near their range there."""
+"""Angle in radians of raised toes of a player who stands on bent knees, with ankles near the end of their range."""
 SEATED_TOES_RAD: Final = float(np.deg2rad(18.0))
-"""Angle of the lifted toes of a player whose feet keep their place."""
+"""Angle in radians of raised toes of a player whose feet keep their place."""
 SEATED_HEEL_RAD: Final = float(np.deg2rad(9.0))
-"""Angle of a lifted heel of a player whose feet keep their place: instruments lie on thighs."""
+"""Angle in radians of a raised heel of a player whose feet keep their place, since instruments lie on thighs."""
 EASED_RAD: Final = float(np.deg2rad(14.0))
-"""Angle of the heel of the foot behind while the other one takes the weight: its ankle bends no farther."""
+"""Angle in radians of the rear foot's heel while the other foot takes the weight, since the ankle bends no farther."""
 EASED_S: Final = (0.22, 0.13, 0.35)
-"""Time from the beginning of that to the beat, from the beat to its height, and from there to its end."""
+"""Seconds of that motion from its beginning to the beat, from the beat to its maximum, and from there to its end."""
 PEELS_S: Final = 0.12
-"""Time from the heel's leaving the ground to the ball's, and from the ball's landing to the heel's."""
+"""Seconds between the heel and the ball leaving the ground, and between the ball and the heel landing."""
 PEELED: Final = 0.35
-"""Share of a step in which the heel still rises, and in which it sinks again."""
+"""Share of a step in which the heel rises, and in which it sinks."""
 OVER_M: Final = 0.08
-"""Way of the hips over the foot that carries the weight."""
+"""Distance in metres of the hips' motion over the foot that carries the weight."""
 OVER_S: Final = 0.3
-"""Time in which the weight goes there, and back."""
+"""Seconds in which the weight shifts there, and back."""
 ROLL_RAD, TURN_RAD = float(np.deg2rad(5.0)), float(np.deg2rad(8.0))
-"""Angles by which the hips are lower and farther ahead on the side of the foot that carries nothing."""
+"""Angles in radians by which the hips are lower and farther forward on the side of the foot without weight."""
 LEAN_RAD, COUNTER_RAD = float(np.deg2rad(7.0)), float(np.deg2rad(6.0))
-"""Lean of the chest to the foot that carries the weight, and its turn away from it, against that of the hips."""
+"""Lean of the chest towards the foot that carries the weight, and its rotation against that of the hips, in radians."""
 SPREAD_M: Final = 0.24
 MOST_ROLL_RAD: Final = float(np.deg2rad(11.5))
-"""Greatest way of the hips to the side of a foot, beyond that of standing, and greatest roll of the hips: more would
+"""Greatest sideways distance of the hips in metres beyond that of standing, and greatest roll in radians; more would
 spread a thigh too far.
 """
 LIGHT: Final = 0.6
-"""Weight that leaves a foot which lifts its heel or toes, as a share of all of it."""
+"""Share of the weight that leaves a foot whose heel or toes are raised."""
 SINKS_M: Final = 0.026
-"""Way of the hips down as a foot takes the weight on a beat."""
+"""Distance in metres by which the hips sink when a foot takes the weight on a beat."""
 SINK_S: Final = (0.1, 0.32)
-"""Time from the beginning of that way to the beat, and from the beat to its end; a third of this is the way down."""
+"""Seconds from the beginning of that motion to the beat, and from the beat to its end."""
 FOLLOWS: Final = 0.4
-"""Share of the way of each foot that the hips go along."""
+"""Share of each foot's displacement that the hips follow."""
 IN_HIPS: Final = ("over", "sunk", "leans")
-"""Samples that move hips, not feet."""
+"""Samples that move the hips instead of the feet."""
 CLEAR_S: Final = 0.3
-"""Time for which feet stand before and after what the animator has them do."""
+"""Seconds for which the feet stand before and after the user's own foot gestures."""
 GROWTH: Final = 0.45
-"""Power of the amount with which feet move: half of a dance shows in them too."""
+"""Exponent of the amount for the motion of the feet, so that half the amount still shows in them."""
 
 
 class _Moves(NamedTuple):

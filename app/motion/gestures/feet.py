@@ -14,13 +14,13 @@ from app.plan.model import GestureEvent
 from metadata.model import Body, at_amplitude
 
 UNLOADS_S = 0.45
-"""Before a foot leaves the ground and after it is back the weight goes over to the other one and back."""
+"""Seconds in which the weight shifts before a foot leaves the ground, and after it returns."""
 PUSH_OFF_RAD = float(np.deg2rad(9.0))
-"""Angle of the heel above the toes when a stepping foot leaves the ground."""
+"""Angle in radians of the sole when a stepping foot pushes off with its toes."""
 HEEL_S = 0.5
-"""Heels come up and go down in this time, or in half of their gesture."""
+"""Seconds in which heels rise and sink, at most half of the gesture."""
 STRIKE_SHARE = 0.35
-"""Last part of a tap, in which the toes come down."""
+"""Last share of a tap, in which the toes come down."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,7 +21,7 @@ PLACES: Final[tuple[HandPlace, ...]] = tuple(place for place in get_args(HandPla
 SHAPES: Final[tuple[HandShape, ...]] = tuple(shape for shape in get_args(HandShape) if shape != "held")
 RAISED: Final = "raised"
 LEAST_SIZE: Final = 0.05
-"""A gesture that is asked for as small as this is not done by a hand."""
+"""Size below which a gesture of a hand is omitted."""
 
 
 class ReachingHands(NamedTuple):

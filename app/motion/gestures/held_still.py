@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 COMES_S: Final = 0.35
 GOES_S: Final = 0.6
-"""Seconds in which a body comes to rest, and starts again."""
+"""Seconds in which a body comes to rest and starts again."""
 HELD: Final = ("sway", "lean", "accent", "weight", "giving", "height")
-"""The layers that are held; breath, cue and lowering go on."""
+"""Layers without motion while the body is held still; breath, cue and lowering continue."""
 
 
 def holds_of(gestures: Sequence[GestureEvent]) -> Envelopes:

@@ -15,13 +15,13 @@ from app.score.metre_map import FeltBeats, beat_ticks_at
 from metadata.model import AmplitudeScale, ConcertMotion, at_amplitude
 
 BOW = (0.36, 0.56)
-"""Shares of a bow at which the trunk is down, and begins to come up."""
+"""Shares of a bow at which the trunk has arrived below, and at which it begins to rise."""
 LOOK_UP_S = 0.7
-"""The head goes up so slowly, and comes back so."""
+"""Seconds in which the head is raised, and lowered again."""
 COUNT_EASE = 1.0
-"""Beats over which counting fades in and out."""
+"""Number of beats over which counting fades in and out."""
 MOST_BOW_RAD = float(np.deg2rad(36.0))
-"""However much of it is asked for, the trunk bends no further."""
+"""Greatest bend of the trunk in a bow in radians."""
 
 
 @dataclass(frozen=True)

@@ -30,7 +30,7 @@ from app.plan.styles import shown_in_style
 from app.steps import StepTable, reading
 
 BELL_S: Final = 0.5
-"""The bell goes to another height within this time."""
+"""Seconds in which the bell moves to another height."""
 
 
 @dataclass(frozen=True)
@@ -124,11 +124,11 @@ class Layers:
 
 
 OVERLAPPED: Final = ("sway", "lean", "accent", "weight")
-"""Motions that the parts of the body have one after another ..."""
+"""Layers that the parts of the body perform one after another."""
 ALIKE: Final = tuple(
     member.name for member in fields(LayerSamples) if member.name in Layers.__dataclass_fields__.keys() - {*OVERLAPPED}
 )
-"""... and what they have at once."""
+"""Layers that all parts of the body perform simultaneously."""
 
 
 def lowering_curve(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -> Curve:
@@ -201,4 +201,4 @@ LAYERS: Final = StepTable(
     leads=reading(Leads.of, overlap="overlap"),
     layers=Layers,
 )
-"""The steps of a body's layers; given are the plan, the body, the felt beats and the size of generated footwork."""
+"""Steps that compute a body's layers from the plan, the body, the felt beats and the size of generated footwork."""

@@ -22,7 +22,9 @@ from metadata.gestures import AngleTrack, Gesture
 from metadata.model import AmplitudeScale, at_amplitude
 
 Sums: TypeAlias = dict[AmplitudeScale, dict[PoseTarget, FloatArray]]
-"""Angles (3, F) up, left and of roll, radians, of what grows alike with the amplitude."""
+"""Angles (3, F) in radians (up, left, roll) by part of the body, summed over gestures that scale equally with the
+amplitude.
+"""
 _TURNS = ("up", "left", "roll")
 
 

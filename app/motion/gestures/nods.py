@@ -15,18 +15,19 @@ from app.motion.curves.curve import bump, rows_changed_s
 from app.plan.model import CueEvent, GestureEvent
 
 DIP_BEATS = 0.5
-"""Half width of the dip around the beat, in beats ..."""
+"""Half width of the dip around the beat, in beats; see `DIP_S`."""
 DIP_S, SLOW_BEATS = 0.15, 0.2
-"""Largest duration of a dip in slow tempi: seconds plus a share of a beat, or the drop would mark no beat."""
+"""Greatest half width of a dip in slow tempi: seconds plus a share of a beat; a slower drop would mark no beat."""
 AFTER = 1.9
-"""Factor on the time in which head and instrument come up from a dip: nothing heavy is back immediately."""
+"""Factor for the time in which head and instrument rise after a dip, since their mass makes them slower."""
 LIFT_BEATS = 0.85
-"""Half width of the lift before it, where there is room."""
+"""Half width in beats of the lift before the dip, if there is time."""
 NOD_BEATS = 1.5
-"""Beats before the beat that a nod marks at which it begins."""
+"""Beats before the marked beat at which a nod begins."""
 LIFT_LAG = 0.6547
-"""Distance in half widths at which the centre of a lift lies before the beat, so that it adds to the dip's peak
-without moving it: the peak of the side lobe of a bump's acceleration."""
+"""Distance of a lift's centre before the beat, in half widths, at which the lift adds to the dip's peak acceleration
+without shifting it (the side lobe of the acceleration of a bump).
+"""
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,24 +20,25 @@ from app.plan.parameters import PlayerParameters
 from metadata.model import AmplitudeScale, Body, Posture, at_amplitude
 
 RESIDUE_SHARE = 0.6
-"""RMS of the wandering that is always there, as a share of the sizes at amplitude 0."""
+"""Root mean square of the constant random motion, as a share of the sizes at amplitude 0."""
 NOISE_SHARE = 0.30
-"""Wandering beside the planned gestures, as a share of their size."""
+"""Size of the random motion relative to the planned gestures."""
 EYES_LEVEL = 0.5
-"""Share of the trunk's sideways lean that neck and head take back, so that the eyes stay level."""
+"""Share of the trunk's sideways lean that neck and head compensate, so that the eyes stay level."""
 HIPS_SWAY, HIPS_TURN = 0.4, 0.3
-"""Shares of the chest's lean aside and turn that the hips take: enough for the lean to begin there whatever the weight
-does."""
+"""Shares of the chest's sideways lean and rotation that the hips take, so that the lean begins in the hips."""
 WEIGHT_IN_CHEST = 0.2
-"""Share of the hips' roll that the chest has."""
+"""Share of the hips' roll that the chest takes."""
 ACCENT_IN_HIPS = 0.35
-"""Pelvis on an accent, as a share of that of a lean."""
+"""Motion of the pelvis in an accent, relative to that in a lean."""
 BREATHES_WITH_TRUNK = (0.3, 1.0)
-"""Range of the share of the trunk's motion with which players breathe: together, but not alike."""
+"""Range of the share of the trunk's motion in breathing, so that players breathe simultaneously but not identically."""
 SHOULDERS_INSTEAD = 0.6
-"""Rise of the shoulders of a player whose value for it is lower by one."""
+"""Additional rise of the shoulders for a player whose share is lower by one."""
 SEATED_ROLL = 0.5
-"""Share of a standing player's sideways lean of the pelvis that a seated player has; a seated one does not turn it."""
+"""Sideways lean of a seated player's pelvis relative to a standing player's; a seated player does not turn
+the pelvis.
+"""
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from app.plan.parameters import PlayerParameters
 from app.score.model import Note
 
 AIR_SHORT: Final[Mapping[str, Argument]] = {"why": "breath.why_short"}
-"""Reason for a breath in a rest that is not needed as such, for `because`: nothing better comes in time."""
+"""Reason for a breath in an otherwise unneeded rest: no better one follows in time; for `because`."""
 WRITTEN: Final[Mapping[str, Argument]] = {"why": "breath.why_written"}
 WRITTEN_BY_HAND: Final[Mapping[str, Argument]] = {"why": "breath.why_by_hand"}
 NOT_RECORDED: Final[Mapping[str, Argument]] = {"why": "breath.why_not_recorded"}

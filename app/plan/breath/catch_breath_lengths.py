@@ -16,19 +16,21 @@ from app.plan.breath.lungs import FULL_BREATH_S
 from app.plan.music.piece import EPSILON, LineTimes, gaps_s
 
 CATCH_MIN_S = 0.2
-"""A shorter gasp is no breath: a litre at 5 to 8 litres a second, the most that healthy adults breathe in with."""
+"""Shortest catch breath in seconds: a litre at 5 to 8 litres a second, the greatest inspiratory flow of
+healthy adults.
+"""
 CATCH_MAX_S = 0.4
 """Longest catch breath in seconds; see `UNHURRIED_SHARE`."""
 UNHURRIED_SHARE = 1.0 / 3.0
-"""A catch breath may be as long as a full breath where that takes at most this share of the note before it."""
+"""Greatest share of the previous note for which a catch breath may be as long as a full breath."""
 CATCH_NOTE_SHARE = 0.5
 """Largest share of the note before it that a catch breath takes; see `LEAST_SOUNDING_S`."""
 LEAST_SOUNDING_S = 1.0 / 24.0
-"""Seconds of the note before that still sound where `CATCH_NOTE_SHARE` would leave no time for a breath."""
+"""Seconds of the previous note that still sound if `CATCH_NOTE_SHARE` would leave no time for a breath."""
 LEAST_PLAYED_S = 0.01
-"""Least part of a note that may be left if it was played shorter than it is written."""
+"""Least seconds that may remain of a note that was played shorter than written."""
 MOST_DROPPED = 2
-"""Notes that may be left out for one breath."""
+"""Greatest number of notes omitted for one breath."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,26 +15,26 @@ from app.plan.breath.rests_for_breath import LEAST_PLAYED_S
 from app.plan.music.piece import EPSILON
 
 LEAST_COST = 0.2
-"""Least cost of a breath before the air is used up; it keeps breaths to the ends of phrases."""
+"""Least cost of a breath before the air is used up, so that breaths stay at the ends of phrases."""
 ONE_MORE = 1.5
-"""Times that air a stretch takes at least in which a breath is taken for a phrase's end: some of it comes after."""
+"""Least need of air of a stretch, in lungfuls, from which a breath at a phrase's end within it counts as needed."""
 EARLY_COST = 0.25
-"""Breathing in with lungs still full; with half a lungful a quarter of it."""
+"""Cost of breathing with full lungs; with half-full lungs a quarter of it."""
 HASTY_COST = 10.0
-"""Breathing in again before `HASTY_SHARE` of the lungs is used up."""
+"""Cost of breathing before `HASTY_SHARE` of the lungs is used."""
 GASP_COST = 100.0
-"""Breathing in again after less than `LEAST_PLAYED_S` of playing: only for want of air."""
+"""Cost of breathing after less than `LEAST_PLAYED_S` of playing, acceptable only without any air left."""
 TOO_LONG_COST = 1000.0
 BREAKING_COST = 150.0
-"""Cost from which a place breaks what a score says: other ways of breathing before it are compared too."""
+"""Cost from which a place conflicts with the score's marks, so that other ways of breathing before it are compared."""
 AIR_STEPS = 32
-"""Amounts of air that are told apart then."""
+"""Number of distinguished amounts of air in that comparison."""
 DROPPED_COST = 30.0
-"""Leaving out a note, where none is long enough to take a gasp from."""
+"""Cost of omitting a note if none is long enough for a catch breath."""
 MISSING_COST = 10.0
-"""Leaving it out, for each note near it that another player of the same rhythm leaves out: a hole."""
+"""Additional cost for each other player of the same rhythm who omits a note nearby, which would leave a gap."""
 NEAR = MOST_DROPPED
-"""Most notes between two near places."""
+"""Number of notes within which two places are near each other."""
 
 
 class AirSupply(NamedTuple):

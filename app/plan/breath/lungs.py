@@ -12,26 +12,27 @@ from app.plan.parameters import PlayerParameters
 from instrument_maps.wind import Air
 
 FULL_BREATH_S = 0.5
-"""Time a trained player needs to fill the lungs."""
+"""Seconds that a trained player needs to fill the lungs."""
 LOUDNESS_RANGE = (0.6, 1.6)
-"""Air used by the softest and the loudest note, mezzoforte being 1, on an instrument whose map says nothing else."""
+"""Use of air by the softest and the loudest note relative to mezzoforte, unless the instrument's map defines it."""
 USUAL_LUNG_S = 9.0
-"""The lungs of `PlayerParameters.lung_s` as they are unless set: what a map's `Air` is about."""
+"""Default of `PlayerParameters.lung_s`, to which the `Air` values of maps refer."""
 PIANO, FORTE = 0.39, 0.77
-"""Loudness of the dynamics a map's `Air` names: velocities 49 and 98 of 127."""
+"""Loudness of the two dynamics in a map's `Air`: velocities 49 and 98 of 127."""
 
 PHRASE_S = 8.0
 """Seconds before and after a note over which loudness is averaged; its air follows the dynamic mark nearest to the
 mean."""
 STALE_S = 12.0
-"""Seconds after which lungs of usual size want fresh air even on an instrument that takes little (an oboist breathes
-out first)."""
+"""Seconds after which lungs of default size need fresh air even on an instrument that uses little (an oboist exhales
+first).
+"""
 
 CIRCULAR_SHARE = 0.4
-"""Part of the air that stays in the lungs of a player who breathes in through the nose."""
+"""Share of the air that remains in the lungs of a player who inhales through the nose."""
 
 HASTY_SHARE = 0.4
-"""Part of the lungs that is used up at least before the next breath, if it can be."""
+"""Least used share of the lungs before the next breath, where possible."""
 
 
 def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelope | None = None) -> FloatArray:

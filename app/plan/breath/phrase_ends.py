@@ -54,38 +54,44 @@ FOUR_BARS: Final = 0.7
 
 # What songs do not show.
 PLACE_COST: Final = 5.15
-"""A breath without anything that speaks for one: of this -3.9 is the log odds of such a place."""
+"""Cost of a breath at a place with no favourable feature; 3.9 of it is the negative log odds of such a place."""
 REST: Final = 4.0
-"""In a rest of the score."""
+"""Log odds of a breath in a rest of the score."""
 SILENCE: Final = 1.0
-"""A short silence is there already."""
+"""Log odds of a breath in a short silence."""
 RUNNING: Final = 0.75
-"""Notes of at most this part of a beat run: only out of those a breath after the first beat of a bar is usual."""
+"""Greatest length in beats of running notes; only among these, breathing after the first beat of a bar is usual."""
 BEFORE_UPBEAT: Final = 0.8
-"""In running notes, before a weak place after a note on a strong one, for every level between them: after the beat."""
+"""Log odds in running notes of a breath before a weak place after a strong one, for each metrical level
+between them.
+"""
 AFTER_UPBEAT: Final = -2.5
-"""In running notes, before a stronger place, for every level between them, unless the note before is long."""
+"""Log odds in running notes of a breath before a stronger place, for each metrical level between them, unless the
+previous note is long.
+"""
 AFTER_ENTRY: Final = -80.0
-"""The weight `AFTER_UPBEAT` where the upbeat itself comes in after a rest: rather two notes are left out elsewhere."""
+"""Value that replaces `AFTER_UPBEAT` if the upbeat itself follows a rest; omitting two notes elsewhere costs less."""
 BEFORE_TAIL: Final = -40.0
-"""Between a dotted note and its short one off the beat: rather a note is left out elsewhere."""
+"""Log odds of a breath between a dotted note and its short off-beat note; omitting a note elsewhere costs less."""
 IN_STACCATO: Final = -40.0
-"""Within staccato notes, three and more in a row, likewise."""
+"""Log odds of a breath within three or more consecutive staccato notes."""
 AGAIN_NOTES: Final = 4
 SLURRED: Final = -40.0
-"""Within a slur: only without any air left."""
+"""Log odds of a breath within a slur, acceptable only without any air left."""
 WRITTEN_SLUR: Final = -300.0
-"""Within a slur of the score, unless in a rest under it: rather notes are left out, or two breaths come close
-together, elsewhere."""
+"""Log odds of a breath within a written slur, unless in a rest under it; omitting notes or two close breaths elsewhere
+cost less.
+"""
 ALL_SLURRED: Final = (0.75, 0.9)
-"""Shares of notes that run into the next one: above the first, that is how they are played and no phrasing, so that
-slurs count less, and from the second on not at all."""
+"""Shares of notes that run into the next one: above the first, slurs count less since legato is the player's habit and
+no phrasing; above the second, they do not count.
+"""
 BEFORE_REST: Final = -8.0
 """Cost of a breath if a rest comes within a felt beat."""
 CLIPPED: Final = -2.0
-"""Out of a note that loses all of it; in proportion where it loses more than the usual part."""
+"""Log odds of a breath that removes a whole note; in proportion if more than the usual part of the note is removed."""
 JITTER: Final = 0.2
-"""Players differ where places are equally good."""
+"""Greatest random difference (log odds) between players, which decides between equally good places."""
 TAKEN_COST: Final = 6.0
 """Cost of a breath at the place where another player of the same line breathes: players stagger."""
 

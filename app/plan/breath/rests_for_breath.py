@@ -16,18 +16,23 @@ from app.plan.music.piece import EPSILON
 from app.plan.parameters import PARAMETERS
 
 USUAL_NEED: Final = float(PARAMETERS["breath_need"].default)
-"""The need that gives the figures below; a smaller one scales them down to 0, a greater one up to whole lungs."""
+"""Value of `breath_need` for which the constants below apply; a smaller one scales them down to 0, a greater one up to
+full lungs.
+"""
 
 ALWAYS_S: Final = 1.5
-"""Length of rests that are breathed in at every need."""
+"""Length in seconds of rests in which players breathe with any need."""
 LONG_S: Final = 0.75
-"""Length of rests that are breathed in after `LONG_PLAYED_S`, and that count however few beats they have."""
+"""Length in seconds of rests in which players breathe after `LONG_PLAYED_S`, and which count regardless of their length
+in beats.
+"""
 MIDDLE_S: Final = 0.5
-"""Length of rests that are breathed in after `MIDDLE_PLAYED_S`, or with `MIDDLE_SHARE` of the lungs used up."""
+"""Length in seconds of rests in which players breathe after `MIDDLE_PLAYED_S`, or with `MIDDLE_SHARE` of the lungs
+used.
+"""
 SHORT_S: Final = 0.3
-"""Length of rests that are breathed in after `SHORT_PLAYED_S`, or with `SHORT_SHARES` of the lungs used up.
-
-Shorter ones give catch breaths only.
+"""Length in seconds of rests in which players breathe after `SHORT_PLAYED_S`, or with `SHORT_SHARES` of the lungs used.
+Shorter ones allow catch breaths only.
 """
 LONG_PLAYED_S: Final = 1.0
 MIDDLE_PLAYED_S: Final = 2.5
@@ -38,9 +43,9 @@ SHORT_PLAYED_S: Final = (5.0, 3.5)
 lungs breathe by habit.
 """
 LEAST_PLAYED_S: Final = 1.0
-"""Playing before any breath in a rest shorter than `ALWAYS_S`, however small the lungs are."""
+"""Least seconds of playing before a breath in a rest shorter than `ALWAYS_S`, however small the lungs are."""
 SHORT_LEAST_PLAYED_S: Final = 1.5
-"""Least playing time since the last breath from which a rest shorter than `MIDDLE_S` is used for one."""
+"""Least seconds of playing since the last breath before a breath in a rest shorter than `MIDDLE_S`."""
 
 
 class RestNeeds(NamedTuple):

@@ -30,27 +30,27 @@ from app.plan.music.piece import EPSILON, LineTimes, Piece
 from app.score.model import Note
 
 UNISON_NOTES = 4
-"""Notes in a row, played by others too, that make a unison; fewer may meet by chance."""
+"""Least number of consecutive notes shared with others that form a unison; fewer may coincide by chance."""
 HELD_S = 5.0
-"""Shorter notes are not breathed in."""
+"""Length in seconds of notes from which players may breathe within them."""
 ABOUT = 0.8
-"""Share of a note after which its player holds it on while another breathes."""
+"""Least length of another player's note, relative to a note, for that player to hold it through a breath."""
 HELD_SHARE = 0.75
-"""Part of the lungs that a player spends on one note."""
+"""Share of the lungs that a player uses for one part of a note."""
 APART_S = 2.0
-"""Breaths of a section that are this far apart are not noticed."""
+"""Distance in seconds at which breaths within a section go unnoticed."""
 LED_TO_SHARE = 0.4
-"""Part of a lungful that there is at least for a held note that other notes lead to."""
+"""Least share of the lungs that is left at the start of a held note that other notes lead to."""
 FROM_EDGES_S = 1.0
 """Seconds after the start and before the end of a held note without breaths, unless the lungs are too small for
 that.
 """
 LEAST_STEP_S = 2 * FULL_BREATH_S
-"""Least seconds between breaths within one note, however small the lungs are: half of the note sounds."""
+"""Least seconds between breaths within one note, however small the lungs are, so that half of the note sounds."""
 TRIED = 17
-"""Times that are compared for the breaths in a note."""
+"""Number of times compared for each breath within a note."""
 COMPARED = 8
-"""Players whose catch breaths are one step of the plan, which is repeated after an edit of one of them only."""
+"""Number of players whose catch breaths form one step of the plan, which is recomputed after an edit of one of them."""
 
 Place: TypeAlias = int
 """Place of a note (`PLACES` a quarter) and its pitch class, as one number."""

@@ -19,7 +19,7 @@ INTERPOLATIONS: Final[tuple[Interpolation, ...]] = ("bezier", "linear", "constan
 Unit: TypeAlias = Literal["deg", "m", "weight"]
 
 MOST_KEYS: Final = 5000
-"""Most keys of one curve."""
+"""Greatest number of keys in a curve."""
 
 
 class AdditiveChannel(NamedTuple):
@@ -60,10 +60,11 @@ BODY_CHANNELS: Final[dict[str, AdditiveChannel]] = {
     "eyes.up": _ANGLE,
     "eyes.left": _ANGLE,
 }
-"""Channels of the body: a part of it, and what the part does. Angles of bell, head, torso and elbows as of
-`app.plan.by_hand.corrections.PoseCorrection`."""
+"""Channels of the body: a part and its motion. Angles of bell, head, torso and elbows are as in
+`app.plan.by_hand.corrections.PoseCorrection`.
+"""
 FACE: Final = "face."
-"""Prefix of the channels of the face; the name of a morph target follows."""
+"""Prefix of channels of the face, followed by the name of a morph target."""
 CHANNELS: Final[dict[str, AdditiveChannel]] = BODY_CHANNELS | {
     f"{FACE}{name}": AdditiveChannel("weight", 1.0) for name in ARKIT_MORPHS
 }

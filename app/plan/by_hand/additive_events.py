@@ -33,33 +33,36 @@ _HELD: Final[tuple[tuple[PoseTarget, tuple[str, ...]], ...]] = (
 POSED: Final[dict[str, tuple[PoseTarget, str]]] = {
     f"{target}.{angle}": (target, f"{angle}_deg") for target, angles in _HELD for angle in angles
 }
-"""Channels that are also held by a pose: its target and angle."""
+"""Channels that a pose correction can hold too, with its target and angle."""
 
 HIPS_M: Final[dict[str, Limits]] = {
     "hips.left": (-0.09, 0.09),
     "hips.ahead": (-0.06, 0.06),
     "hips.up": (-0.1, 0.015),
 }
-"""Limits of the hips above feet that stay. Upwards there is only what the player has sunk."""
+"""Limits in metres of the hips' displacement with the feet in place; upwards only the amount by which the knees are
+bent.
+"""
 PELVIS_DEG: Final[dict[str, Limits]] = {"hips.tilt": (-6.0, 8.0), "hips.roll": (-6.0, 6.0)}
-"""Tilted forward and leaning to the left, also on a seat; the trunk goes along."""
+"""Limits in degrees of the pelvis's forward tilt and left lean, also on a seat; the trunk follows."""
 SHOULDERS_DEG: Final = (-5.0, 12.0)
 KNEES_DEG: Final = (-6.0, 45.0)
-"""Added to the bend of knees that are hardly bent."""
+"""Limits in degrees of an additional bend of hardly bent knees."""
 EYES_DEG: Final[dict[str, Limits]] = {"eyes.up": (-30.0, 25.0), "eyes.left": (-35.0, 35.0)}
 
 GENTLE_M_S2: Final = 8.0
-"""Hips that come, go or step are moved with no more than this acceleration."""
+"""Greatest acceleration in m/s2 with which the hips' displacement begins and ends."""
 FASTEST: Final[dict[str, float]] = {"deg": math.degrees(150.0), "m": 30.0}
-"""A curve with a higher peak acceleration is reported: that of a fast head (`metadata`, ``head``), and of hips that
-jump."""
+"""Peak accelerations above which a curve is reported, per s2: those of a fast head (`metadata`, ``head``) and of
+jumping hips.
+"""
 STEP_S: Final = 1.0 / 60.0
-"""Accelerations are seen from frame to frame."""
+"""Step in seconds for measuring accelerations: one frame."""
 MOST_LOOKS: Final = 240
-"""Most frames between two keys that are looked at: four seconds, or as many places in hours."""
+"""Greatest number of frames examined between two keys: four seconds, or as many points over a longer time."""
 LEAST_MORPH_S: Final = 0.08
 REPORTED: Final[dict[str, float]] = {"deg": 1.0, "m": 0.005, "weight": 0.02}
-"""A value this much beyond what a body does is reported."""
+"""Excess over the body's limits above which a value is reported, by unit."""
 
 
 def plan_additive(

@@ -14,10 +14,10 @@ from app.arrays import FloatArray
 from app.plan.events_by_hand import CurveSegment
 
 HALVINGS: Final = 40
-"""Bisection steps after which the place on a segment is exact to the last bits that matter."""
+"""Number of bisections that find a position on a segment."""
 THIRD, EVEN = 1.0 / 3.0, 1e-9
 COLUMNS: Final = 9
-"""Columns of a row: the fields of `CurveSegment`, in its order."""
+"""Number of columns in a row: the fields of `CurveSegment` in order."""
 
 
 def rows(segments: Sequence[CurveSegment]) -> FloatArray:

@@ -281,7 +281,7 @@ Correction: TypeAlias = (
 
 
 REMOVABLE = (*BREATH_KINDS, "cue", *GESTURE_KINDS, "expression")
-"""Kinds of event a `RemoveEvent` may leave out: see `EventId`."""
+"""Kinds of events that a `RemoveEvent` may remove; see `EventId`."""
 
 
 def of_kinds(corrections: tuple[Correction, ...], kinds: tuple[type[Correction], ...]) -> tuple[Correction, ...]:

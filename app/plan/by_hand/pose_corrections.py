@@ -21,27 +21,29 @@ TRUNK_SHARES = {"spine": 0.40, "chest": 0.35, "upperChest": 0.25}
 NECK_SHARES = {"neck": 0.45, "head": 0.55}
 
 BELL_UP = {"bell": 0.30, "neck": 0.45, "trunk": 0.25}
-"""Shares of a rise of the bell that bell, neck, trunk and so on take; they add up to the whole angle."""
+"""Shares of bell, neck and trunk in a rise of the bell; they sum to 1."""
 BELL_LEFT = {"bell": 0.4, "neck": 0.4, "trunk": 0.2}
-"""Shares of a turn of the bell to a side that bell, neck, trunk and so on take; they add up to the whole angle."""
+"""Shares of bell, neck and trunk in a sideways rotation of the bell; they sum to 1."""
 
 BELL_ROOM = 0.36
-"""Share of a carriage's range up and down that the animator may use beside the melody: the more an instrument turns
-about the rim's centre, the further the rim is off the upper lip in breaths."""
+"""Share of a carriage's vertical range that the user may use in addition to the melody's: the more an instrument
+rotates about the rim, the farther the rim is off the upper lip during breaths.
+"""
 
 HANDS_FOLLOW_DEG: dict[PoseTarget, dict[str, tuple[float, float]]] = {
     "head": {"up_deg": (-25.0, 12.0), "left_deg": (-22.0, 16.0), "roll_deg": (-20.0, 15.0)},
     "torso": {"up_deg": (-45.0, 20.0), "left_deg": (-25.0, 20.0), "roll_deg": (-10.0, 20.0)},
 }
-"""Turns of head and trunk that both hands were measured to follow, with the instrument; also in the farthest place of a
-slide, which makes the two sides differ."""
+"""Ranges in degrees of head and trunk rotation that both hands were measured to follow with the instrument, also at the
+farthest position of a slide, which makes left and right differ.
+"""
 ELBOW_DEG = (-25.0, 45.0)
-"""Range of an elbow towards the ribs and away from them, about the line from shoulder to wrist."""
+"""Range in degrees of an elbow's rotation outwards about the line from shoulder to wrist."""
 GENTLE_RAD_S2 = 40.0
-"""However short a fade was asked for, nothing is turned with more than this acceleration."""
+"""Greatest acceleration in rad/s2 of a pose's fades, however short they are set."""
 LEAST_FADE_S = 0.15
 REPORTED_DEG = 1.0
-"""An angle this much beyond what a body does is reported."""
+"""Excess in degrees over the body's limits above which an angle is reported."""
 
 MINIMUM_JERK_PEAK = 10.0 / math.sqrt(3.0)
 """Peak acceleration of a minimum-jerk move over 1 in 1 s."""

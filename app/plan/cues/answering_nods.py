@@ -14,12 +14,12 @@ from app.score.model import Note
 
 SOONEST_S: Final = 0.02
 LATEST_S: Final = 0.06
-"""Largest delay of a follower's nod behind the leader's; each follower has a delay of its own."""
+"""Greatest delay in seconds of a follower's nod behind the leader's; each follower has an individual delay."""
 SMALLEST: Final = 0.3
 LARGEST: Final = 0.55
 """Size of followers' nods relative to the leader's."""
 UNDER_CONDUCTOR: Final = 0.6
-"""Size of the nods of players who follow a baton."""
+"""Size of the nods of players who follow a conductor."""
 
 
 def answering_nods(

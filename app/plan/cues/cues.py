@@ -27,17 +27,17 @@ from app.plan.music.piece import BEFORE_FIRST_TICK, LineTimes, MonophonicPart, P
 from instrument_maps.instrument_names import vocabulary
 
 LEAD_BEATS = 1.5
-"""Head and instrument begin to rise half a beat before the preparatory beat: they are on their way up on it."""
+"""Beats before an entry at which head and instrument begin to rise: half a beat before the preparatory beat."""
 
 LEAST_RISE_BEATS = 0.25
-"""Part of a beat in which they still rise to it, after another cue."""
+"""Least beats in which they still rise to it after another cue."""
 
 MELODY_BARS = 2
-"""Bars over which the players of the melody are determined."""
+"""Number of bars for which the players of the melody are determined."""
 DOUBLED_SHARE = 0.8
 """Share of the melody, in any octave, that makes a player one of its doubles."""
 SMALLEST, LARGEST = 0.4, 1.2
-"""A cue to play softly is small, but seen; one to play loudly is no leap."""
+"""Size of the smallest cue, for soft entries but still visible, and of the largest, for loud ones."""
 
 
 def leader_of(

@@ -17,29 +17,32 @@ COMMON_REST_BEATS, COMMON_REST_LEAST_S = 2.0, 0.75
 """Length from which a rest of all players needs a cue: a number of beats that are not too quick, or a number of
 seconds."""
 PAUSE_BARS, PAUSE_MOST_S = (1.0, 2.0), 4.0
-"""A silence of all for a whole bar is a general pause; one that is longer in either way is a rest that is counted."""
+"""Lengths in bars, and greatest length in seconds, of a common silence that is a general pause; longer silences are
+counted rests.
+"""
 EXACT = 1e-6
 """Seconds and beats that differ by less are equal."""
 HELD_S, HELD_BEATS = 3.0, 3.0
-"""Least length, in seconds and in beats, of a note that all hold and leave together to be a fermata."""
+"""Least length in seconds and in beats of a note that all players hold and end together to be a fermata."""
 HELD_SILENCE_BEATS = 0.5
-"""From this silence on it was left; one of `COMMON_REST_BEATS` is a rest that is counted."""
+"""Silence in beats after which a held note counts as ended; from `COMMON_REST_BEATS` on it is a counted rest."""
 LONG_HELD_S, LONG_HELD_BEATS = 6.0, 6.0
 """Length of a common note in seconds and beats beyond which counting is unreliable, so that players need a cue even if
 they continue without silence.
 """
 STEADY_TEMPO, STEADY_BEATS = 1.1, 4
-"""A new tempo gets a cue if it keeps within this factor for this number of beats; a tempo that goes on changing is
-followed."""
+"""A new tempo gets a cue if it stays within this factor for this number of beats; a continuously changing tempo gets
+none.
+"""
 SLOWED_TEMPO = 1.5
-"""After no more than `STEADY_BEATS` beats that were longer by this factor the tempo from before is given again."""
+"""Factor by which up to `STEADY_BEATS` beats are longer for the previous tempo to be cued again after them."""
 
 LONG_REST_S, LONG_REST_BARS = 8.0, 4
-"""Length of a rest, in seconds or in bars, after which a single player is brought in; see `LONG_REST_LEAST_S`."""
+"""Length in seconds or bars of a rest after which a single player gets a cue; see `LONG_REST_LEAST_S`."""
 LONG_REST_LEAST_S, LONG_REST_LEAST_BARS = 4.0, 2
-"""Least length that a rest must have in both units to count for `LONG_REST_S`."""
+"""Least length in seconds and bars of a rest for `LONG_REST_S`."""
 ON_BEAT = 0.12
-"""Distance from a beat, in beats, within which a note is on it, about the precision of players."""
+"""Distance in beats within which a note counts as on a beat: about the precision of players."""
 
 Reason: TypeAlias = Literal[
     "cue.start", "cue.after_rest", "cue.after_pause", "cue.after_fermata", "cue.tempo", "cue.joins"

@@ -24,7 +24,7 @@ from metadata.model import Expression
 from metadata.rules import Moment, Rule, When
 
 SMILE_ID = "expression:smile"
-"""The smile after the last note, which corrections name."""
+"""Id of the smile after the last note, to which corrections refer."""
 
 
 class _Found(NamedTuple):

@@ -21,14 +21,14 @@ from metadata.gestures import GazeTrack
 
 EYES_RAD: Final = math.radians(35.0)
 PLAYING_HEAD: Final = 0.3
-"""Share of a look that the head turns while the instrument is at the lips; the eyes do the rest."""
+"""Share of a glance that the head takes while the instrument is at the lips; the eyes take the rest."""
 FREE_HEAD: Final = 0.65
-"""Share of a look that the head turns while the instrument is not at the lips."""
+"""Share of a glance that the head takes while the instrument is not at the lips."""
 MOST_RAD: Final = 1.1
 """Greatest sideways angle of a glance in radians."""
 MOST_UP_RAD: Final = 0.35
 LEVEL_RAD: Final = 0.02
-"""Pitch of looks at what has no known height, below the player's own eyes."""
+"""Downward angle in radians of looks at objects of unknown height."""
 AUDIENCE_M: Final = 6.0
 OWN_HANDS_M: Final = 0.45
 NEAREST_M: Final = 0.5
@@ -36,13 +36,13 @@ NEAREST_M: Final = 0.5
 TO_GIVER_S: Final = (0.25, 0.6)
 """Range of the time before a cue begins at which players look at its giver; see `STAYS_S`."""
 STAYS_S: Final = (0.05, 0.35)
-"""Range of the time after the entry for which players go on looking at the giver of a cue."""
+"""Range of the seconds after the entry for which players continue to look at the giver of a cue."""
 TO_TAKERS_S: Final = (1.0, 1.6)
 """Range of the time before a cue at which its giver looks at the others; see `LOOK_S`."""
 LOOK_S: Final = (0.6, 0.95)
-"""Range of the length of the look that a giver of a cue has for the others."""
+"""Range of the duration in seconds of the cue giver's look at the others."""
 LEAST_S: Final = 0.5
-"""A shorter glance is none."""
+"""Shortest glance in seconds."""
 SIDE_RAD: Final = (0.5, 1.0)
 
 

@@ -19,26 +19,26 @@ from app.plan.music.piece import LineTimes, NoteTimes, Piece, Seeds
 from app.plan.music.spans import Spans
 
 CHANGING: Final = 0.03
-"""A beat longer or shorter by this share than the one before belongs to a change of tempo."""
+"""Relative difference of a beat's length from the previous one above which it belongs to a change of tempo."""
 CHANGE_S: Final = (0.45, 0.55)
-"""Ranges of the time before such a beat, and after it."""
+"""Ranges in seconds of the time before such a beat, and after it, in which players look up."""
 LAST_S: Final = (0.9, 0.25)
-"""Ranges of the time before the last note, and after its end."""
+"""Seconds before the last note, and after its end, in which players look up."""
 PHRASE_CHANCE: Final = 0.5
 PHRASE_S: Final = (0.55, 0.2)
 PHRASE_REST_S: Final = 0.3
 BAR_EVERY_S: Final = 7.0
 """Mean seconds between a player's looks up before bar lines."""
 NEAR_S: Final = 2.0
-"""A bar line further from what is played is none to look up at; in long rests other looks are planned."""
+"""Greatest distance in seconds of a bar line from played notes for a look up; long rests have other looks."""
 LONGEST_BAR_S: Final = 8.0
 BAR_S: Final = (0.5, 0.18)
 QUICK_S: Final = 0.2
-"""Seconds from onset to onset below which a player, busy reading, does not look up."""
+"""Seconds between onsets below which a player is too busy reading to look up."""
 LEAST_APART_S: Final = 1.4
 LONGEST_S: Final = 3.5
 PAGE_S: Final = 0.7
-"""Seconds for which the page is read between two looks up."""
+"""Least seconds of reading between two looks up."""
 
 
 def looks_up(

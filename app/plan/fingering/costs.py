@@ -25,74 +25,80 @@ from instrument_maps.fingering_label import written_choice
 from instrument_maps.model import Control, Fingering, InstrumentMap
 
 OUT_OF_PLACE_COST = 6.0
-"""Cost, beside its rank, of a fingering with a purpose (`IN_PLACE_COST`) outside that purpose."""
+"""Cost of a fingering meant for a purpose (`IN_PLACE_COST`) elsewhere, in addition to its rank."""
 BESIDE_COST = -0.5
 """Cost of a fingering that keeps a lever turned (tag "beside") next to a note whose first choice turns it; see
 `BESIDE_S`."""
 BESIDE_S = 0.5
 """Silence between the two notes from which `BESIDE_COST` no longer applies."""
 RARE_TRILL_COST = 18.0
-"""Further cost of a rare fingering in a trill, where it would save motion with every step."""
+"""Additional cost of a rare fingering in a trill, where it would otherwise win by saving motion at every step."""
 QUICK_S = 0.15
-"""A note is fast that lasts no longer than this, from the one before or to the next."""
+"""Time in seconds from the previous or to the next note below which a note is fast."""
 LOUD, SOFT = 0.75, 0.35
 # What moving costs.
 FAST_S = 0.085
-"""Below this time per note (16ths at about 176 beats/min) fingers begin to be the limit: tapping one finger reaches 6-7
-per second, alternating fingers about twice that."""
+"""Time in seconds per note below which fingers reach their limit (16ths at about 176 beats/min): tapping one finger
+reaches 6 to 7 per second, alternating fingers about twice that.
+"""
 TRILL_COST = 3.0
-"""A trill repeats its motion, so it tires: hurry counts this much more."""
+"""Factor for the cost of haste in trills, whose repetition tires."""
 LIP_TRILL_WEIGHT, LEVER_TRILL_WEIGHT = 1.1, 0.75
-"""Moves that a step of a trill counts as if the lips alone make it, and further moves if it turns a thumb's lever,
-which is slow."""
+"""Number of finger moves that a lip trill's step equals, and additional moves if a thumb's lever is turned, which is
+slow.
+"""
 MOVE_COST = 0.15
-"""Each finger that moves in a hurried step, where keys may be left down: it decides between what is else alike."""
+"""Cost of each finger that moves in a hurried step, even where keys may stay down; decides between otherwise equal
+fingerings.
+"""
 GLISSANDO_COST = 6.0
-"""A step of a glissando in which the slide does not go the way of the pitch, or a lever is turned."""
+"""Cost of a glissando's step in which the slide moves against the direction of the pitch, or a lever is turned."""
 LIFTED_S = 0.12
-"""In a silence this long a finger is free: it goes from key to key for nothing."""
+"""Silence in seconds from which a finger changes keys at no cost."""
 KEY_TO_KEY_MOVES = 4
-"""Further moves that a finger's way from one key to another counts as when passages are compared."""
+"""Additional moves that a finger's change from one key to another equals in comparisons of passages."""
 EASY_STEP_S, HURRIED_STEP_S = 0.5, 0.12
-"""Steps in which an awkward change costs nothing, and all; in proportion between."""
+"""Lengths in seconds of steps in which an awkward change costs nothing, and in which it has full cost; linear
+between.
+"""
 ROLL_COST = 0.8
-"""A finger rolls onto a further key, or off it."""
+"""Cost of a finger that rolls onto an additional key or off it."""
 TOGETHER_COST = 0.9
-"""A thumb's lever is turned while fingers move: on a double horn the sides are changed."""
+"""Cost of turning a thumb's lever while fingers move, as when changing sides on a double horn."""
 TURN_COST = 0.6
-"""A hand turns to work a key with the side of a finger while others of its fingers move."""
+"""Cost of rotating a hand to press a key with the side of a finger while other fingers of the hand move."""
 BREAK_COST, BREAK_FINGERS = 0.25, 3
 """Cost of each moving finger beyond this number where the line crosses into another register."""
 SLIDE_EASY = 0.7
-"""A slide that needs at most this part of the time it has costs nothing."""
+"""Share of the available time up to which a slide's move costs nothing."""
 SLIDE_COST = 3.0
-"""Cost of using all the time there is, above `SLIDE_EASY`."""
+"""Cost of a slide's move that uses all of the available time, in proportion above `SLIDE_EASY`."""
 SLIDE_LATE = 1.8
 """Cost of a slide that does not arrive in time; see `SLIDE_LATE_RATE`."""
 SLIDE_LATE_RATE = 3.0
 """Further cost of a late slide for each multiple of the available time that it would need."""
 SLIDE_MAX_SPEED_M_S = 2.5
-"""Speed of a trombonist's arm in fast passages, for maps that do not say."""
+"""Speed in m/s of a trombonist's arm in fast passages, if the instrument's map has none."""
 SLIDE_METRE_COST = 1.0
-"""Each metre of a slide's way in a hurried step: of ways that all arrive in time the nearer one is taken."""
+"""Cost per metre of a slide's move in a hurried step, so that the nearest of several reachable positions wins."""
 SAME_PLACE = 0.1
-"""Places of a slide that differ by less of its travel are one position."""
+"""Difference, as a share of the travel, below which two places of a slide are the same position."""
 LEGATO_COST = 1.25
-"""A slide moved between notes that touch smears; counts more than one moved in a gap."""
+"""Additional cost of a slide's move between notes without a gap, which smears."""
 REVERSAL_COST = 0.5
-"""Turning the slide back at speed."""
+"""Cost of reversing the slide's direction at speed."""
 OTHER_PLACE_COST = 4.0
-"""Cost of a note at another place of the slide than the same pitch two notes before, in hurried steps."""
+"""Cost, in hurried steps, of a note at another slide position than the same pitch two notes before."""
 REPEATED_COST, REPEATED_HOME_COST = 8.0, 0.8
 """Costs of another fingering for a repeated note without a trill, correction or silence; lower for returning to a
 better one if there is time.
 """
 REPEATED_HURRIED_S, REPEATED_EASY_S = 0.3, 0.4
-"""There is none in steps as short as the one, and enough from the other on."""
+"""Lengths in seconds of steps in which the lower cost does not apply, and from which it applies fully."""
 REPEATED_REST_S = 0.5
-"""After so long a silence another fingering costs nothing, in proportion before."""
+"""Silence in seconds after which another fingering costs nothing; in proportion below."""
 TOLERANCE = 1e-9
-"""Rounding of sums of metres and shares."""
+"""Tolerance for rounding errors of sums."""
 
 
 @dataclass(frozen=True)

@@ -16,21 +16,22 @@ from instrument_maps.hold import Contact
 from instrument_maps.model import Control, Fingering
 
 _DOWN = 0.5
-"""A control is held beyond this part of its way; short of it, a hole is half closed."""
+"""Share of its travel above which a control counts as held; below it a hole is half closed."""
 
 _SIDE = re.compile(r"\.(index|middle|ring|little)\.(side|pad_proximal)")
-"""The parts of a finger other than its tip; a thumb lies aside by nature."""
+"""Parts of a finger other than the tip, except for the thumb, which touches with its side anyway."""
 
 LEVER_COST = 0.5
-"""Cost of a thumb that moves its own lever while fingers move."""
+"""Cost of a thumb that moves its lever while fingers move."""
 FINGER_WEIGHT = {"thumb": 1.25, "little": 1.25, "ring": 1.1}
-"""Weights of the slower fingers' moves in a hurry; the others' are 1."""
+"""Weights of slow fingers' moves in a hurry; other fingers have 1."""
 CONTRARY_COST = 0.5
-"""One finger going up while another goes down is harder than both going one way."""
+"""Cost of one finger rising while another one falls, which is harder than parallel motion."""
 KEY_TO_KEY_COST = {"little": 4.0, "ring": 3.0}
 KEY_TO_KEY_USUAL_COST = 1.5
-"""A finger that goes from one key to another without being free between smears the notes; most of all the little
-finger, which is why its keys are there twice."""
+"""Cost of a finger that changes directly from one key to another, which smears the notes; greatest for the little
+finger.
+"""
 
 
 @dataclass(frozen=True)

@@ -13,21 +13,23 @@ from instrument_maps.model import Control, Fingering, InstrumentMap
 # What choosing an alternate costs. The unit is one step down in rank.
 RANK_COST = 1.0
 MOST_RANKS = 3
-"""Further down the list an alternate is no stranger: woodwinds have many, ordered by little."""
+"""Greatest rank that adds cost: woodwinds have many alternates, whose order matters little."""
 CENTS_PER_UNIT = 20.0
-"""An alternate worse in tune than the first choice by this much costs one unit on a fully audible note: about
-what a listener notices in a melody."""
+"""Cents by which an alternate is less in tune than the first choice per unit of cost, on a fully audible note: about
+the difference that listeners notice in a melody.
+"""
 FULLY_AUDIBLE_S = 0.25
-"""The intonation of shorter notes is less audible; their cost falls in proportion."""
+"""Length in seconds of a note with fully audible intonation; shorter ones have a proportionally lower cost."""
 FORKED_COST = 0.5
-"""Cost of a forked fingering, which sounds covered, on top of its rank."""
+"""Cost of a forked fingering, whose sound is covered, in addition to its rank."""
 IN_PLACE_COST = {"trill": 0.5, "fast": 0.5, "forte": 0.5, "piano": 0.5, "chromatic": -0.5, "attack": -4.0}
-"""Costs of fingerings meant for trills, fast passages, chromatic runs, attacks, loud or soft notes, there and
-whatever their rank; see `OUT_OF_PLACE_COST` for elsewhere."""
+"""Costs of fingerings for trills, fast passages, chromatic runs, attacks, loud or soft notes where they apply,
+regardless of rank; see `OUT_OF_PLACE_COST`.
+"""
 HELD_COST = 0.1
-"""A key left down that the note does not need (tag "held") costs this, whatever its rank."""
+"""Cost of an unneeded key that stays down (tag "held"), regardless of rank."""
 RARE_COST = 10.0
-"""Cost, beside its rank, of a fingering that players have heard of and hardly ever take (tag "rare")."""
+"""Cost of a fingering that players hardly ever use (tag "rare"), in addition to its rank."""
 
 
 @dataclass(frozen=True)

@@ -25,9 +25,11 @@ from app.score.model import Note
 from instrument_maps.model import Fingering, InstrumentMap
 
 GLIDE_AFTER = 0.4
-"""A glissando leaves a note after this share of it."""
+"""Share of a note after which a glissando begins to glide."""
 LEAST_HELD_S = 0.1
-"""A note that would end sooner after its vents are let go keeps them."""
+"""Least seconds of a note with closed vents; a note that would end sooner after its vents are released keeps them
+pressed.
+"""
 
 
 def plan_fingerings(

@@ -17,7 +17,7 @@ from app.plan.music.piece import LineTimes
 from instrument_maps.model import Fingering, InstrumentMap
 
 REMEMBERED = TRILL_NOTES
-"""Notes before the one that begins that are looked at: as many as tell a trill."""
+"""Number of previous notes that are considered, which is enough to detect a trill."""
 
 
 @dataclass(frozen=True)

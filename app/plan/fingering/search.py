@@ -13,7 +13,7 @@ from app.arrays import FloatArray, IntArray
 from app.plan.fingering.costs import TOLERANCE, FingeringProblem
 
 PHRASE_SILENCE_S = 0.25
-"""A silence this long divides phrases, for the comparison with the first choices."""
+"""Silence in seconds that separates phrases when they are compared with the first choices."""
 
 
 def best_path(problem: FingeringProblem) -> IntArray:

@@ -20,9 +20,9 @@ TREMOLO_S = 0.09
 GLISSANDO_STEPS = 3
 """Least number of semitones of a glissando: in one direction, each within `TRILL_S`, without a gap."""
 CHROMATIC_S = 0.3
-"""Longer steps belong to no chromatic run: there is time for the full fingering."""
+"""Longest step in seconds of a chromatic run; slower ones leave time for the full fingering."""
 TOUCHING_S = 0.01
-"""Notes with a shorter silence between them are slurred."""
+"""Silence in seconds below which two notes are slurred."""
 TOLERANCE = 1e-9
 
 

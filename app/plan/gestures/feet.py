@@ -26,19 +26,19 @@ from app.score.tempo import TempoMap
 
 FOOT_KINDS: Final = answered_by("feet")
 STEP_CHANCE, STEP_LEAST_S = 0.3, 12.0
-"""Chance of a step at the end of a phrase, and the least time since the last one."""
+"""Probability of a step at the end of a phrase, and least seconds since the last step."""
 STAYS_S = 2.5
-"""Least seconds for which a foot stays where it was put."""
+"""Least seconds for which a foot stays after a step."""
 TAP_CHANCE, TAP_OFTEN = 0.22, 1.7
-"""Chance that a player with the usual amount of tapping taps to a phrase; with other amounts it goes with this power
-of the amount."""
+"""Probability of tapping to a phrase for a player with the usual amount, and exponent of the amount for others."""
 TAP_PHRASE_S = 3.0
 """Shortest phrase in seconds that is tapped to."""
 TAP_S, TAP_SHARE, TAP_APART_S = 0.4, 0.6, 0.38
-"""Time before the beat at which toes rise, in seconds or as a share of the beat if that is less; beats closer than
-the third value are tapped every other time."""
+"""Time before the beat at which toes rise, as the lesser of seconds and a share of the beat, and seconds between beats
+below which only every other beat is tapped.
+"""
 HEEL_CHANCE, HEEL_WEIGHT = 0.55, 0.4
-"""Chance that a shift of this weight lifts the other heel."""
+"""Probability that a shift of weight lifts the other heel, and the least size of such a shift."""
 HEEL_AFTER_S, HEEL_LEAST_S, HEEL_MOST_S = 0.5, 1.4, 5.0
 CLEAR_S = 0.6
 """Seconds before and after a step during which a heel stays down."""

@@ -36,18 +36,21 @@ SHIFT_MEAN_S = 9.0
 SHIFT_LEAST_S = 3.0
 MOST_IN_SILENCE = 12
 CONTOUR_SEMITONES = 10.0
-"""Distance from the line's mean pitch at which the bell is as high or as low as it gets."""
+"""Distance in semitones from the line's mean pitch at which the bell reaches its highest or lowest position."""
 CONTOUR_STEP = 0.12
-"""Smaller differences of the bell's height are one gesture."""
+"""Differences of the bell's height (0..1) below this value are combined into one gesture."""
 VIGOUR_STEP = 1.4
 """Factor of the vigour within which loudness counts as unchanged."""
 ARCH, RELEASE, ARCH_BEATS = 0.15, 0.6, 4
-"""Rise of the bell to the climax of a phrase, the share of it by which it sinks at the phrase's end, and the beats
-that a phrase needs for it."""
+"""Rise of the bell to a phrase's climax, share of it by which the bell sinks at the phrase's end, and least length of
+such a phrase in beats.
+"""
 ARCH_LOUDNESS, ARCH_DOWNBEAT = 1.0, 0.1
-"""Weights of a climax besides the height of the bell: loudness above the phrase's mean, and the first beat of a bar."""
+"""Weights of loudness above the phrase's mean and of a bar's first beat in choosing the climax; the bell's height has
+1.
+"""
 ACCENT_LIFT, MOST_ACCENT_LIFT = 1.5, 0.4
-"""Rise of the bell with an accent, in proportion to its loudness, and the most."""
+"""Rise of the bell at an accent per unit of loudness, and greatest rise."""
 
 
 def in_order(kinds: tuple[Sequence[GestureEvent], ...]) -> tuple[GestureEvent, ...]:

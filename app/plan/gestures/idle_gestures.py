@@ -20,16 +20,18 @@ from app.plan.music.piece import NoteTimes, Piece, Seeds
 from app.score.model import Note
 
 LONG_REST_S: Final = 8.0
-"""In a shorter rest there is time to lower the instrument, and no more."""
+"""Length in seconds of rests from which players move at rest; a shorter one suffices only for lowering the
+instrument.
+"""
 SETTLE_S: Final = 1.3
 SETTLE_CHANCE: Final = 0.8
 AGAIN_CHANCE: Final = 0.3
-"""Instead of a further look the hands settle again."""
+"""Probability that the hands settle again instead of a further look."""
 LOOK_S: Final = (2.2, 3.6)
 LOOK_EVERY_S: Final = 3.5
-"""Mean seconds between two looks about in a rest."""
+"""Mean seconds between two looks around in a rest."""
 MOST_LOOKS: Final = 8
-"""Most looks about in one rest."""
+"""Greatest number of looks around in a rest."""
 COUNT_BARS: Final = 2
 COUNT_LEAST_BEATS: Final = 3
 COUNT_CHANCE: Final = 0.65
@@ -37,16 +39,16 @@ COUNT_CHANCE: Final = 0.65
 HELD_BEFORE_S: Final = 0.2
 """Seconds before the end of the last note at which the body comes to rest."""
 STILL_LOWERING_S: Final = 0.5
-"""Seconds of the instrument's way down after which the body moves again."""
+"""Seconds after the instrument begins to be lowered at which the body moves again."""
 LOOK_UP_S: Final = 1.7
-"""Seconds after the last note at which the eyes go up to the audience."""
+"""Seconds after the last note at which the eyes look up to the audience."""
 BOW_S: Final = 3.1
 """Seconds after the last note at which the bow begins."""
 BOW_LASTS_S: Final = 2.5
 APART_S: Final = 0.25
-"""No two bow at exactly the same time: they differ by up to this."""
+"""Greatest random delay in seconds of a bow, so that players do not bow simultaneously."""
 AFTER_S: Final = 0.2
-"""Least time that the performance goes on after the bow."""
+"""Least seconds for which the performance continues after the bow."""
 
 
 def in_long_rests(

@@ -25,21 +25,23 @@ LEAN_BACK, ACCENT, LOUD = Message("gesture.lean_back"), Message("gesture.accent"
 REST_S = 0.9
 """Silence in seconds that divides phrases, with or without a breath."""
 LONGEST_S = 12.0
-"""Longest lean; longer phrases are leant into in parts."""
+"""Length in seconds of the longest lean; longer phrases have several."""
 WHOLE_S = 4.0
-"""Length of a phrase from which the lean is full; a shorter phrase is leant into in proportion."""
+"""Length in seconds of a phrase with full leans; shorter ones have proportionally smaller leans."""
 SHORTEST_S = 1.2
 CLIMAX_FROM, CLIMAX_TO = 0.3, 0.8
-"""Range of the place of the greatest lean, in shares of a phrase."""
+"""Range of the position of the greatest lean, as a share of the phrase."""
 HEIGHT_SEMITONES = 12.0
-"""Height above the other notes that counts for the climax as much as the loudest note next to a silent one."""
+"""Semitones above the other notes that count as much for the climax as the difference between the loudest note and
+silence.
+"""
 LONG_SHARE = 0.15
 """Weight in the climax of each second of a note's length, two at most."""
 BACK_CHANCE = 0.2
-"""Chance that a phrase opens up: the trunk goes back to the climax instead of forward."""
+"""Probability that the trunk leans back to the climax instead of forward."""
 
 ACCENT_S = 1.1
-"""Length of an accent's motion at a slow tempo; at a quick one it is 1.6 beats."""
+"""Seconds of an accent's motion at a slow tempo; at a fast one it takes 1.6 beats."""
 ACCENT_BEATS = 1.6
 SHORTEST_ACCENT_S = 0.6
 ON_BEAT_S = 0.03
@@ -52,9 +54,9 @@ STRONG = 0.66
 CHANCE = 0.62
 LEAST_ACCENT = 0.2
 AFTER_BREATH = 0.6
-"""Factor on an accent right after a breath, which the trunk shows too; such an accent is also short."""
+"""Factor for an accent right after a breath, which moves the trunk too; such an accent is also shorter."""
 CUED_S = 0.35
-"""An entry that is cued has its nod."""
+"""Seconds around an entry with a cue in which no accent is generated, since the cue has a nod."""
 
 
 class Phrase(NamedTuple):

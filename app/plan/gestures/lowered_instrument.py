@@ -18,20 +18,20 @@ from app.plan.music.piece import NoteTimes, Piece, Seeds
 from app.score.model import Note
 
 LOWER_REST_S = 6.0
-"""A shorter rest does not take the instrument off the lips."""
+"""Length in seconds of rests from which the instrument is taken off the lips."""
 LOWER_S = 1.1
 RAISE_S = 1.2
 LOWERED_LEAST_S = 1.0
-"""Coming down is not worth it for less."""
+"""Least seconds for which the instrument is lowered."""
 AFTER_NOTE_S = 0.5
 BEFORE_BREATH_S = 0.2
 LOW_AT_START_S = 0.3
-"""Least time at rest before a player comes up for the first time."""
+"""Least seconds of rest before a player raises the instrument for the first time."""
 APART_S = 0.45
 """Largest random delay with which a player lowers the instrument, and raises it earlier: no two do it at the same
 moment."""
 HELD_S = 0.9
-"""After the last note the instrument stays where it is, as long as the sound hangs in the air."""
+"""Seconds after the last note for which the instrument stays up."""
 
 
 def lowered_spans(

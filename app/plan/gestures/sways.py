@@ -17,21 +17,21 @@ from app.plan.music.piece import NoteTimes, Piece, Seeds
 from app.plan.styles import amount_at
 
 SWING_S = 1.1
-"""The shortest half swing takes about this long, whatever the tempo: 1, 2, 4 ... beats of it."""
+"""Approximate seconds of the shortest half swing at any tempo: 1, 2, 4 ... beats."""
 STIR_S = 10.0
-"""Time before a note's beginning and after its end in which the body moves with the beat."""
+"""Seconds before a note's onset and after its end in which the body moves with the beat."""
 RESTING = 0.35
 """Size of the sway while not playing."""
 BLOCK = 4
-"""Number of the shortest swings for which a division is chosen at a time."""
+"""Number of shortest swings for which a division is chosen together."""
 LEAST_SIZE = 0.75
-"""Each of the shortest is smaller than chosen by up to this factor, so that no two are alike."""
+"""Least random factor for the size of the shortest swings, so that they differ."""
 FORMS: tuple[tuple[int, ...], ...] = ((4,), (2, 2), (2, 1, 1), (1, 1, 2), (1, 2, 1), (1, 1, 1, 1))
 """Divisions of a block of beats into swings."""
 CALM, LIVELY = (0.34, 0.36, 0.1, 0.1, 0.08, 0.02), (0.06, 0.34, 0.18, 0.16, 0.14, 0.12)
-"""Frequencies of the `FORMS` where the music is soft and calm, and where it is loud."""
+"""Probabilities of the `FORMS` in soft, calm music and in loud music."""
 SOFT, LOUD = 0.5, 1.4
-"""Vigours of the music at which `CALM` and `LIVELY` apply fully."""
+"""Vigours of the music at and below which `CALM`, and at and above which `LIVELY`, applies fully."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,11 +16,11 @@ from app.score.model import Note
 from instrument_maps.model import InstrumentMap
 
 EASY_TENSION = (0.3, 0.6)
-"""Tension at the two ends of the easy range; 0 and 1 at the ends of the range."""
+"""Tension at the two ends of the easy range; at the ends of the full range it is 0 and 1."""
 LOUD_TENSION = 0.15
 """Rise of the tension from mezzoforte to the loudest."""
 LONG_S = 6.0
-"""A note held this long costs as much effort as it can."""
+"""Length in seconds of a note with the greatest effort."""
 
 
 def tension_of(pitch: FloatArray, instrument: InstrumentMap) -> FloatArray:

@@ -19,15 +19,15 @@ from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 
 STEP_S = 0.01
-"""A vibrato of 7 Hz has fourteen of these."""
+"""Step in seconds of the sampled traces: a seventh of a second, one cycle of vibrato, has fourteen."""
 AROUND_S = 1.0
-"""Time by which the traces reach beyond the line."""
+"""Seconds by which the traces extend beyond the line."""
 AIR_S, EFFORT_S, SHIFT_S, LIPS_S = 0.08, 0.4, 0.12, 0.04
-"""Averaging times of a value: cheeks follow the air, a strain builds up, lips go from note to note, a vibrato."""
+"""Averaging times in seconds: of the cheeks after the air, of effort, of the change between notes, and of vibrato."""
 BITE_TENSION = 0.5
-"""Tension from relaxed teeth to a full bite."""
+"""Additional tension from relaxed teeth to a full bite."""
 BEND_TENSION, MOST_BEND_TENSION = 1.4, 0.3
-"""Tension by a small pitch bend, a whole tone (a vibrato of 30 cents is 0.15 of it), and by any."""
+"""Tension per whole tone of a small pitch bend (0.15 for a vibrato of 30 cents), and greatest additional tension."""
 
 
 def plan_traces(

@@ -26,40 +26,44 @@ from app.score.model import Note
 from instrument_maps.model import InstrumentMap
 
 TONGUE_S: Final = 0.0345
-"""Contact of the tongue before an attack, independent of tempo (Hofmann 2012)."""
+"""Seconds of the tongue's contact before an attack, independent of tempo (Hofmann 2012)."""
 SMEAR_M: Final = 0.04
-"""A slide that moves further than this under a slur smears, so trombonists tongue it softly: tongued here too."""
+"""Distance in metres of a slide's move under a slur above which the note is tongued softly, since it would smear."""
 
 SINGLE_BPM: Final = (132.0, 144.0)
-"""Quarters per minute at which the single strokes of sixteenths end: between these, by player."""
+"""Range of tempi, in quarters per minute, above which sixteenths are not single-tongued; the limit depends on the
+player.
+"""
 REED_FASTER: Final = 1.08
 """Factor by which single strokes on a reed may be faster than on brass."""
 REEDS: Final = frozenset({"single_reed", "double_reed"})
 LEAST_FAST_STEPS: Final = 2
-"""Two quick strokes in a row (one step) are made with the tip at any speed."""
+"""Number of consecutive fast steps from which double tonguing is used; two strokes (one step) are single at
+any speed.
+"""
 EVEN: Final = 0.12
-"""Steps differ by at most this share in an even run."""
+"""Relative difference of steps within an even run."""
 
 STRENGTHS: Final[dict[Articulation, float]] = {
     "tongued": 1.0, "staccato": 1.0, "accent": 1.25, "marcato": 1.4, "tenuto": 0.6
 }  # fmt: skip
-"""Size of a stroke of the tip by articulation."""
+"""Size of a stroke of the tongue's tip, by articulation."""
 BACK: Final = 0.5
-"""Size of a stroke of the back of the tongue: jaw and lips hardly move."""
+"""Size of a stroke of the tongue's back, which hardly moves jaw and lips."""
 SMEAR: Final = 0.6
-"""Size of the soft stroke that hides a slide's way."""
+"""Size of the soft stroke that hides a slide's move."""
 BEFORE_REST_S: Final = 0.5
-"""Sounding time from which on a note before a rest is not staccato: its written length is as short."""
+"""Sounding seconds from which a note before a rest is not staccato, since its written length is as short."""
 OF_MARK: Final[dict[str, Articulation]] = {
     "staccatissimo": "staccato", "staccato": "staccato", "tenuto": "tenuto", "accent": "accent", "marcato": "marcato"
 }  # fmt: skip
 """Articulation of a note with a mark."""
 WRITTEN: Final = "written:"
-"""Begins why a stroke is as it is where a mark says so."""
+"""Prefix of the reason for a stroke that follows a written mark."""
 BACK_IN: Final = {"double_tongue": 2, "triple_tongue": 3}
-"""Number of strokes of which the last is the back's."""
+"""Number of strokes in a group, the last of which is by the tongue's back."""
 MARCATO_GATE: Final = 0.8
-"""An accented note that ends before this share of the time to the next one is marcato."""
+"""Share of the time to the next note below which an accented note is marcato."""
 
 
 def plan_tongues(

@@ -16,17 +16,19 @@ from app.plan.music.piece import ControllerSteps, LineTimes
 from app.score.tempo import TempoMap
 
 BLOWS_FROM, STOPS_AT = 6.0 / 127.0, 2.0 / 127.0
-"""Pressure at which blowing begins, and the lower one at which it stops: a sensor's noise about zero is no breath."""
+"""Controller values 0..1 at which blowing begins, and the lower ones at which it ends, above a sensor's noise."""
 GASP_S = 0.12
-"""A shorter gap brings no air: the tongue, or a finger between two keys."""
+"""Gap in seconds below which no air is inhaled: tonguing, or a finger between two keys."""
 BREATH_S = 0.3
-"""A gap this long is a breath. A shorter one may be a detached note's end: breathed in only where air is needed."""
+"""Gap in seconds from which a breath is certain; a shorter one may end a detached note and is a breath only if air is
+needed.
+"""
 LATE_S = 0.15
-"""Most that a player may blow after a note's onset in the score."""
+"""Greatest seconds after a note's onset in the score at which the player begins to blow."""
 SILENT_SHARE = 0.5
-"""A curve shows breaths if it is at zero in at least this part of the rests."""
+"""Least share of the rests in which a curve is zero for its gaps to count as breaths."""
 LEAST_PLAYED_S = 0.03
-"""A note that loses its breath sooner was not blown at all."""
+"""Seconds of blowing below which a note was not blown."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,17 +12,19 @@ from app.plan.music.breath_controller import BreathEnvelope
 from app.plan.music.piece import MEZZOFORTE, LineTimes
 
 LOUDNESSES = (0.0, 0.26, 0.39, MEZZOFORTE, 0.76, 0.88, 1.0)
-"""Silence, pianissimo, piano, mezzoforte, forte, fortissimo, and as loud as can be: MIDI velocities 33, 49, 80 ..."""
+"""Loudness of silence, pianissimo, piano, mezzoforte, forte, fortissimo and the maximum: MIDI velocities 33,
+49, 80 ...
+"""
 VIGOURS = (0.1, 0.25, 0.5, 1.0, 1.4, 1.8, 2.0)
-"""Size of motions at each dynamic, in multiples of the usual one."""
+"""Size of motions for each of these dynamics, relative to mezzoforte."""
 AROUND_S = 1.0
-"""Seconds before and after a moment over which the loudness that a body follows is averaged."""
+"""Seconds before and after a moment over which loudness is averaged for the body's motion."""
 HELD_S = 0.5
-"""Length of the parts in which a longer note's loudness is examined, so that a crescendo within it shows."""
+"""Length in seconds of the sections in which a long note's loudness is examined, so that a crescendo shows."""
 ACCENT = 0.1
 """Difference in loudness (0..1) from the notes around that makes a note accented: 13 of 127 velocities."""
 ACCENT_NOTES = 3
-"""Notes before and after a note that are around it."""
+"""Number of adjacent notes before and after a note with which it is compared."""
 
 
 @dataclass(frozen=True, eq=False)

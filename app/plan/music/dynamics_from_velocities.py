@@ -21,18 +21,20 @@ from app.plan.music.velocity_ladders import DEFAULTS, LEVELS, MEZZOFORTE, MF
 
 _BETWEEN: Final[FloatArray] = (LEVELS[1:] + LEVELS[:-1]) / 2.0
 _LOUDEST_FROM: Final = 123.5 / 127.0
-"""Loudness from which on a velocity without a ladder is *fff*: hardly any music for winds asks for it."""
+"""Loudness above which a velocity of an unrecognised program is *fff*, which hardly any wind music contains."""
 UNMEANT_SPREAD: Final = 16.0
-"""Velocities between the 10th and 90th percentile of notes played equally loud (a standard deviation of 6)."""
+"""Difference of velocity between the 10th and 90th percentile of notes played equally loud (a standard
+deviation of 6).
+"""
 MEANT_SPREAD: Final = 32.0
-"""From here on the velocities are dynamics: two marks apart."""
+"""Difference of velocity from which velocities are dynamics: two marks apart."""
 
 MOST_OFTEN: Final = 0.3
 """Share of the notes from which a program's default velocity is the level without dynamics."""
 MOST_SHIFT: Final = 7.0
-"""Most velocities by which the middle of what is played moves towards mezzoforte: less than half a mark."""
+"""Greatest shift of velocities towards mezzoforte: less than half a mark."""
 USUAL_RANGE: Final = (49.0, 96.0)
-"""*Piano* to *forte*: the middle of a piece lies there, however hard its keys were struck."""
+"""Velocities of *piano* and *forte*, between which the middle of a piece is assumed."""
 
 
 class Velocities(NamedTuple):

@@ -19,9 +19,9 @@ from app.score.marks import Mark, Source
 from app.score.tempo import TempoMap
 
 STEP_S: Final = 0.05
-"""Steps of a loudness that changes within a note."""
+"""Step in seconds of a loudness that changes within a note."""
 ATTACK_S, FALL_S = 0.15, 0.25
-"""A sforzando stays at its loudest for the first, and comes down to the dynamic in force in the second."""
+"""Seconds for which a sforzando stays at its loudest, and in which it decreases to the current dynamic."""
 
 
 def dynamics_within(

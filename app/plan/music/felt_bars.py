@@ -18,22 +18,22 @@ from app.plan.music.notation import written_onsets
 from app.plan.music.piece import LineTimes, NoteTimes, Piece
 
 LEAST_NOTES = 24
-"""Fewer notes show no metre."""
+"""Number of notes below which the metre is unknown."""
 BASS_WEIGHT = 2.0
 """Weight of the lowest line; the others have 1."""
 LAST_WEIGHT = 0.1
-"""Weight of the last note of a line relative to all the others: pieces end on a strong beat."""
+"""Weight of a line's last note relative to all others, since pieces end on a strong beat."""
 GIVEN_MOST = 0.9
-"""Bar lines are doubted where their weight is less than this; all beats of a bar have 1 on average."""
+"""Weight of bar lines below which they are doubted; the beats of a bar have 1 on average."""
 BEST_LEAST = 1.5
 CLEAR = 1.3
-"""Factor by which the beat that bars begin on instead must outweigh every other, and at least `BEST_LEAST`."""
+"""Factor by which the actual first beats must outweigh all others, in addition to the minimum `BEST_LEAST`."""
 LONG_UNITS = 0.75
 """Length in beats from which notes begin on a beat unless they are syncopated."""
 LONG_NOTES = 8
-"""Fewer of them show no beat."""
+"""Number of long notes below which the beat is unknown."""
 OFF_BEAT_SHARE = 0.8
-"""Least share of the weight of long notes at one place between the given beats for the beats to be there."""
+"""Least share of the weight of long notes at one position between the given beats for the beats to be moved there."""
 
 
 def lowest(lines: Sequence[LineTimes]) -> tuple[bool, ...]:

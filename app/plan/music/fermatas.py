@@ -21,26 +21,26 @@ HELD_TEMPO: Final = 1.5
 LIVE_HELD_TEMPO: Final = 2.0
 """Least factor by which a held beat is slower, where the tempo was played and so is never steady."""
 LIVE_SPREAD: Final = 1.1
-"""A tempo whose beats differ by this factor was played, or is changing."""
+"""Ratio of beat lengths from which a tempo was played live or is changing."""
 MORE_S: Final = 0.2
-"""Least time by which it is longer than written: less is a lingering."""
+"""Least seconds by which a held beat is longer than written; less is a slight delay."""
 ONE_TEMPO: Final = 1.05
-"""One voice may move in it: beats within this factor are held by one tempo."""
+"""Ratio within which beat lengths belong to one held tempo, in which a voice may still move."""
 STANDS_OUT: Final = 1.25
-"""Least factor by which a held beat is slower than the beat before: the last beat of a ritardando is not held."""
+"""Least ratio of a held beat to the previous beat; the last beat of a ritardando is not held."""
 MOST_IN_A_ROW: Final = 4
-"""More long notes in a slow tempo are a slow passage."""
+"""Greatest number of consecutive held beats; more are a slow passage."""
 LONG_BEATS: Final = 2
-"""Least length of each of several in a row, in felt beats, or before a rest."""
+"""Least length in felt beats of each of several consecutive held notes, or of one before a rest."""
 BEFORE_BEATS: Final = 8
 AFTER_BEATS: Final = 4
-"""Beats whose median is the tempo before a fermata, and after it."""
+"""Number of beats whose median is the tempo before and after a fermata."""
 OTHER_TEMPO: Final = 1.15
 """Factor from which a tempo counts as a different one."""
 TOGETHER_BEATS: Final = 0.12
 """Distance in beats below which onsets are simultaneous, about the precision of players."""
 ROUNDING: Final = 1e-3
-"""Tempi in a file are whole microseconds."""
+"""Tolerance for tempi, which files round to whole microseconds."""
 
 
 class Fermata(msgspec.Struct, frozen=True):

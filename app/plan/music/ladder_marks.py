@@ -29,22 +29,28 @@ from app.plan.music.velocity_ladders import (
 )
 
 STROKES: Final = 5
-"""Number of equal notes around a single different one that make it no dynamic, in a line of more than four times as
-many notes."""
+"""Number of equal notes around a single different one from which that one is no dynamic, in lines of more than four
+times as many notes.
+"""
 UNMARKED: Final = 0.95
-"""This share of a part without dynamic marks has the default, or what articulations make of it."""
+"""Share of a part's notes with the default velocity, or with its changes by articulations, from which the part has no
+dynamic marks.
+"""
 RUN, HAIRPIN, SHARED, APART = 3, 6, 0.3, 4
-"""Levels are written, not played, where this share of the notes stands in runs of so many alike or so many in a row
-that grow or fade, or where they are so many velocities apart."""
+"""Levels are written, not played, if the third share of the notes is in runs of at least the first number of equal
+notes or in the second number of consecutive increases or decreases, or if they differ by the fourth value.
+"""
 
 _OWN_RANGE: Final = 6.0
-"""Advantage (logarithm of likelihood) with which another instrument's range must explain a part to be taken instead
-of its own; that of no instrument must explain a whole piece."""
+"""Least advantage in log likelihood for reading a part with another instrument's range; that of no instrument must
+explain a whole piece.
+"""
 _SET_RANGE, _SET_LEVELS, _SET_SHARE = 12.0, 3, 0.6
-"""By so much a range that a score sets itself must explain it better; so many levels, and so many of their notes, must
-be its marks exactly."""
+"""For a range set by the score: least advantage in log likelihood, least number of levels, and least share of their
+notes that match its marks exactly.
+"""
 _PASSED: Final = 0.1
-"""Share of the notes that stand at the end of a hairpin which leads to no mark."""
+"""Greatest share of notes at the end of a hairpin that leads to no mark."""
 
 
 def is_written(velocity: IntArray) -> bool:
@@ -179,18 +185,17 @@ def has_no_marks(name: str, written: Sequence[tuple[IntArray, int | None]], whol
 
 
 STRESS: Final = 12
-"""Addition to the velocity from which an articulation is an accent; a smaller one is a staccato's."""
+"""Increase of velocity from which an articulation is an accent; a smaller one is a staccato's."""
 _ACCENT: Final = 0.16
 """Loudness that an accent adds, 0..1: about a mark."""
 _CHANGE_COST, _FURTHER_COST = 0.8, 0.15
-"""Cost of a change of level, and of each mark more that it goes."""
+"""Cost of a change of level, and of each further mark it skips."""
 _NEAR_COST, _OFF_COST, _STEP_COST, _MOST_COST = 0.6, 1.2, 0.6, 3.0
-"""Costs of a note whose velocity is next to its dynamic's step, or off it, for every further dynamic away, and the
-most."""
+"""Costs of a velocity one step from its dynamic, two steps from it, for each further step, and the greatest cost."""
 _ARTICULATION_COST, _ADDED_COST = 0.25, 0.03
-"""Cost of a note that an articulation makes louder, and of each velocity that this adds."""
+"""Cost of a note that an articulation makes louder, and per velocity step of the increase."""
 _MARK_COST = _CHANGE_COST
-"""Cost of a note with the velocity of a mark that is read as an articulation of one without a mark, at least."""
+"""Least cost of reading a mark's velocity as the articulation of an unmarked note."""
 
 
 @lru_cache(maxsize=64)

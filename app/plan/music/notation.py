@@ -11,9 +11,9 @@ from app.plan.music.piece import EPSILON, TOUCHING_GATE, LineTimes, Piece, gaps_
 from app.plan.music.rests import AUDIBLE_S, SILENT_S, are_audible, are_certain
 
 WRITTEN_SHARE = 0.9
-"""Share of notes on fractions of a quarter from which a file is taken as written and not played; see `PLAYED_LEAST`."""
+"""Share of notes on fractions of a quarter from which a file is written instead of played; see `PLAYED_LEAST`."""
 PLAYED_LEAST = 4
-"""Number of notes off those fractions below which a file is taken as written all the same."""
+"""Number of other notes below which a file counts as written anyway."""
 DIVISIONS = ((1,), (2,), (3, 4), (6, 8), (12,))
 """Divisions of a quarter, the simplest first."""
 RARE = 4
@@ -22,35 +22,36 @@ RARE = 4
 FARTHER = 4.0
 """Factor on the distance of a note from a rare fraction of a quarter."""
 NEAREST = 1.0 / 24.0
-"""Quarters within which there is always a place of the finest division."""
+"""Greatest distance in quarters of any time from the finest division."""
 EARLY_OR_LATE_S = 0.045
-"""Distance of a note's beginning from its place."""
+"""Greatest distance in seconds of a note's onset from its written position."""
 EARLY_RELEASE_S = 0.08
 """Seconds by which a note may end sooner than written."""
 RELEASE_SHARES = (0.1, 0.22)
 """Share of the time to the next onset by which a note may end sooner than written, if that is more than
 `EARLY_RELEASE_S`: the least, and the most, where the line's notes usually do."""
 RELEASE_GATES = (0.7, 1.02)
-"""Parts of the time to the next onset that notes without a rest after them sound for."""
+"""Shares of the time to the next onset for which notes without a rest after them sound."""
 EARLIEST_PERCENT = 10.0
-"""Percentile of these parts that stands for an early release."""
+"""Percentile of these shares that represents an early release."""
 LEAST_RELEASED = 8
 """Number of such notes below which the line's releases are unknown."""
 RELEASE_MARGIN = 1.2
-"""A note may be released earlier than nine of ten by this factor."""
+"""Factor by which a note may be released earlier than nine of ten."""
 RELEASE_NOTE_SHARE = 0.5
 """Largest share of a note's sound by which it may end sooner than written."""
 LATE_RELEASE = 0.05
 """Quarters by which a note may end later than written."""
 SLURRED_SHARE = 0.1
-"""Least share of notes that meet the next one in a line with played onsets; fewer do by chance."""
+"""Least share of notes without a gap in a line with played onsets; smaller shares occur by chance."""
 STEADY_QUARTERS = 24
-"""Quarters before and after a place whose median is the tempo of the score there: a shorter ritardando does not
-count."""
+"""Number of quarters before and after a position whose median is the score's tempo, so that short ritardandi do not
+count.
+"""
 PLACES = 48
-"""Places of a quarter that are distinguished, however finely a file counts."""
+"""Number of distinguished positions within a quarter, whatever the file's resolution."""
 SHORTEST_REST = 0.2
-"""Quarters of silence below which no score writes a rest."""
+"""Silence in quarters below which no score writes a rest."""
 
 
 def written_onsets(

@@ -13,7 +13,7 @@ from app.score.model import Note
 from app.score.tempo import TempoMap
 
 LEGATO_OVERLAP_S = 0.030
-"""Players of keyboards and wind controllers hold a note this long into the next: that is legato, no mistake."""
+"""Overlap in seconds of two notes that is legato on keyboards and wind controllers, and no error."""
 
 
 class Single(NamedTuple):

@@ -25,7 +25,7 @@ from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 
 EPSILON = 1e-6
-"""Rounding of air summed over an hour of notes, seconds."""
+"""Tolerance in seconds for the rounding of air summed over an hour of notes."""
 
 
 def marked_loudness(loudness: FloatArray) -> FloatArray:
@@ -208,17 +208,19 @@ class LineTimes(NoteTimes):
 
 
 BEFORE_FIRST_TICK = 1 << 40
-"""Silence before the first note of a line, in ticks: longer than any threshold."""
+"""Length in ticks of the silence before a line's first note: longer than any threshold."""
 LEAP_SEMITONES = 5
-"""A leap may divide phrases."""
+"""Size in semitones of a leap that may divide phrases."""
 
 
 TOUCHING_GATE = 0.97
-"""From this share of the time to the next onset on a note touches the next one; sequencers write 98 to 100 %."""
+"""Share of the time to the next onset from which a note touches the next one; sequencers write 98 to 100 %."""
 DETACHED_GATES = (0.80, 0.955)
-"""Lengths that notation programs give a note that is neither slurred nor short: 80 to 95 %, by program and player."""
+"""Shares of the written length that notation programs play of notes that are neither slurred nor short: 80 to 95 %,
+depending on the program and player.
+"""
 DETACHED_SHARE = 0.1
-"""Share of notes detached so from which those that touch are meant to be slurred."""
+"""Share of notes shortened in this way above which notes without a gap are intentionally slurred."""
 
 
 def slurs_next(onset_tick: IntArray, end_tick: IntArray) -> BoolArray:
@@ -238,10 +240,11 @@ def slurs_next(onset_tick: IntArray, end_tick: IntArray) -> BoolArray:
 
 
 STACCATO_GATE = 0.6
-"""Share of the time to the next note up to which a note is staccato; notation programs play it by half. See
-`STACCATO_QUARTERS`."""
+"""Share of the time to the next note up to which a note is staccato; notation programs play half. See
+`STACCATO_QUARTERS`.
+"""
 STACCATO_QUARTERS = 1.0
-"""Quarters to the next note within which `STACCATO_GATE` applies: later, a rest follows."""
+"""Quarters to the next note within which `STACCATO_GATE` applies; beyond, there is a rest."""
 
 
 def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> BoolArray:

@@ -16,13 +16,13 @@ from app.score.model import Note
 from app.score.tempo import TempoMap
 
 WRITTEN_BENDS: Final = {"scoop": -1.0, "plop": 1.0, "fall": -1.5, "doit": 1.5}
-"""Whole tones of bends that are written: into the start of a note, and away at its end."""
+"""Size of written bends in whole tones: into the start of a note, and away at its end."""
 _INTO: Final = ("scoop", "plop")
 _INTO_S, _AWAY_S = 0.15, 0.35
-"""Time that bends take, at most half of the note."""
+"""Seconds of bends into and away from a note, at most half of the note."""
 _STEPS: Final = 8
 LEAST_BEND: Final = 0.3
-"""Whole tones between a note's end and its middle: 60 cents, which is twice a wide vibrato."""
+"""Least difference in whole tones between a note's end and middle for a bend: 60 cents, twice a wide vibrato."""
 
 
 def bends(notes: Sequence[Note], bend: ControllerSteps | None) -> list[tuple[str, ...]]:

@@ -15,29 +15,29 @@ from app.arrays import BoolArray, FloatArray, IntArray, rows_of
 from app.plan.music.piece import EPSILON, LineTimes
 
 AUDIBLE_S = 0.3
-"""Length of a silence that is a rest after a long note, whatever the notes around do."""
+"""Silence in seconds that is a rest after a long note, regardless of the surrounding notes."""
 LONG_NOTE_S = 0.8
 """Sounding time in seconds of a long note, which is never played staccato."""
 SILENT_S = 0.75
-"""Length of a silence that is a rest after any note: no staccato is as slow."""
+"""Silence in seconds that is a rest after any note, longer than in any staccato."""
 LEAST_BEATS = 0.1
-"""Felt beats of silence below which a score has no rest: the end of a note before a grace note."""
+"""Silence in felt beats below which a score has no rest, as before a grace note."""
 SAME_STEP = 0.05
-"""Steps of a run, the longest and the shortest, differ by less of the shortest: they are written ones."""
+"""Greatest relative difference of the steps of a run, which are written equal."""
 SAME_GATE = 0.12
-"""Parts of the step that sound (0..1) which differ by less are the same articulation."""
+"""Greatest difference of sounding shares (0..1) for notes of the same articulation."""
 RUN_NOTES = 3
-"""Number of notes in a row that show an articulation; a pair may be two notes with a rest each."""
+"""Number of consecutive notes that show an articulation; two may be notes with a rest each."""
 SLOW_S = 0.5
-"""Length of the silences between notes from which a run needs `SLOW_RUN_NOTES`."""
+"""Silence in seconds between notes from which a run needs `SLOW_RUN_NOTES`."""
 SLOW_RUN_NOTES = 8
-"""Notes of a run with long silences: a few notes may have a rest each."""
+"""Number of notes in a run with long silences; fewer may have a rest each."""
 HABIT_SHARE = 0.5
-"""Part of a line's notes that makes what they do its habit."""
+"""Least share of a line's notes with the same articulation for a habit."""
 HABIT_NOTES = 6
-"""The least number of notes that make one."""
+"""Least number of notes for a habit."""
 HABIT_GATE = 0.04
-"""Difference between parts of a step within which a habit is kept: more closely than the articulation of a run."""
+"""Difference of sounding shares within a habit, smaller than within the articulation of a run."""
 
 
 class Rests(NamedTuple):

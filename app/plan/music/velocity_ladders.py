@@ -12,17 +12,17 @@ from app.arrays import FloatArray
 DYNAMICS: Final = (
     ("ppp", 16), ("pp", 33), ("p", 49), ("mp", 64), ("mf", 80), ("f", 96), ("ff", 112), ("fff", 126)
 )  # fmt: skip
-"""Dynamic marks and the velocities that stand for them here; they are MuseScore's."""
+"""Dynamic marks with their velocities, as in MuseScore."""
 COMMON: Final = ("pp", "p", "mp", "mf", "f", "ff")
-"""Marks that most music has."""
+"""Marks that occur in most music."""
 MARKS: Final = {mark: index for index, (mark, _) in enumerate(DYNAMICS)}
 MF: Final = MARKS["mf"]
 MEZZOFORTE: Final = 0.63
 """Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
 LEVELS: Final[FloatArray] = np.array([MEZZOFORTE if mark == "mf" else at / 127.0 for mark, at in DYNAMICS])
-"""(8,): loudness of each mark, the softest first."""
+"""Loudness (8,) of each mark, softest first."""
 DEFAULTS: Final = frozenset({64, 80, 90, 96, 100, 127})
-"""Velocities that programs write where the music has no dynamics."""
+"""Velocities that programs write for music without dynamics."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Ladder:
 
 LILYPOND: Final = "LilyPond"
 UNMARKED_STEP: Final = ""
-"""The step of notes without a mark: the mark before them goes on."""
+"""Step of notes without a mark, for which the previous mark applies."""
 _LILYPOND_VOLUMES: Final = (
     ("ppp", 0.25), ("ppp", 0.34), ("ppp", 0.42), ("pp", 0.49), ("p", 0.55), ("mp", 0.61), ("mf", 0.68),
     (UNMARKED_STEP, 90 / 127), ("f", 0.75), ("ff", 0.80), ("fff", 0.85), ("fff", 0.92), ("sf", 1.0),
@@ -72,11 +72,11 @@ SET_RANGES: Final = {
     for index, (low, high) in enumerate((low, high) for low in range(8) for high in range(low + 5, 11))
     if (low / 10, high / 10) not in {(0.0, 1.0), *LILYPOND_RANGES.values()}
 }
-"""LilyPond's ranges that a score sets itself (``midiMinimumVolume``), as programs from 128 on."""
+"""Ranges that a score sets itself in LilyPond (``midiMinimumVolume``), as programs from 128."""
 _DEFAULT_VOLUME: Final = 90
-"""Velocity of a voice that LilyPond makes out of no instrument's staff and that has no mark."""
+"""Velocity of a LilyPond voice without instrument and mark."""
 _UNTIL: Final = 0.225
-"""A hairpin to no mark goes so far: 0.25 of the range above a tenth of it (``lily/dynamic-performer.cc``)."""
+"""Change over a hairpin without a mark: 0.25 of the range from its tenth (``lily/dynamic-performer.cc``)."""
 _LILYPOND_ADDED: Final = (4, 6, 20, 24, 26, 40)
 """``ly/script-init.ly``: staccato, staccatissimo, accent, accent with either, marcato."""
 
@@ -118,7 +118,7 @@ _BY_NAME: Final = {ladder.name: ladder for ladder in _FIXED}
 SHARES: Final = {
     "ppp": 0.01, "pp": 0.07, "p": 0.22, "mp": 0.13, "mf": 0.2, "f": 0.22, "ff": 0.11, "fff": 0.02, "sf": 0.02, "": 0.2
 }  # fmt: skip
-"""Frequencies of the marks, about."""
+"""Approximate frequencies of the marks."""
 
 
 def ladder_of(name: str, program: int | None) -> Ladder:

@@ -17,18 +17,18 @@ ROW_OF_DYNAMIC: Final[dict[str, float]] = {
 }  # fmt: skip
 """Row in `DYNAMICS` of each mark that holds until the next one."""
 FORTE_THEN: Final = {"fp": "p", "sfp": "p", "ffp": "p", "mfp": "p", "sfzp": "p", "sfpp": "pp", "pf": "f"}
-"""Marks of which the first part is one note's, with the dynamic that holds after it."""
+"""Marks that apply to one note, with the dynamic that follows."""
 DYNAMIC_TEXTS: Final = (*ROW_OF_DYNAMIC, *FORTE_THEN, *sorted(SFORZANDI))
-"""Marks that have a meaning."""
+"""Marks with a known meaning."""
 FORTE: Final = ROW_OF_DYNAMIC["f"]
 LOUDER_ROWS: Final = 1.5
-"""Rows of `DYNAMICS` by which a sforzando is louder than the dynamic in force."""
+"""Rows of `DYNAMICS` by which a sforzando is louder than the current dynamic."""
 NEXT_MARK_QUARTERS: Final = 1.0
-"""A dynamic that comes so soon after a hairpin is where the hairpin leads."""
+"""Quarters after a hairpin within which a dynamic is the hairpin's goal."""
 HAIRPIN_ROWS: Final = 1.0
 """Rows by which a hairpin without a goal changes the dynamic."""
 MOST: Final = float(len(LEVELS) - 1)
-"""The row of the loudest."""
+"""Row of the loudest dynamic."""
 
 
 class WrittenDynamics(NamedTuple):

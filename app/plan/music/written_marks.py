@@ -18,7 +18,7 @@ from app.score.model import Note
 DIVIDING: Final = frozenset({"staccato", "staccatissimo", "tenuto", "marcato"})
 """Marks that divide a slur: its notes are tongued softly."""
 OF_STROKE: Final = ("staccatissimo", "staccato", "tenuto", "accent", "marcato")
-"""Marks that say how a note is struck, the strongest last."""
+"""Marks of articulation, the strongest last."""
 
 
 class WrittenFingerings(NamedTuple):
@@ -26,9 +26,9 @@ class WrittenFingerings(NamedTuple):
 
     label: tuple[str, ...] = ()
     by_hand: tuple[bool, ...] = ()
-    """True where a hand wrote it."""
+    """True for each note whose fingering the user set."""
     glides: tuple[bool, ...] = ()
-    """True where a glissando leads to the next note."""
+    """True for each note with a glissando to the next one."""
 
 
 NO_FINGERINGS: Final = WrittenFingerings()

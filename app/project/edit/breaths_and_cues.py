@@ -28,7 +28,7 @@ from app.project.model import Project
 from app.score.model import Note
 
 CATCH_S = 0.3
-"""A breath added where notes touch is this long."""
+"""Length in seconds of a breath added between notes that touch."""
 
 
 def add_breath(project: Project, plan: PlayerPlan, tick: int, kind: BreathKind = "breath") -> Edited:

@@ -45,18 +45,18 @@ AMOUNTS: Final[Mapping[type[Event], tuple[str, float]]] = {
     GestureEvent: ("amount", -1.0),
     ExpressionEvent: ("strength", 0.0),
 }
-"""Field that holds an event's amount, and the least it may be."""
+"""Field with an event's amount, and least value of the field, by type of event."""
 _SPOKEN_OF: Final[Mapping[type[Event], tuple[type[Correction], ...]]] = {
     GestureEvent: (AddGesture, ChangeGesture),
     ExpressionEvent: (AddExpression, ChangeExpression),
     PoseEvent: (PoseCorrection,),
     StyleEvent: (PlayStyle,),
 }
-"""The corrections that speak of events."""
+"""Corrections that refer to events, by type of event."""
 _GIVEN_BACK: Final = ("fingering", "embouchure")
-"""Kinds of events that are given back with their notes."""
+"""Kinds of events that are reset together with their notes."""
 _KEPT: Final = 1e-4
-"""Amounts and fades are kept as exactly as this."""
+"""Resolution to which amounts and fades are stored."""
 
 
 # Changing

@@ -17,7 +17,7 @@ from app.project.recording import BeatPin, Doubt
 from app.score.beat_following import SURE, Following, UnmatchedSpan
 
 _LEAST_TIME: Final = 0.7
-"""Least share of the usual time of bars: with less, the recording leaves some out."""
+"""Least share of the usual duration of bars; a smaller one means that the recording omits some."""
 
 
 def follow_recording(project: Project, following: Following, path: str | os.PathLike[str]) -> Project:

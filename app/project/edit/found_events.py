@@ -16,14 +16,14 @@ from app.project.model import Project
 from app.score.marks import MARK, Mark
 
 Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent | StyleEvent
-"""Events with a place that the user may change."""
+"""Events with a place that the user can change."""
 
 Origin: TypeAlias = Literal["score", "hand"]
-"""Writer of a mark."""
+"""Origin of a mark: the score, or the user."""
 OWN: Final = "own-"
 """Prefix of the names of added events."""
 _OF_NOTES: Final = ("fingering", "embouchure", "tongue", *BREATH_KINDS, "cue")
-"""Kinds of events whose id ends with that of a note."""
+"""Kinds of events whose id ends with the id of a note."""
 
 
 def corrections_of(project: Project, player_id: str, event_ids: Iterable[str]) -> tuple[Correction, ...]:

@@ -18,7 +18,7 @@ from app.score.marks import MARK_KINDS, Mark
 from app.score.model import Part
 
 Ends: TypeAlias = Callable[[str, str, str], tuple[str, str]]
-"""Makes new ends (note ids) of a mark's kind and ends."""
+"""Function from a mark's kind and its two ends (note ids) to new ends."""
 
 
 def drawn_in(project: Project, gone: Collection[str]) -> Project:

@@ -34,9 +34,9 @@ EXCLUDING: Final[tuple[frozenset[str], ...]] = (
     frozenset({"slur", "non_legato"}),
     frozenset({"crescendo", "diminuendo"}),
 )
-"""Kinds of which a note has one at most: writing one takes the others away."""
+"""Groups of kinds of which a note has at most one; adding one removes the others."""
 AFTER: Final = frozenset({"breath", "caesura"})
-"""Kinds that stand after what was chosen."""
+"""Kinds that are placed after the selected note."""
 
 
 class Marked(NamedTuple):

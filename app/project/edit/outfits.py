@@ -17,7 +17,7 @@ from app.project.value_checks import COLOUR
 from app.rig.people.wardrobe import TINTS, OutfitChoice, Tint, wardrobe
 
 OWN: Final = "own"
-"""Word for clothes of one's own."""
+"""Choice for the character's own clothes."""
 P = TypeVar("P", bound=Player | Dancer)
 
 

@@ -17,11 +17,11 @@ from app.project.recording import AudioTrack, BeatPin
 from app.score.tempo import TempoChange
 
 _REACH_BEATS: Final = 8
-"""Distance, in beats, from which on beats stay unless a pin is nearer."""
+"""Distance in beats from a moved beat beyond which beats stay, unless a pin is nearer."""
 _STEEPEST: Final = 0.7
-"""Largest share of the time between beats that is taken next to a moved one."""
+"""Greatest change of a beat's duration next to a moved one, as a share of the duration."""
 _LEAST_S: Final = 0.02
-"""Least distance of two pins in the recording, in seconds."""
+"""Least distance in seconds of two pins in the recording."""
 
 
 def recording_second(project: Project, tick: int) -> float:

@@ -46,7 +46,7 @@ class _Placed:
 
 
 BEFORE: Final = ""
-"""The id of what the part was before the first take, where a take is asked for."""
+"""Id that stands for the part before the first take."""
 _PLACED: Final[IdentityCache[_Placed]] = IdentityCache(64)
 _CURVES: Final[IdentityCache[tuple[ControllerCurve, ...]]] = IdentityCache(64)
 

@@ -42,7 +42,7 @@ from metadata.library import HABITS
 P = TypeVar("P", bound=Player | Dancer)
 
 HABIT_CHANCES: Final = (0.7, 0.3)
-"""Chances of a first and a second habit, where players are randomised as far apart as is sensible."""
+"""Probabilities of a first and a second habit in the widest random variation of players."""
 
 
 def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:

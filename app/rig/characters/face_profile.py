@@ -11,14 +11,15 @@ from app.arrays import BoolArray, FloatArray, IndexArray
 
 STEPS: Final = 40
 BREAK = 0.2
-"""A profile that goes back for more than this share of its height is broken there: below is no face."""
+"""Greatest recess of a profile, relative to its height, within a face; at a larger one the face ends."""
 CHIN_SHARE = 0.15
-"""Lowest part of a face, up to the eyes, which is the chin."""
+"""Lowest part of a face, relative to its height up to the eyes, which is the chin."""
 NOSE_OUT, NOSE_BASE, NOSE_LONG = 0.08, 0.6, 0.15
-"""A nose stands out from the chin by so much of that height, and ends where so much of it is lost, not farther below
-its tip than so much: a face that is round altogether has none."""
+"""Proportions of a nose relative to that height: distance in front of the chin, share of it that is lost at the nose's
+base, and greatest distance of the base below the tip. A round face has no nose.
+"""
 MOUTH_SHARE, MOUTH_SPREAD = 0.63, 0.09
-"""From the eyes down to the chin, in so many steps, the lips meet after this share, give or take the other one."""
+"""Position of the lips between eyes and chin, as a share, and its tolerance."""
 
 
 def lowest_of_face_m(profile: FloatArray, forward: BoolArray, joint_m: float) -> float:

@@ -11,7 +11,7 @@ from app.rig.characters.bone_placements import world_placements
 from app.rig.figure import Figure
 
 AT_ONE_PLACE: Final = 0.01
-"""Bones that are nearer to one another than this part of the forearm begin at one place."""
+"""Distance, relative to the forearm, below which bones begin at the same place."""
 
 
 def bones_beside_hands(figure: Figure, bones: Mapping[str, int]) -> dict[int, str]:

@@ -21,13 +21,15 @@ from app.errors import FileError
 from app.formats.packed_arrays import PackedArrays, read_arrays
 
 AGES, HALVES, ENDS = (-1.0 / 3.0, 0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0), (0.0, 0.5, 1.0), (0.0, 1.0)
-"""Values at which shapes stand: newborn, baby, child (about 11 years), young (25), old (90); and others."""
+"""Phenotype values of the stored shapes: ages newborn, baby, child (about 11 years), young (25) and old (90); three
+values; and two values.
+"""
 YEARS, GROWN = (11.0, 25.0, 90.0), (1.0 / 3.0, 2.0 / 3.0, 1.0)
-"""Years of age, and the ages of phenotypes that they are."""
+"""Ages in years, and the corresponding phenotype values."""
 SKIN_VERTICES: Final = 13380
-"""The base mesh has its skin first; what follows carries clothes, teeth and eyes."""
+"""Number of skin vertices, which come first in the base mesh, before those for clothes, teeth and eyes."""
 ROWS = 32
-"""Directions that are summed at once: all of them as floating point would take 32 MB."""
+"""Number of shapes summed at a time; all of them in floating point would take 32 MB."""
 
 
 class Phenotype(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -104,7 +106,7 @@ class BodyShapes:
 
 
 STEP_M: Final = 8e-6
-"""Unit of the changes of one place in the file."""
+"""Unit in metres of the displacements in the file."""
 
 
 @cache

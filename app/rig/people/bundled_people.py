@@ -21,7 +21,7 @@ from app.rig.people.moved_joints import arm_after_m
 from app.rig.people.person import Person, PersonName, hair_styles, originals, read_person, skins
 
 PEOPLE_VERSION = 1
-"""Version of the way bodies follow from phenotypes: holds fitted to people of another one are fitted again."""
+"""Version of the method that makes bodies from phenotypes; grips for people of another version are fitted again."""
 
 
 @cache

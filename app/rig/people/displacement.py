@@ -15,9 +15,13 @@ from app.rig.model import Character
 
 NEIGHBOURS = 8
 NEAR_M = 0.0003
-"""Skin lies on its own vertex of the base mesh, which counts alone; far from there all neighbours count alike."""
+"""Distance in metres up to which only the nearest vertex of the base mesh counts; at larger distances all neighbours
+count equally.
+"""
 ANCHORS, REACH_M, BEYOND = 16, 0.025, 1e-3
-"""Places of the face whose own change turns and stretches its shapes, how far one counts, how much no change does."""
+"""Number of points whose displacement rotates and stretches the face's shapes, distance in metres within which they
+count, and weight of no displacement.
+"""
 
 
 @dataclass(frozen=True, eq=False)

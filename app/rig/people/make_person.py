@@ -25,14 +25,14 @@ from app.rig.people.person import Color
 from app.rig.skeleton import ancestors
 
 HAND_SHARE = 0.5
-"""Skin that goes with a hand by this weight or more is a hand's."""
+"""Least weight of skin that belongs to a hand."""
 LID_M = (0.002, 0.008)
-"""Lids keep their distance from the eyeball up to the first height over it, and none from the second on."""
+"""Heights in metres above the eyeball up to which lids keep their distance from it, and from which they do not."""
 SKIN = "body"
-"""The mesh whose shapes make the face."""
+"""Mesh with the shapes of the face."""
 SKIN_MATERIAL: Final = "skin"
 NEUTRAL_MEANS: Final[Mapping[str, float]] = {"skin": 0.70, "hair": 0.32, "brows": 0.32, "iris": 0.35, "shirt": 0.80}
-"""Means of the neutral textures of materials: a colour divided by it tints them (resources/build/README.md)."""
+"""Means of the neutral textures of materials, by which a colour is divided to tint them (resources/build/README.md)."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,9 +25,9 @@ Tint = Literal["main", "second", "accent"]
 TINTS: Final[tuple[Tint, ...]] = ("main", "second", "accent")
 """Colours of an outfit that can be chosen."""
 OWN_CLOTHES: Final = ""
-"""Id of what a person wears without an outfit."""
+"""Id of the character's own clothes, without an outfit."""
 _HEADER: Final = 20
-"""Bytes of a glTF binary before its document."""
+"""Number of bytes before the document in a binary glTF file."""
 
 
 class OutfitChoice(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):

@@ -13,7 +13,7 @@ from app.formats.scene import Material
 from app.rig.mesh import Mesh
 
 Shares: TypeAlias = Sequence[tuple[int, float]]
-"""Bones and their weights."""
+"""Bones with their weights."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,21 +15,21 @@ from app.rig.supports.model import StrapLeg
 from app.rig.supports.taut_string import PosedTrunk, TautString, taut_string
 
 OVER_M = 0.0025
-"""Height of a band over clothes: they give a little more when a trunk bends than the band does."""
+"""Height in metres of a band over clothes, which yield a little more than the band when the trunk bends."""
 _ON_BODY, _FREE = 30, 9
-"""Rings of a band, on the body and beyond."""
+"""Number of rings of a band on the body, and beyond it."""
 _SMOOTHED = 3
 _EVEN = 7
-"""Rings over which a band bends evenly: an odd number."""
+"""Number of rings over which a band is smoothed; odd."""
 _MOST_JOINTS = 4
 _GIVES_WAY = 1.35
-"""A band goes out by so much more, since it lies beside the string by which that was found."""
+"""Factor for moving a band outwards, since it lies beside the string for which the distance was found."""
 _CLEAR_M = 0.007
-"""Room between a body and a band that goes to a lowered instrument."""
+"""Distance in metres between the body and a band that leads to a lowered instrument."""
 _LEAST_DROP = 0.9
-"""A band is laid over a body at least as steeply: so far down for the way ahead."""
+"""Least downward distance of a band on a body, relative to the forward distance."""
 _MOST_ON_BODY = 0.52
-"""Share of a leg that goes with the clothes; beyond, a band slides over a chest."""
+"""Greatest share of a strap's leg that moves with the clothes; the rest slides over the chest."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,9 +23,9 @@ _FABRIC, _STEEL, _RUBBER = range(3)
 _HALF_WIDTH_M, _DEPTH_M, _THICK_M = 0.205, 0.385, 0.052
 _TUBE_M = 0.0105
 _BACK_M = (0.215, 0.405)
-"""Lower and upper edge of the back, over the seat."""
+"""Heights in metres of the lower and upper edge of the back above the seat."""
 _LEAN = 0.16
-"""Lean of the back, along over up."""
+"""Slope of the back: backward distance per height."""
 _ROUND = 28
 
 

@@ -11,9 +11,11 @@ from app.rig import quaternion
 from app.rig.supports.model import Strap, StrapLeg, Supports
 
 LETS_GO = (1.4, 1.8)
-"""A strap is hooked in up to the first of these multiples of its reach, and hangs beyond the second."""
+"""Distances of the instrument, as multiples of the strap's reach, up to which the strap is hooked in and beyond which
+it hangs down; it changes gradually between.
+"""
 _MOST_SLACK = 0.35
-"""A slack leg bows by no more than this share of its length."""
+"""Greatest sag of a slack leg, as a share of its length."""
 
 
 def support_matrices(supports: Supports, joints: FloatArray, instruments: Sequence[FloatArray]) -> FloatArray:

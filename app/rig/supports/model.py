@@ -9,8 +9,9 @@ from app.arrays import FloatArray
 from app.rig.mesh import Mesh
 
 BoneRole: TypeAlias = Literal["still", "joint", "top", "middle", "end", "cord"]
-"""A bone keeps its place, follows a joint, or is one of a strap: at the body, in the middle and at the end of a leg, or
-the cord between its legs and the instrument."""
+"""Behaviour of a bone: fixed; following a joint; or part of a strap (at the body, in the middle or at the end of a leg,
+or the cord between the legs and the instrument).
+"""
 
 
 @dataclass(frozen=True, eq=False)

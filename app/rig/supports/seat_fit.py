@@ -14,10 +14,10 @@ _SITTING = ("hips", "leftUpperLeg", "rightUpperLeg")
 _LEANING = ("hips", "spine", "chest", "upperChest")
 _LEAST_SHARE = 0.6
 _CLEAR_M = 0.045
-"""Room between a back at rest and the chair's: players do not lean back."""
+"""Distance in metres between a player's back and the chair's, since players do not lean back."""
 _SIZES = (0.55, 1.15)
 _SEAT_SHARE = 0.75
-"""Share of the thigh, from behind, that the seat bears."""
+"""Share of the thigh, from behind, that rests on the seat."""
 
 
 def chair_fit(character: Character, joints: FloatArray) -> ChairFit:

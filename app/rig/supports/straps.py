@@ -26,9 +26,9 @@ _MATERIALS: Final = (
 _WEB, _LEATHER, _METAL = range(3)
 _CORD_M: Final = {"neck_strap": 0.075, "harness": 0.060, "seat_strap": 0.0}
 _HOOK_M = 0.030
-"""Length of the snap hook at a cord's lower end."""
+"""Length in metres of the snap hook at a cord's lower end."""
 _GROWN_UP_M = 0.172
-"""Half the distance of the shoulder joints of those whom the widths below are for."""
+"""Half the distance in metres between the shoulder joints of adults, for whom the widths below apply."""
 _SEAT_HALF_M = 0.019
 
 

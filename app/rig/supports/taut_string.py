@@ -14,15 +14,16 @@ from app.rig.skinning import patch
 
 _TRUNK = ("hips", "spine", "chest", "upperChest", "neck", "leftShoulder", "rightShoulder")
 _LEAST_TRUNK = 0.5
-"""Share of a vertex's weight on joints of the trunk, from which a strap may lie on it."""
+"""Least share of a vertex's weight on joints of the trunk for a strap to lie on it."""
 _HAIR, _CARDS = 0.7, 0.2
-"""A mesh with more of its weight on the head is hair, or something of the face, and so is one of cards with alpha: no
-strap lies on it."""
+"""Shares of a mesh's weight on the head above which it is hair or part of the face, without and with transparent cards;
+straps do not lie on it.
+"""
 _NEAR = 8
-"""Vertices whose weights a point of a strap takes on."""
+"""Number of vertices whose weights a point of a strap combines."""
 _MIDLINE_M = 0.004
 _BEFORE = 0.4
-"""Share of the way from behind to the free end from which on a string is before the body."""
+"""Share of the way from the back to the free end from which a string is in front of the body."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ from app.score.musicxml.parts import WrittenPart
 from app.score.musicxml.written import Measure
 
 _MOST_BACK: Final = 8
-"""Measures that one sign repeats."""
+"""Greatest number of measures that one sign repeats."""
 _STYLES: Final = "attributes/measure-style/"
 
 

@@ -22,20 +22,20 @@ from app.formats.files import open_file, read_file
 from app.score.suffixes import NOTATION
 
 MOST_BYTES: Final = 2**26
-"""Largest size of a file, and of what it unpacks to; a symphony has some tens of megabytes."""
+"""Largest size in bytes of a file, and of its decompressed content; a symphony has some tens of megabytes."""
 MOST_RATIO: Final = 200
-"""Largest ratio by which a score may unpack, beyond `_SMALL`: notes compress to a fortieth."""
+"""Greatest compression ratio of a score above `_SMALL`; notes compress by a factor of forty."""
 _SMALL: Final = 2**20
 MOST_DEPTH: Final = 64
-"""Elements within elements; the format has a dozen."""
+"""Greatest nesting depth of elements; the format has a dozen."""
 MOST_ELEMENTS: Final = 3_000_000
 _MOST_MEMBERS: Final = 10_000
 _INDEX: Final = "META-INF/container.xml"
 _ZIP: Final = b"PK\x03\x04"
 _METHODS: Final = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
-"""Those that the format has, which unpack bit by bit: the others may give gigabytes at once."""
+"""Compression methods of the format, which decompress in small steps; others may produce gigabytes in one step."""
 _NO_LETTERS: Final = frozenset(("idna", "punycode", "raw-unicode-escape", "undefined", "unicode-escape", "utf-7"))
-"""Names that Python gives to encodings in which no document is written."""
+"""Names of Python's encodings in which no document is written."""
 _START: Final = 1024
 _DECLARED: Final = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([A-Za-z][\w.:-]*)["']""")
 _NO_XML: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")

@@ -24,7 +24,7 @@ _UNITS: Final = {
     "64th": Fraction(1, 16),
 }
 _MOST_TIMES: Final = 64
-"""Repetitions of one section."""
+"""Greatest number of repetitions of one section."""
 _MUTES: Final = {"off": "open", "stop-hand": "hand"}
 _JUMPS: Final = (
     # "Tacet on D.S." says what is different then, and jumps nowhere.

@@ -11,7 +11,7 @@ from app.score.limits import MOST_NAME
 
 _FLUTTER: Final = re.compile(r"flutter|flatter|\bflt?z|frull", re.IGNORECASE)
 _ENDS: Final = re.compile(r"\b(?:ord|nat|norm|modo\s+ord)|ohne|senza|普通", re.IGNORECASE)
-"""Words after which the tongue strikes as usual."""
+"""Words that end flutter tonguing."""
 
 
 def is_flutter(text: str) -> bool:

@@ -22,7 +22,7 @@ _UNSAID: Final = {
     "mute": Direction(0, "mute", "open"),
     "players": Direction(0, "words", "tutti"),
 }
-"""Words in force before any are written, by subject."""
+"""Directions that apply before the first written one, by subject."""
 
 _State = dict[str, Direction]
 

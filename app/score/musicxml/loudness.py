@@ -17,17 +17,17 @@ _SOFT: Final = (49, 33, 16, 10, 5, 1)
 _LOUD: Final = (96, 112, 126, 127)
 _USUAL: Final = 80.0
 USUAL_DYNAMIC: Final = "mf"
-"""Velocity where no dynamic is written."""
+"""Dynamic of notes before any written dynamic."""
 _FORTE: Final = 90.0
 """Velocity of the format's loudness 1."""
 _STEP: Final = 16.0
-"""Change over a hairpin that leads to no mark."""
+"""Change of velocity over a hairpin that leads to no mark."""
 _MOST: Final = 127.0
 _FORCED: Final = 112.0
 _GROWING: Final = re.compile(r"\bcresc", re.IGNORECASE)
 _FADING: Final = re.compile(r"\b(?:decresc|dim(?:\.|in|$))", re.IGNORECASE)
 _WORD_QUARTERS: Final = 16
-"""The longest that a hairpin in words lasts which nothing ends."""
+"""Longest duration in quarters of a hairpin in words without an end."""
 _MOST_HAIRPINS: Final = 20_000
 
 

@@ -70,15 +70,17 @@ _ORNAMENTS: Final = {
 }
 _SIGNS: Final = {"flat": -1, "natural": 0, "sharp": 1, "double-sharp": 2, "sharp-sharp": 2, "flat-flat": -2}
 _FERMATAS: Final = {"angled": 1.5, "double-angled": 1.25, "square": 3.0, "double-square": 4.0, "half-curve": 1.5}
-"""Factor of a fermata's length, by its shape, as MuseScore has it."""
+"""Factor for the length of a note with a fermata, by its shape, as in MuseScore."""
 _FERMATA: Final = 2.0
 _MUTES: Final = {"off": "open", "stop-hand": "hand"}
 _MOST_STROKES: Final = 8
 _MOST_DIVISIONS: Final = 32767
-"""Ticks per quarter that a score can have."""
+"""Greatest ticks per quarter in a score."""
 _ROUGH_TICKS: Final = 10_080
 _PARTS_OF_TICK: Final = 720_720
-"""Into which times fit that are no whole ticks: of finer ones sums would take ever longer."""
+"""Resolution per tick to which times between ticks are rounded; sums of arbitrary fractions would become ever
+slower.
+"""
 _MOST_DIGITS: Final = 10
 _LEAST_TICKS: Final = 480
 

@@ -10,17 +10,17 @@ from app.score.musicxml.played_chords import PlayedChord, PlayedNote
 from app.score.tempo import TempoMap
 
 _GRACE_S: Final = 0.085
-"""A grace note; several share what is there."""
+"""Seconds of a grace note; several share the available time."""
 _TRILL_S: Final = 0.085
-"""A note of a trill: six to a second are slow, fourteen the fastest that players do."""
+"""Seconds of a trill's note: six per second are slow, fourteen the fastest that players reach."""
 _SHORT_S: Final = 0.075
-"""The first notes of a mordent and of a turn."""
+"""Seconds of the first notes of a mordent and a turn."""
 _SHARE: Final = 0.5
-"""Largest share of the note before that grace notes take."""
+"""Greatest share of the previous note that grace notes take."""
 _MOST_ROWS: Final = 400
-"""Notes of one ornament."""
+"""Greatest number of notes in an ornament."""
 _UNMEASURED: Final = 3
-"""Strokes of a tremolo on one note from which a wind player flutters the tongue."""
+"""Number of strokes of a tremolo on one note from which a wind player uses flutter tonguing."""
 
 
 def place_graces(chords: Sequence[PlayedChord], tempo: TempoMap) -> None:

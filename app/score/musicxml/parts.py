@@ -14,16 +14,16 @@ from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
 
 _NO_NAME = re.compile(r"(?:MusicXML Part|Part[_ ]?\d*|P\d+)", re.IGNORECASE)
-"""Names that converters give to unnamed parts and instruments."""
+"""Names that converters give to parts and instruments without a name."""
 MOST_MEASURES: Final = 400_000
-"""Most measures of all parts together: two thousand in two hundred parts."""
+"""Greatest number of measures in all parts: two thousand in two hundred parts."""
 _MOST_LISTED: Final = 4 * MOST_STREAMS
-"""Most parts of a score, with and without notes."""
+"""Greatest number of parts in a score, with and without notes."""
 _KIT_CHANNEL = 10
 _KEYS = {10: "B♭", 9: "A", 3: "E♭", 5: "F", 2: "D", 7: "G"}
-"""Keys of instruments by what a written C sounds like, in semitones above C."""
+"""Keys of instruments by the sounding pitch of a written C in semitones above C."""
 _DEFAULT_STROKE = 38
-"""A snare drum, where nothing says what percussion is struck."""
+"""Percussion sound if none is given: a snare drum."""
 
 
 @dataclass(slots=True)

@@ -13,9 +13,9 @@ from app.score.musicxml.players_by_voice import seat
 from app.score.musicxml.written import Chord, Direction, Measure, Time
 
 _MOST_OPEN: Final = 32
-"""Slurs of one number, and ties of one pitch, that wait for their ends."""
+"""Greatest number of slurs with one number, and of ties of one pitch, that are open simultaneously."""
 _NONE: Final = Measure()
-"""A measure that a part lacks."""
+"""Replacement for a measure that is missing in a part."""
 
 
 @dataclass(slots=True)

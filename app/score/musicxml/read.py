@@ -35,13 +35,14 @@ from app.score.musicxml.written import Bar, Measure, Place, Time
 from app.score.track_instrument import named_by_title
 
 MOST_ITEMS: Final = 1_000_000
-"""Most notes, rests and directions of a score, counted as often as they are played."""
+"""Greatest number of notes, rests and directions in a score, counted as often as they are played."""
 LEAST_ITEMS: Final = 20_000
 MOST_ITEMS_PER_BYTE: Final = 2
-"""Notes, rests and directions that each byte of a small file may be played as: compressed music has half a note a
-byte, and is played a few times."""
+"""Greatest number of played notes, rests and directions per byte of a small file: compressed music has half a note per
+byte and few repeats.
+"""
 MOST_TIMES: Final = 16
-"""Number of times that what is written may be played, on average."""
+"""Greatest mean number of times that written notes may be played."""
 
 
 def read_musicxml(path: Path) -> PieceContents:
@@ -105,7 +106,7 @@ def read_musicxml(path: Path) -> PieceContents:
 
 _MOST_LOST: Final = 20
 _MOST_TEXT: Final = 200
-"""Characters of a list of measures."""
+"""Greatest number of characters in a list of measures."""
 
 
 def _require_few(measures: Sequence[Sequence[Measure]], visits: Sequence[Sequence[Time]], size: int, file: str) -> None:

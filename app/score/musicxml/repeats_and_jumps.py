@@ -16,10 +16,10 @@ from app.score.limits import MOST_BARS
 from app.score.musicxml.written import Bar
 
 _ANY: Final = "*"
-"""Name for the place of a sign or word whose measure has no sound element that names it."""
+"""Target of signs or words without a sound element that names it."""
 
 _STRAINS: Final = 4
-"""Repeated strains of a minuet with its trio."""
+"""Number of repeated sections of a minuet with its trio."""
 
 
 class Order(msgspec.Struct, frozen=True):

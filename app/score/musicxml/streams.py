@@ -22,9 +22,9 @@ from app.score.track_channel import TrackChannel
 from instrument_maps.instrument_names import vocabulary
 
 _STRUCK: Final = "*"
-"""The kind of notes without a pitch."""
+"""Kind of notes without a pitch."""
 _SHORT: Final = {"staccatissimo": 0.34, "staccato": 0.5, "marcato": 0.75}
-"""The share of its length that such a note sounds."""
+"""Share of their length that notes with these marks sound."""
 
 
 @dataclass(slots=True)

@@ -12,9 +12,9 @@ from app.score.limits import MOST_NAME
 from app.score.tempo import TempoChange, TempoMap
 
 USUAL: Final = 120.0
-"""Quarters per minute of a score that says nothing."""
+"""Default tempo in quarters per minute."""
 SLOWEST, FASTEST = 5.0, 1000.0
-"""Quarters per minute that are possible."""
+"""Possible range of tempi in quarters per minute."""
 _WORDS: Final = (
     (re.compile(r"prestissimo", re.I), 192.0),
     (re.compile(r"\bpresto|presto\b", re.I), 172.0),
@@ -33,7 +33,7 @@ _WORDS: Final = (
     (re.compile(r"tempo di marcia|\bmarch\b|alla marcia", re.I), 112.0),
     (re.compile(r"tempo di valse|\bwaltz\b", re.I), 160.0),
 )
-"""Tempi of words that no number explains: the middle of what metronomes print beside them."""
+"""Tempi of words without a number, in quarters per minute: the middle of the range printed on metronomes."""
 _SLOWER: Final = re.compile(
     r"\b(?:rit(?:\.|ard|en|$)|rall(?:\.|ent|$)|allarg|calando|morendo|smorz|perdendosi|slentando)", re.I
 )
@@ -43,13 +43,13 @@ _FIRST: Final = re.compile(r"\btempo\s*(?:primo|1\s?[°oº.]?|I\b\.?)|\bcome\s+p
 _MORE: Final = re.compile(r"\b(?:molto|assai|sempre più)\b", re.I)
 _LESS: Final = re.compile(r"\b(?:poco|un po)\b", re.I)
 _SHARES: Final = {-1: (0.85, 0.72, 0.6), 1: (1.12, 1.28, 1.45)}
-"""Shares of the tempo at the end of a gradual change: a little, usual, much."""
+"""Factors for the tempo at the end of a gradual change: slight, usual, strong."""
 _RAMP_QUARTERS: Final = 8
-"""The longest that a gradual change lasts which nothing ends."""
+"""Longest duration in quarters of a gradual change without an end."""
 _FAR_QUARTERS: Final = 16
-"""A tempo that begins later than this after a gradual change is not what ends it."""
+"""Quarters after the beginning of a gradual change beyond which a new tempo does not end it."""
 _STEPS: Final = 2
-"""Steps per quarter of a gradual change."""
+"""Number of steps per quarter of a gradual change."""
 
 
 class TempoEvent(NamedTuple):

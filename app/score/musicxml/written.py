@@ -11,7 +11,7 @@ from xml.etree.ElementTree import Element
 from app.errors import FileError, shortened
 
 Time: TypeAlias = int | Fraction
-"""Ticks; a fraction where the divisions of the file have no common multiple that a score can have."""
+"""Time in ticks; a fraction if the file's divisions have no common multiple that a score may have."""
 
 
 @dataclass(slots=True)
@@ -188,4 +188,4 @@ class Bar:
     da_capo: bool = False
     fine: bool = False
     said: set[str] = field(default_factory=set)
-    """Words and signs of jumps that no sound explains."""
+    """Words and signs of jumps without a sound element."""

@@ -9,9 +9,9 @@ from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
 from app.arrays import FloatArray
 
 HIGHEST = 1.3
-"""Height with the arms up, in heights of the body."""
+"""Height with the arms raised, relative to the body's height."""
 LEAST_HEAD = 0.13
-"""Least size of the head, in heights of the body: skeletons of motion capture often end within the head."""
+"""Least size of the head relative to the body's height, since motion-capture skeletons often end within the head."""
 ICON_PX = 40
 
 

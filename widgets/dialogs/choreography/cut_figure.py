@@ -22,7 +22,7 @@ from app.rig.characters.joint_mapping import JointMapping
 from widgets.common.choreography.figures import HIGHEST, draw_figures, placed
 
 _WIDEST = 1.15
-"""Width in parts of the body's height, with the arms to the sides, to the fingertips."""
+"""Width of a body with the arms spread, relative to its height."""
 _LEAST_WIDTH, _LEAST_HEIGHT = 0.5, 1.1
 """Least width and height of a fitted pose, relative to the body's height, with room for the head above its joints."""
 _PEN_PX = 2.5

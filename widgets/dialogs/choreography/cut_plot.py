@@ -37,9 +37,9 @@ SNAP_PX: Final = 12.0
 ZOOM: Final = 1.2
 LEAST_SPAN_S: Final = 0.2
 _ROOM: Final = 1.12
-"""Height of the plot over the highest acceleration."""
+"""Height of the plot relative to the greatest acceleration."""
 _HITS_PART: Final = 0.1
-"""Share of the height at the bottom for the marks of the music."""
+"""Share of the plot's height, at the bottom, for the hits of the music."""
 _STEP: Final = 120
 _AXIS_PX: Final = 40
 

@@ -51,7 +51,7 @@ MOST_SEED: Final = 2**31 - 1
 _POLL_MS: Final = 100
 _FORM_PX: Final = 420
 _STATE_PX: Final = 52
-"""Room for three lines."""
+"""Height in pixels of three lines."""
 _SIZE: Final = QSize(1180, 840)
 _LEAST_PX: Final = 900
 

@@ -46,9 +46,9 @@ _PLACEHOLDERS: Final = {
     "credits": "pair_form.txt_file_beside_motion",
 }
 _LONGEST_S = 24 * 3600.0
-"""Bound of an offset before the files are read."""
+"""Greatest offset in seconds before the files are read."""
 _NOTES_LINES = 3
-"""Least lines of notes in sight; of more the rest is scrolled to."""
+"""Least number of visible lines of notes; further lines are scrolled."""
 
 
 class PairForm(Retranslated, QWidget):

@@ -41,7 +41,7 @@ COLUMNS: Final = {
     "offset": "learn_dialog.offset_s",
     "confidence": "learn_dialog.confidence",
 }
-"""The list's columns, and the ids of their headings."""
+"""Columns of the list with the text ids of their headings."""
 
 
 @dataclass(eq=False)

@@ -30,7 +30,7 @@ from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
 from widgets.dialogs.progress_dialog import WorkingDialog, stopping
 
 Make: TypeAlias = Callable[[Project, EvaluationRequest, Report, StopRequested], EvaluationFinished]
-"""Makes an evaluation in the background; see `app.evaluation.process.made_by_process`."""
+"""Function that makes an evaluation in the background; see `app.evaluation.process.made_by_process`."""
 
 SIZES: Final = ((640, 360), (960, 540), (1280, 720), (360, 640))
 _BY_SOUND, _FOLLOWED, _BY_HAND = "sound", "follow", "hand"

@@ -353,4 +353,4 @@ class DancersSection(Retranslated, QWidget):
 
 
 SECTION: Final = DancersSection
-"""Section that the table of features adds to the panel."""
+"""Section that the panel includes if the feature is installed."""

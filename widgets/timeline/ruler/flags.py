@@ -18,11 +18,11 @@ from widgets.timeline.zoom_and_scroll import TimeAxis
 
 FLAGS_PX = 18
 LEAST_FLAG_PX = 32.0
-"""Least width of a flag with a text."""
+"""Least width in pixels of a flag with a text."""
 MOST_FLAG_PX = 220.0
 BARE_FLAG_PX = 5.0
 AIR_PX = 5.0
-"""On either side of a text."""
+"""Margin in pixels on either side of a text."""
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,7 @@ REACH_PX: Final = 6.0
 NOTE_REACH_PX: Final = 36.0
 """Distance in pixels within which the tail snaps to a player's row."""
 ROW_REACH_PX: Final = 28.0
-"""Distance within which the tail snaps to a giver's row."""
+"""Distance in pixels within which the tail snaps to the row of the cue's giver."""
 FAR_PX: Final = 4.0
 
 
