@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from character_assets import Asset, asset_surface, read_asset, read_material
 from character_skin import read_picture
-from character_surface import Surface
+from character_surface import Surface, smooth_normals
 from character_textures import Texture, jpeg, normals_of, png, sampled, spread, to_linear, to_srgb
 from PIL import Image, ImageDraw
-from scipy.ndimage import distance_transform_edt, gaussian_filter, label, map_coordinates, maximum
+from scipy.ndimage import binary_opening, distance_transform_edt, gaussian_filter, label, map_coordinates, maximum
+from scipy.special import erf
 
 if TYPE_CHECKING:
     from character_skeleton import SkeletonFit
@@ -33,6 +34,15 @@ FLECK_PX = 150
 CAP_HALF_PX, HAIRLINE_PX, EDGE_PX = 40, 40, 10
 """Half the width of what covers the scalp and is no lock, how far faint hairs are painted before its edge, and how far
 behind it shades are evened: painted edges are pale."""
+FRINGE_PX, FRINGE_STEEP, FRINGE_STEPS = 22, 4.0, 2
+"""Width over which a painted edge of the scalp dissolves into fine hairs, the steepness of their ends, their length."""
+OVER_AN_EYE = frozenset({"bob02"})
+"""Styles that are combed aside."""
+AXIS_M, FREE_DEG, BEHIND_DEG = 0.07, 58.0, 105.0
+"""Distance of the head's axis behind the eyes; angles about it, from ahead to the right, of the edge of hair that is
+combed aside, and of that which stays."""
+COMBED = ((0.0, 0.035, 0.085), (1.0, 0.8, 0.0))
+"""Share of the way aside by height over the eyes, metres."""
 FAINT, EDGE_SHADE = 0.25, 0.85
 """Alpha of hairs before the edge that are too faint to be seen but as scraps, and the shade of the others."""
 GREYS, ALPHAS = 48, 8
@@ -60,15 +70,15 @@ def directions(grey: np.ndarray, reach_px: float) -> tuple[np.ndarray, np.ndarra
     return np.stack([-np.sin(across), np.cos(across)], axis=-1), clear
 
 
-def strands(along: np.ndarray, seed: int) -> np.ndarray:
+def strands(along: np.ndarray, seed: int, steps: int = STRAND_STEPS, blur_px: float = 0.55) -> np.ndarray:
     """(H, W) fine strands, mean 0 and deviation 1: white noise averaged along the directions, both ways."""
     height, width = along.shape[:2]
-    white = gaussian_filter(np.random.Generator(np.random.PCG64(seed)).normal(0, 1, (height, width)), 0.55)
+    white = gaussian_filter(np.random.Generator(np.random.PCG64(seed)).normal(0, 1, (height, width)), blur_px)
     total = white.copy()
     start = np.stack(np.meshgrid(np.arange(height), np.arange(width), indexing="ij"), axis=-1).astype(float)
     for sign in (1.0, -1.0):
         place, heading = start.copy(), along * sign
-        for _ in range(STRAND_STEPS):
+        for _ in range(steps):
             place += heading * STRAND_STEP_PX
             rows = np.clip(np.round(place[..., 0]).astype(int), 0, height - 1)
             columns = np.clip(np.round(place[..., 1]).astype(int), 0, width - 1)
@@ -103,8 +113,22 @@ def _caps(alpha: np.ndarray) -> np.ndarray:
     return (parts > 0) & (half >= CAP_HALF_PX)[parts]
 
 
+def _fringe(alpha: np.ndarray, along: np.ndarray, used: np.ndarray) -> np.ndarray:
+    """Alpha (H, W) with the hairline dissolved into fine hairs: the nearer to where nothing is painted, the fewer.
+
+    Where faces end with what is painted there, as at a seam of the texture, nothing changes.
+    """
+    # A line of few pixels is where the drawing of a face ends.
+    bare = binary_opening(used & (alpha < ALPHA_CUTOFF), iterations=3)
+    inside = distance_transform_edt(~bare) / FRINGE_PX
+    single = strands(along, 33, FRINGE_STEPS, 0.3)
+    ends = 0.5 * (1.0 + erf(single / np.sqrt(2.0)))
+    left = np.clip(ALPHA_CUTOFF + (inside - ends) * FRINGE_STEEP, 0.0, 1.0)
+    return np.where(_caps(alpha) & (inside < 1.0) & bare.any(), np.minimum(alpha, left), alpha)
+
+
 def _hairline(grey: np.ndarray, alpha: np.ndarray, fine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Grey and alpha with an even shade and no scraps along the edges of what covers the scalp."""
+    """Grey and alpha with an even shade, and no scraps along the edges of what covers the scalp."""
     caps = _caps(alpha)
     if not caps.any():
         return grey, alpha
@@ -137,6 +161,7 @@ def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Te
     grey, alpha = _hairline(spread(grey, solid), alpha, fine)
     for least in (0.0, ALPHA_CUTOFF):
         alpha[_flecks(alpha > least)] = 0.0
+    alpha = _fringe(alpha, along, used)
     shade = _steps(to_srgb(grey), GREYS)
     colour = png(f"hair_{style}_color", np.stack([shade, shade, shade, _steps(alpha, ALPHAS)], axis=-1))
     # Normals at half the size: locks from what is painted, strands from the noise.
@@ -198,7 +223,26 @@ def hair(folder: Path, style: str, source: Source, fit: SkeletonFit) -> tuple[Su
         raise ValueError(f"{style} has no material")
     painted = read_picture(read_material(asset.material).textures["diffuseTexture"])
     used = covered(asset.uvs, asset.uv_faces, HAIR_PX)
-    return asset_surface(asset, source, fit, "hair", "hair"), *hair_textures(style, painted, used)
+    surface = asset_surface(asset, source, fit, "hair", "hair")
+    return _combed(surface, fit) if style in OVER_AN_EYE else surface, *hair_textures(style, painted, used)
+
+
+def _combed(surface: Surface, fit: SkeletonFit) -> Surface:
+    """Hair whose parting falls over the right eye, combed to the temple."""
+    points = fit.to_t_pose(surface.positions, surface.weights)
+    eye = fit.positions_t[fit.index("rightEye")]
+    off = points - np.array([0.0, 0.0, eye[2] - AXIS_M])
+    angle, radius = np.degrees(np.arctan2(-off[:, 0], off[:, 2])), np.hypot(off[:, 0], off[:, 2])
+    levels = np.arange(points[:, 1].min(), points[:, 1].max() + 0.01, 0.005)
+    own = (angle > -25.0) & (angle < BEHIND_DEG)
+    first = [angle[own & (np.abs(points[:, 1] - y) < 0.012)].min(initial=BEHIND_DEG - 1.0) for y in levels]
+    edge = np.interp(points[:, 1], levels, gaussian_filter(np.array(first), 1.5))
+    free = np.interp(points[:, 1] - eye[1], *COMBED)
+    goal = np.maximum(edge, edge + (FREE_DEG - edge) * free)
+    share = np.clip((angle - edge) / (BEHIND_DEG - edge), 0.0, 1.0)
+    turned = np.radians(np.where(own, goal + share * (BEHIND_DEG - goal), angle))
+    moved = np.stack([-radius * np.sin(turned), points[:, 1], radius * np.cos(turned) + eye[2] - AXIS_M], axis=1)
+    return smooth_normals(replace(surface, positions=fit.to_rest_pose(moved, surface.weights)))
 
 
 def brows_and_lashes(

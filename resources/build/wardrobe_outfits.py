@@ -86,7 +86,7 @@ def bare_chest(wearer: Wearer, depth_m: float = 0.17, width_m: float = 0.05) -> 
     def shown(places: np.ndarray, weights: np.ndarray) -> np.ndarray:
         low = wearer.tailoring.collar_point[1] - depth_m
         front = places[:, 2] > wearer.tailoring.collar_point[2] + 0.02
-        wide = width_m + 1.2 * np.maximum(places[:, 1] - low - 0.08, 0.0)
+        wide = width_m + 0.7 * np.maximum(places[:, 1] - low - 0.08, 0.0)
         return (np.abs(places[:, 0]) < wide) & (places[:, 1] > low) & front
 
     return skin(wearer, "skin_chest", shown)
