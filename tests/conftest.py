@@ -30,7 +30,7 @@ os.environ["LANGUAGE"] = "en"
 
 
 PATIENCE_MS: Final = 180_000
-"""Patience of all that waits for Qt: the machine may be busy with other tests."""
+"""Milliseconds for which tests wait for Qt, since the machine may be busy with other tests."""
 
 
 class PatientQtBot(QtBot):

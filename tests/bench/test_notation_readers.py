@@ -11,7 +11,7 @@ from tests.support.notation import DATA, EXAMPLES, READERS, corpus, differences,
 from tests.support.notation_differences import known
 
 SLOWEST = 0.5 / 3000
-"""Seconds for a note."""
+"""Greatest seconds per note."""
 
 
 @pytest.mark.bench

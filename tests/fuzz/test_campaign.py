@@ -12,7 +12,7 @@ from tests.fuzz.harness.campaign import SIZES, Tally, attack, keep, minimised
 from tests.fuzz.harness.readers import GROUPS, KINDS
 
 MOST_KEPT = 5
-"""Failures of a kind that are made smaller and kept: more would be of one cause."""
+"""Greatest number of failures per kind that are reduced and kept; more would have the same cause."""
 
 
 @pytest.mark.fuzz

@@ -10,7 +10,7 @@ from tests.fuzz.harness.readers import KINDS
 from tests.fuzz.harness.table import costs, worst
 
 LEAST_MINUTES = 5.0
-"""In shorter attacks only `test_found` reads these files, in small."""
+"""Minutes of an attack below which these files are tested only in small versions, by `test_found`."""
 
 
 @pytest.mark.fuzz

@@ -17,7 +17,7 @@ from tests.support.real_work import LUTKIN, OFFSET_S
 
 ROOT = Path(__file__).parents[2]
 HANG_S = 900.0
-"""A program that takes longer hangs, however busy the machine."""
+"""Seconds after which a program is considered to hang, even on a busy machine."""
 
 
 def run_editor(phase: str, folder: Path) -> subprocess.Popen[str]:

@@ -12,7 +12,7 @@ from PySide6.QtGui import QGuiApplication
 from tests.support.random_user import MOST_LOST_S, lost_work, travel
 
 JOURNEYS, DEEDS, KILLS = 1, 334, 3
-"""In a minute of attacks; deeds and kills of each journey, fewer in less. Half an hour makes 10,000 deeds."""
+"""Number of runs per minute of attacks, and deeds and kills in each; in half an hour 10,000 deeds."""
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:

@@ -42,19 +42,19 @@ from instrument_maps.load import bundled_maps
 UPPER_FACE = ("brow", "eyeSquint", "eyeWide", "cheekSquint", "noseSneer")
 LIPS = ("mouth", "jaw", "cheekPuff")
 MOVES_PER_S = 0.02
-"""A weight that changes faster is seen to move."""
+"""Change of a weight per second above which it is visible."""
 HELD_S = 1.0
 STILL_WEIGHT = 0.01
-"""Lips that move by less in a held note are a plateau."""
+"""Change of the lips' weights within a held note below which they count as motionless."""
 SMALLEST = 0.05
-"""Weight below which no difference between left and right is seen."""
+"""Weight below which a difference between left and right is invisible."""
 BEAT_SHARE = 0.05
 SLAB_M = 0.015
 
 
 @dataclass(frozen=True, eq=False)
 class Read:
-    """One player's character as read from the file.
+    """One player's character, as read from an exported file.
 
     Attributes
     ----------
@@ -83,28 +83,28 @@ class Read:
         return self.playback.bone_names.index(name)
 
     def place_m(self, name: str) -> FloatArray:
-        """(F, 3)."""
+        """Positions (F, 3) of a joint in metres."""
         return self.world[:, self.bone(name), :3, 3]
 
     def forward_rad(self, name: str) -> FloatArray:
-        """Return the angle by which a joint leans forward in the world, in each frame, (F,)."""
+        """Forward lean (F,) of a joint in the world in each frame, in radians."""
         ahead = self.world[:, self.bone(name), :3, 2]
         return np.arcsin(np.clip(-ahead[:, 1], -1.0, 1.0))
 
     def aside_rad(self, name: str) -> FloatArray:
-        """Return the angle by which a joint leans aside from its mean pose, in each frame, (F,)."""
+        """Sideways lean (F,) of a joint relative to its mean pose in each frame, in radians."""
         turns = Rotation.from_matrix(self.world[:, self.bone(name), :3, :3])
         aside: FloatArray = -(turns * turns.mean().inv()).as_rotvec()[:, 2]
         return aside
 
     def weights(self, *parts: str) -> dict[str, FloatArray]:
-        """Curves of the morphs whose names begin so."""
+        """Weights of the morphs whose names begin with a prefix."""
         found = self.playback.clip.morph_weights
         return {name: np.asarray(values, np.float64) for name, values in found.items() if name.startswith(parts)}
 
     @cached_property
     def playing(self) -> BoolArray:
-        """(F,): in a note."""
+        """Mask (F,) of the frames in which a note sounds."""
         note = np.searchsorted(self.onset_s, self.times_s, side="right") - 1
         return (note >= 0) & (self.times_s < self.end_s[np.maximum(note, 0)])
 
@@ -136,8 +136,9 @@ def effort_correlations(read: Read) -> tuple[float, float, float]:
 
 
 def held_without_motion(read: Read) -> tuple[int, int]:
-    """Notes longer than a second in which no weight of lips, jaw or cheeks moves between 0.3 s after the onset and 0.2
-    s before the end, and how many are so long."""
+    """Number of notes longer than a second in which no weight of lips, jaw or cheeks moves between 0.3 s after the
+    onset and 0.2 s before the end, and number of all notes of this length.
+    """
     lips = np.array(list(read.weights(*LIPS).values()))
     plateaus = held = 0
     for start_s, end_s in zip(read.onset_s, read.end_s, strict=True):
@@ -165,8 +166,9 @@ def asymmetry(read: Read) -> float:
 
 
 def at_the_beat(read: Read) -> float:
-    """Share of the energy of the pitch of the head (0.3 to 8 Hz) within 5 % of the beat. The curve is measured in
-    beats, so that a tempo that changes smears nothing."""
+    """Share of the energy of the head's pitch rotation (0.3 to 8 Hz) within 5 % of the beat's frequency. The curve is
+    sampled by beats, so that changes of tempo blur nothing.
+    """
     times, beats = read.times_s, read.beats_s
     beats = beats[(beats >= times[0]) & (beats <= times[-1])]
     if len(beats) < 16:
@@ -183,8 +185,9 @@ def at_the_beat(read: Read) -> float:
 
 
 def accents_lag_s(read: Read) -> tuple[float, int]:
-    """Median time from accented notes to the nearest peak of the downward acceleration of the head, and how many
-    accents there are. By chance it is about a quarter of the time between peaks."""
+    """Median time in seconds from accented notes to the nearest peak of the head's downward acceleration, and number of
+    accents. Unrelated peaks would give about a quarter of the time between peaks.
+    """
     accented = read.onset_s[read.accents > 0.0]
     pitch = _lowpass(read.forward_rad("head"), read.fps, 6.0)
     acceleration = np.gradient(np.gradient(pitch))
@@ -198,10 +201,9 @@ def accents_lag_s(read: Read) -> tuple[float, int]:
 
 
 def overlap_ms(read: Read) -> tuple[str, str]:
-    """Return the delay of the chest behind the hips, and of the head behind the chest: the lag of the greatest
-    correlation of their leans aside (0.15 to 3 Hz), ms, and that correlation, from the first note to the last. Keyed
-    gestures are left out. The peak is that of a parabola. Below a correlation of about 0.8 a lag is a matter of
-    chance."""
+    """Delay in milliseconds of the chest behind the hips and of the head behind the chest: the lag of the greatest
+    correlation of their sideways leans (0.15 to 3 Hz), with that correlation, from the first note to the last.
+    """
     swaying = (read.times_s >= read.onset_s[0]) & (read.times_s <= read.end_s[-1])
     for event in read.plan.gestures:
         if event.gesture is not None:
@@ -221,16 +223,18 @@ def overlap_ms(read: Read) -> tuple[str, str]:
 
 
 def pelvis_cm(read: Read) -> tuple[float, float]:
-    """Return the range of the hips' motion fore and aft, and aside, while there are notes: from the 2nd to the 98th
-    percentile, cm."""
+    """Range of the hips' forward and sideways motion during notes in centimetres, from the 2nd to the 98th
+    percentile.
+    """
     hips = read.place_m("hips")[read.playing]
     ranges = 100.0 * np.subtract(*np.percentile(hips, [98, 2], axis=0))
     return float(ranges[2]), float(ranges[0])
 
 
 def feet_mm(read: Read) -> tuple[float, float]:
-    """Return the greatest distance of a foot (ankle and toe joints) from its usual place, mm: outside of planned steps
-    and taps, and within them. Seated feet count too."""
+    """Greatest distance of a foot (ankle and toe joints) from its usual place in millimetres, outside of planned steps
+    and taps, and within them. Seated feet count too.
+    """
     planned = np.zeros(len(read.times_s), np.bool_)
     for event in read.plan.gestures:
         if event.kind in ("step", "tap", "bow", "heel"):
@@ -249,8 +253,9 @@ def feet_mm(read: Read) -> tuple[float, float]:
 
 
 def girth_cm(read: Read) -> float:
-    """Return the growth of the chest's girth (the convex hull of a slab of the trunk's vertices) in the deepest
-    breaths, from the smallest to the largest, cm. Trunk: vertices that chest and spine carry."""
+    """Increase in centimetres of the chest's girth (the convex hull of a slab of the trunk's vertices) in the deepest
+    breaths. Vertices of the trunk are those with weights for chest and spine.
+    """
     depths = sorted(read.plan.breaths, key=lambda event: -event.depth if event.kind == "breath" else 0.0)[:4]
     trunk = [read.bone(name) for name in ("spine", "chest", "upperChest") if name in read.playback.bone_names]
     chest, grown = read.bone("upperChest"), []
@@ -275,14 +280,15 @@ def girth_cm(read: Read) -> float:
 
 
 def head_mm_s(read: Read) -> float:
-    """Quantity of motion: RMS speed of the head's joint between 0.3 and 15 Hz while there are notes, mm/s."""
+    """Quantity of motion: root mean square speed of the head's joint between 0.3 and 15 Hz during notes, in mm/s."""
     found = quantity_of_motion_mm_s(read.place_m("head"), read.fps, read.playing)
     return np.nan if found is None else found
 
 
 def pairwise(reads: list[Read]) -> float:
-    """The greatest correlation of two players' heads (sideways and fore-aft paths, 0.1 to 3 Hz) while both play: all
-    come up before the first note together, and bow together after the last."""
+    """Greatest correlation of two players' heads (sideways and forward paths, 0.1 to 3 Hz) while both play; outside of
+    notes all players move together, raising instruments at the start and bowing at the end.
+    """
     found = [0.0]
     for one, other in itertools.combinations(reads, 2):
         both_play = one.playing & other.playing
@@ -302,7 +308,7 @@ def _lowpass(values: FloatArray, fps: float, high_hz: float) -> FloatArray:
 
 
 def exported(project: Project, folder: Path, fps: int) -> list[Read]:
-    """Every player of a project, exported and read back."""
+    """Export every player of a project and read the files."""
     performance = Performance(project)
     span = cut_span(performance.time_frame, Fraction(fps), -np.inf, np.inf)
     request = ExportRequest(

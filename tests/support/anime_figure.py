@@ -1,4 +1,6 @@
-"""A VRM figure as anime has them, made from one of ours: large head, thin long arms, small hands, twin tails, skirt.
+"""Make a VRM figure with the proportions of anime characters from a bundled character: large head, thin long arms,
+small hands, twin tails, skirt. No such figure with a suitable licence was available. `python -m
+tests.support.anime_figure FILE.vrm` writes one.
 
 No such figure with a licence to keep was at hand. `python -m tests.support.anime_figure FILE.vrm` writes one.
 """
@@ -19,20 +21,22 @@ from tests.support.bodies import Proportions, of_proportions
 from tests.support.estranged import Foreign, foreign, write_glb
 
 ANIME = Proportions(head=1.55, neck=0.6, trunk=0.66, arm=0.80, hand=0.5, leg=0.78, foot=0.7)
-"""1.25 m, of which the head is a quarter; hands half as large as ours."""
+"""Proportions of a figure of 1.25 m with a head of a quarter of the height, and hands half as large as those of bundled
+characters.
+"""
 THIN = 0.62
-"""Thickness of arms and legs beside what `ANIME` makes of them."""
+"""Additional factor for the thickness of arms and legs."""
 AROUND = 12
 
 
 def anime_body() -> Character:
-    """The body, without hair and clothes."""
+    """Body with these proportions, without hair and clothes."""
     body = of_proportions(character_named("woman_adult"), ANIME, "anime")
     return replace(body, meshes=tuple(_thinned(body, mesh) for mesh in body.meshes))
 
 
 def _thinned(body: Character, mesh: Mesh) -> Mesh:
-    """A mesh whose upper and lower arms are thinner about their bones."""
+    """Make upper and lower arms of a mesh thinner about their bones."""
     joints_m, names = rest_positions(body.skeleton), body.skeleton.names
     moved = mesh.positions_m.astype(np.float64)
     for side in ("left", "right"):
@@ -68,7 +72,7 @@ def write_anime(path: Path) -> Path:
 
 
 def block(model: Mesh, name: str, bone: int, size_m: float) -> Mesh:
-    """A box that hangs on a bone, of a surface of another mesh."""
+    """Make a box attached to a bone, with the material of another mesh."""
     corners = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
     triangles = np.array([[0, 1, 2], [1, 3, 2]], np.int32)
     return _mesh(model, name, size_m * corners, np.tile([0.0, 1.0, 0.0], (8, 1)), triangles, np.full(8, bone))
@@ -77,7 +81,7 @@ def block(model: Mesh, name: str, bone: int, size_m: float) -> Mesh:
 def _mesh(
     model: Mesh, name: str, positions_m: np.ndarray, normals: np.ndarray, triangles: np.ndarray, bones: np.ndarray
 ) -> Mesh:
-    """A mesh whose vertices hang on one bone each."""
+    """Make a mesh whose vertices are attached to one bone each."""
     return Mesh(
         name=name,
         positions_m=positions_m.astype(np.float32),
@@ -101,7 +105,7 @@ def _hang(
     radii_m: tuple[float, float],
     bones: int,
 ) -> None:
-    """Hang a tube with its chain of bones from a bone."""
+    """Attach a tube with its chain of bones to a bone."""
     steps_m = np.linspace(begin_m, end_m, bones + 1)
     first = len(figure.names)
     for number, place_m in enumerate(steps_m[:-1]):

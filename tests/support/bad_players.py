@@ -1,4 +1,4 @@
-"""Players who cannot play, each for another reason, in folders of characters and instruments of a test's own."""
+"""Players who cannot play for various reasons, in temporary folders of characters and instruments."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ WHISTLE = Path(__file__).parents[2] / "docs" / "tin-whistle"
 
 @dataclass(frozen=True)
 class OwnFolders:
-    """A user's own characters and instruments.
+    """Folders of a user's own characters and instruments.
 
     Attributes
     ----------
@@ -32,14 +32,14 @@ class OwnFolders:
     instruments: Path
 
     def add_character(self, content: bytes | None, entry: str = 'file = "mori.glb"\n') -> str:
-        """Describe the character ``mori``, made of these bytes; None: its file is not there."""
+        """Add the character ``mori`` with a file of these bytes; None for a missing file."""
         (self.characters / "mori.toml").write_text(entry)
         if content is not None:
             (self.characters / "mori.glb").write_bytes(content)
         return "mori"
 
     def add_instrument(self, change: Callable[[str], str] = str, model: Callable[[bytes], bytes] = bytes) -> str:
-        """Put the guide's whistle there, its map and its model changed."""
+        """Add the guide's whistle with a changed map or model."""
         map_text = (WHISTLE / "tin_whistle_D.toml").read_text(encoding="utf-8")
         (self.instruments / "tin_whistle_D.toml").write_text(change(map_text), encoding="utf-8")
         content = model((WHISTLE / "tin_whistle_D.glb").read_bytes())
@@ -49,7 +49,7 @@ class OwnFolders:
 
 
 def own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> OwnFolders:
-    """Empty folders of a user's own, which everything reads from now on."""
+    """Use empty folders of a user's own files from now on."""
     folders = OwnFolders(tmp_path / "own_characters", tmp_path / "own_instruments")
     for folder, variable in (
         (folders.characters, character_library.FOLDER_VARIABLE),
@@ -82,7 +82,7 @@ BAD_CHARACTERS: dict[str, tuple[Callable[[OwnFolders], str], str]] = {
         "mori.glb cannot play because bones were not found",
     ),
 }
-"""Changes that make a character bad, which then has the id that comes back, and what has to be said of it."""
+"""Changes that make a character unusable, each returning the character's id, with the expected message."""
 
 BAD_INSTRUMENTS: dict[str, tuple[Callable[[OwnFolders], str], str]] = {
     "not installed": (lambda own: "ophicleide", "the instrument 'ophicleide' of trumpet is not installed"),
@@ -94,7 +94,7 @@ BAD_INSTRUMENTS: dict[str, tuple[Callable[[OwnFolders], str], str]] = {
     "model damaged": (lambda own: own.add_instrument(model=_truncated), "'tin_whistle_D.glb' cannot be read"),
     "model gone": (lambda own: own.add_instrument(model=lambda content: b""), "there is no file 'tin_whistle_D.glb'"),
 }
-"""The same of instruments."""
+"""Same for instruments."""
 
 
 def _half(text: str) -> str:
@@ -102,12 +102,12 @@ def _half(text: str) -> str:
 
 
 def with_character(project: Project, index: int, character_id: str) -> Project:
-    """The project whose player of this index is another character."""
+    """Give the player at an index another character."""
     return _with(project, index, character_id=character_id)
 
 
 def with_instrument(project: Project, index: int, instrument_id: str) -> Project:
-    """The project whose player of this index plays another instrument."""
+    """Give the player at an index another instrument."""
     return _with(project, index, instrument_id=instrument_id)
 
 

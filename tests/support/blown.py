@@ -1,4 +1,4 @@
-"""A synthetic wind player: takes whose breaths, dynamics and vibrato are known because they were made here.
+"""Takes of a synthetic wind player with known breaths, dynamics and vibrato.
 
 No recording of the user: a breath sensor is modelled as a rise of some milliseconds to the dynamics asked for, noise of
 a step or two, and a fall to zero, sent at a controller's rate as steps of 1/127.
@@ -16,7 +16,7 @@ from app.score.model import ControllerCurve, CurveKind, Note, Part
 from app.score.tempo import TempoChange, TempoMap
 
 TICKS_PER_S = 960.0
-"""At 120 quarters a minute and 480 ticks a quarter."""
+"""Ticks per second at 120 quarters per minute and 480 ticks per quarter."""
 TEMPO = TempoMap(480, (TempoChange(0, 500_000.0),))
 
 Dynamics = Callable[[FloatArray], FloatArray]
@@ -24,7 +24,7 @@ Dynamics = Callable[[FloatArray], FloatArray]
 
 @dataclass(frozen=True)
 class Blow:
-    """Air from one time to another; ``dynamics`` of seconds since it began."""
+    """Air from one time to another; ``dynamics`` is a function of the seconds since its start."""
 
     start_s: float
     end_s: float
@@ -39,7 +39,7 @@ def ticks(seconds: float) -> int:
 def breath_curve(
     blows: Sequence[Blow], rate_hz: float = 200.0, rise_s: float = 0.02, noise: int = 1, seed: int = 1
 ) -> ControllerCurve:
-    """Return the curve that a breath sensor sends: 0 between the blows, with noise of ``noise`` steps of 127."""
+    """Curve of a breath sensor: 0 between blows, otherwise with noise of ``noise`` steps of 127."""
     chance = np.random.default_rng(seed)
     at = np.arange(0.0, max(blow.end_s for blow in blows) + 0.5, 1.0 / rate_hz)
     value = np.zeros(len(at))
@@ -54,7 +54,7 @@ def breath_curve(
 def vibrato_curve(
     start_s: float, end_s: float, depth: float, rate_hz: float, kind: CurveKind = "pitch_bend", middle: float = 0.0
 ) -> ControllerCurve:
-    """A vibrato on pitch bend or bite from one time to another."""
+    """Vibrato on pitch bend or bite from one time to another."""
     at = np.arange(0.0, end_s + 0.5, 0.005)
     inside = (at >= start_s) & (at < end_s)
     return _curve(kind, at, np.where(inside, middle + depth * np.sin(2 * np.pi * rate_hz * (at - start_s)), middle))
@@ -69,7 +69,7 @@ def _curve(kind: CurveKind, at: FloatArray, values: FloatArray) -> ControllerCur
 def take(
     notes: Sequence[tuple[float, float, int]], *curves: ControllerCurve, map_id: str = "trumpet_Bb", velocity: int = 80
 ) -> Part:
-    """A part of notes (onset, end, pitch), seconds; a wind controller sends one velocity throughout."""
+    """Make a part from notes (onset, end, pitch) in seconds, all with the same velocity as a wind controller sends."""
     made = tuple(
         Note(f"1:{number}", ticks(onset), ticks(end) - ticks(onset), pitch, velocity)
         for number, (onset, end, pitch) in enumerate(notes, 1)

@@ -1,4 +1,5 @@
-"""Bodies unlike our own, made from them: of other proportions, or without something that a studio's character may lack.
+"""Bodies made from bundled ones with other proportions, or without parts that foreign characters may lack. All are
+converted to the T-pose like characters read from foreign files.
 
 Every one is baked into the T-pose, as a character that comes from a foreign file is.
 """
@@ -25,7 +26,8 @@ from app.rig.skeleton import rest_positions
 
 @dataclass(frozen=True)
 class Proportions:
-    """Sizes of the parts of a body, as multiples of those of the body it is made from.
+    """Sizes of the parts of a body relative to the original body. ``thick`` widens hands and fingers across their
+    length.
 
     ``thick`` widens hands and fingers across their length.
     """
@@ -57,15 +59,15 @@ class Proportions:
 
 
 CHILD = Proportions(head=0.87, neck=0.72, trunk=0.72, arm=0.69, hand=0.74, leg=0.66, foot=0.72)
-"""About seven years old, 1.2 m."""
+"""Proportions of a child of about seven years, 1.2 m tall."""
 BIG_HEAD = Proportions(head=2.0, neck=0.8, trunk=0.8, arm=0.7, hand=0.9, thick=1.35, leg=0.6, foot=1.1)
-"""A stylised figure with short limbs and thick fingers."""
+"""Proportions of a stylised figure with short limbs and thick fingers."""
 CHIBI = Proportions(head=1.3, neck=0.5, trunk=0.5, arm=0.42, hand=0.5, thick=1.3, leg=0.4, foot=0.6)
-"""A figure of two and a half heads."""
+"""Proportions of a figure whose height is two and a half heads."""
 
 
 def of_proportions(body: Character, proportions: Proportions, id: str) -> Character:
-    """A body with the parts of another one made larger or smaller, standing as high above the floor."""
+    """Scale the parts of a body, with the soles at the same height above the floor."""
     skeleton = body.skeleton
     before_m = rest_positions(skeleton)
     scales = np.array([proportions.matrix(name) for name in skeleton.names])
@@ -86,7 +88,7 @@ def of_proportions(body: Character, proportions: Proportions, id: str) -> Charac
 
 
 def _bound(body: Character, skeleton: Skeleton, meshes: tuple[Mesh, ...], id: str) -> Character:
-    """A body whose meshes are in the T-pose."""
+    """Convert the meshes of a body to the T-pose."""
     joint_from_mesh = np.tile(np.eye(4), (len(skeleton.names), 1, 1))
     joint_from_mesh[:, :3, 3] = -rest_positions(skeleton)
     return replace(body, id=id, skeleton=skeleton, joint_from_mesh=joint_from_mesh, meshes=meshes)
@@ -95,7 +97,7 @@ def _bound(body: Character, skeleton: Skeleton, meshes: tuple[Mesh, ...], id: st
 def _baked(
     body: Character, mesh: Mesh, before_m: FloatArray, after_m: FloatArray, scales: FloatArray | None = None
 ) -> Mesh:
-    """A mesh in the T-pose, each part scaled about its joint."""
+    """Convert a mesh to the T-pose, with each part scaled about its joint."""
     turn, place = body.joint_from_mesh[:, :3, :3], body.joint_from_mesh[:, :3, 3]
     if scales is not None:
         turn, place = scales @ turn, np.einsum("jab,jb->ja", scales, place)
@@ -118,7 +120,7 @@ def _baked(
 
 
 def _mitten(body: Character) -> Character:
-    """The fingers' skin hangs on the hand: the file had no bones for them."""
+    """Attach the skin of the fingers to the hand, as in a file without finger bones."""
     names, table = body.skeleton.names, np.arange(len(body.skeleton.names), dtype=np.int32)
     for joint, name in enumerate(names):
         found = re.match("(left|right)(Thumb|Index|Middle|Ring|Little)", name)
@@ -132,12 +134,12 @@ def _without_morphs(body: Character) -> Character:
 
 
 def _found(body: Character) -> Character:
-    """Its landmarks found, not known."""
+    """Detect the body's landmarks instead of using known ones."""
     return replace(body, landmarks=found_landmarks(body.skeleton, body.joint_from_mesh, body.meshes))
 
 
 def _without_joints(body: Character, pattern: str) -> Character:
-    """Joints are not there; their skin hangs on the next one above."""
+    """Remove joints and attach their skin to the next joint above."""
     skeleton = body.skeleton
     gone = [bool(re.search(pattern, name)) for name in skeleton.names]
     above = list(range(len(gone)))
@@ -178,14 +180,14 @@ BODIES = tuple(_MADE)
 
 @cache
 def odd_body(id: str) -> Character:
-    """A body unlike our own, made once."""
+    """Return one of `BODIES`, made on first use."""
     source, proportions, changed = _MADE[id]
     return changed(of_proportions(character_named(source), proportions, id))
 
 
 @contextmanager
 def playing() -> Iterator[None]:
-    """While it lasts, the bodies here can be chosen for players by their ids."""
+    """Make the bodies of this module available to players by their ids within a ``with`` block."""
     from app.rig.characters import character_library as characters
 
     library, one = characters.character_library(), characters.character_named

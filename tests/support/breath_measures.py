@@ -1,5 +1,5 @@
-"""Measures of how often players breathe, and where: ``python -m tests.support.breath_measures FOLDER...`` prints
-tables.
+"""Measure how often and where players breathe: ``python -m tests.support.breath_measures FOLDER...`` prints tables.
+Half of the files, chosen by a hash of their names, are held out from tuning.
 
 Half of the files, chosen by a hash of their names, are held out: nothing is tuned on them.
 """
@@ -25,9 +25,9 @@ from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 
 SHORT_S = 1.5
-"""A breath after less playing than this is one too many, unless a long rest asks for it."""
+"""Seconds of playing since the previous breath below which a breath is superfluous, unless a long rest causes it."""
 GASP_S = 0.2
-"""No one breathes in so short a time."""
+"""Seconds below which a breath is impossibly short."""
 
 
 class Measures(msgspec.Struct, frozen=True):
@@ -63,18 +63,18 @@ class Measures(msgspec.Struct, frozen=True):
 
 
 def is_held_out(name: str) -> bool:
-    """Return whether a file is kept out of tuning."""
+    """Return whether a file is excluded from tuning."""
     return hashlib.sha256(name.encode()).digest()[0] % 2 == 1
 
 
 def performance_of(path: Path) -> Performance:
-    """A MIDI file as it is imported without any setting."""
+    """Import a MIDI file with default settings."""
     maps = bundled_maps()
     return Performance(project_from_score(read_midi(path, maps=map_choices(maps.values())), maps))
 
 
 def measures(performance: Performance, line: MonophonicPart, plan: PlayerPlan) -> Measures:
-    """Return the counts of one player's breaths, by their places."""
+    """Count one player's breaths by their places."""
     times = line_times(line, performance.piece.clock)
     index_of = {note.id: index for index, note in enumerate(line.notes)}
     breaths = [event for event in plan.breaths if event.kind == "breath"]

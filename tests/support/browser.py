@@ -22,7 +22,7 @@ _ANSWER_S: Final = 180.0
 
 
 def browser_command() -> str | None:
-    """The browser that is installed."""
+    """Command of the installed browser."""
     return next((found for name in COMMANDS if (found := shutil.which(name))), None)
 
 
@@ -59,7 +59,7 @@ class Page:
         return answer
 
     def attach(self) -> None:
-        """Speak to the page, no longer to the browser."""
+        """Send further commands to the page instead of the browser."""
         target = self.ask("Target.createTarget", url="about:blank")["targetId"]
         self._session = self.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log"):
@@ -72,11 +72,11 @@ class Page:
         return answer["result"].get("value")
 
     def wait_for(self, expression: str) -> Any:
-        """The value, once it is something."""
+        """Wait until an expression has a true value and return it."""
         return wait_until(lambda: self.value(expression), expression)
 
     def load(self, address: str) -> None:
-        """Go to a page, or again to the same one."""
+        """Open a page, or open the same one again."""
         self.value("globalThis.leaving = true")
         self.ask("Page.navigate", url=address)
         self.wait_for("!globalThis.leaving && document.readyState === 'complete'")
@@ -88,19 +88,19 @@ class Page:
         self.wait_for("!globalThis.leaving && document.readyState === 'complete'")
 
     def press(self, key: str) -> None:
-        """Press a key and let it go: a digit, ``"Enter"``, ``"Tab"`` or a space."""
+        """Press and release a key: a digit, ``"Enter"``, ``"Tab"`` or a space."""
         code, number, text = _KEYS.get(key) or (f"Digit{key}", ord(key), key)
         said = {"key": key, "code": code, "windowsVirtualKeyCode": number}
         self.ask("Input.dispatchKeyEvent", type="keyDown", **said, **({"text": text} if text else {}))
         self.ask("Input.dispatchKeyEvent", type="keyUp", **said)
 
     def resize(self, width: int, height: int) -> None:
-        """Make the page so large; narrower than 600 pixels it is a phone's."""
+        """Set the size of the page in pixels; one narrower than 600 has the layout for phones."""
         phone = width < 600
         self.ask("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=phone)
 
     def picture(self, path: Path) -> None:
-        """Write what the whole page looks like to a PNG file."""
+        """Write a screenshot of the whole page to a PNG file."""
         size = self.ask("Page.getLayoutMetrics")["cssContentSize"]
         clip = {"x": 0, "y": 0, "width": size["width"], "height": size["height"], "scale": 1}
         data = self.ask("Page.captureScreenshot", clip=clip, captureBeyondViewport=True)["data"]
@@ -118,7 +118,7 @@ class Page:
 
 
 def wait_until(check: Callable[[], Any], what: str) -> Any:
-    """Return the first true value that a check gives; fails if none comes in time."""
+    """Wait for the first true value of a check and return it; fail after the time limit."""
     end_s = time.monotonic() + _ANSWER_S
     while time.monotonic() < end_s:
         found = check()
@@ -130,7 +130,7 @@ def wait_until(check: Callable[[], Any], what: str) -> Any:
 
 @contextmanager
 def opened(folder: Path, language: str) -> Iterator[Page]:
-    """A browser whose user speaks a language; it saves files to a folder, and has one for its own as well."""
+    """Open a browser with a language, a folder for downloads and a profile folder."""
     command = browser_command()
     assert command is not None
     theirs, to_browser = os.pipe()

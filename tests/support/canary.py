@@ -1,4 +1,4 @@
-"""Files that nothing may open, and texts that make Qt open them where it takes a text for HTML."""
+"""Files that must not be opened, and texts that would make Qt open them if they were interpreted as HTML."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pathlib import Path
 from PySide6.QtGui import QColor, QImage
 
 _IN_OPEN = 0x00000020
-"""``inotify(7)``: a file of the watched folder was opened."""
+"""Event mask of ``inotify(7)`` for opening a file in the folder."""
 _EVENT = struct.Struct("iIII")
 _MOST_BYTES = 65_536
 
@@ -23,7 +23,7 @@ WATCHES = sys.platform == "linux"
 
 
 class Canary:
-    """A folder with a picture and a style sheet, and what opened them.
+    """A folder with a picture and a style sheet, and a record of the files opened in it.
 
     Parameters
     ----------
@@ -42,27 +42,28 @@ class Canary:
 
     @property
     def html(self) -> str:
-        """Opens the picture when it is laid out as HTML."""
+        """Text that opens the picture when laid out as HTML."""
         return f'<img src="file://{self.picture}">'
 
     def name(self, field: str) -> str:
-        """A name that says where it stands: as HTML it opens the picture, in a button ``&8`` is a key, in a window's
-        title ``[*]`` is a mark."""
+        """Name with a label of its place that would open the picture as HTML, and that contains ``&8``, a shortcut on
+        buttons, and ``[*]``, a placeholder in window titles.
+        """
         # A folder may be named as an instrument is ("tmp": timpani); in an address, its first letter may be a code.
         address = re.sub(r"/(\w)", lambda found: f"/%{ord(found[1]):02x}", self.picture.as_posix())
         return f'<img alt="{field}" src="file://{address}">&8[*]'
 
     def file_name(self, field: str) -> str:
-        """The same for a file: it opens the picture if this is in the working directory."""
+        """File name that would open the picture as HTML if the picture is in the working directory."""
         return f'<img alt="{field}" src="{self.picture.name}">&8[*]'
 
     @property
     def eager(self) -> str:
-        """Opens the style sheet as soon as it is parsed, as for a screen reader."""
+        """Text that opens the style sheet as soon as it is parsed as HTML, as for a screen reader."""
         return f'<html><head><link rel="stylesheet" type="text/css" href="file://{self.sheet}"></head><p>x</p></html>'
 
     def opened(self) -> list[str]:
-        """Names of the files that were opened since this was last asked."""
+        """Names of the files that were opened since the last call."""
         names: list[str] = []
         try:
             events = os.read(self._descriptor, _MOST_BYTES)
@@ -80,7 +81,7 @@ class Canary:
 
 @contextmanager
 def canary(folder: Path) -> Iterator[Canary]:
-    """Watch a new folder, by the system's own account (inotify)."""
+    """Monitor a new folder by inotify."""
     folder.mkdir()
     system = ctypes.CDLL(None, use_errno=True)
     descriptor = system.inotify_init1(os.O_NONBLOCK | os.O_CLOEXEC)

@@ -33,7 +33,7 @@ from widgets.dialogs.characters import CharactersDialog
 ROOT: Final = Path(__file__).parents[2]
 FOREIGN: Final = ROOT / "tests" / "data" / "characters"
 HOLD_S: Final = 400.0
-"""Longest search for the way a new body holds an instrument, on a slow machine."""
+"""Longest time in seconds for fitting the grip of a new body on a slow machine."""
 
 
 class Studio:
@@ -51,7 +51,7 @@ class Studio:
         self.wait(60.0, lambda: self.program.editor.files.is_open and self.program.generator.up_to_date)
 
     def wait(self, most_s: float, until: Callable[[], bool] = lambda: False) -> None:
-        """Let the editor work until something is so."""
+        """Process events until a condition holds."""
         end_s = time.monotonic() + most_s
         while not until() and time.monotonic() < end_s:
             self.application.processEvents()
@@ -59,12 +59,12 @@ class Studio:
 
     @property
     def working(self) -> bool:
-        """Return whether something is done beside the window."""
+        """Return whether a background task is running."""
         tasks = self.program.tasks
         return isinstance(tasks, ThreadTasks) and bool(tasks.running)
 
     def bring(self, name: str) -> CharacterDialog:
-        """Open a character's file; the dialog, once it is drawn."""
+        """Open a character's file and return the dialog once it is drawn."""
         self.wait(5.0, lambda: self.window.findChild(CharacterDialog) is None)
         bring_character(self.program.editor, FOREIGN / name)
         self.wait(30.0, lambda: self.window.findChild(CharacterDialog) is not None)
@@ -74,13 +74,13 @@ class Studio:
         return dialog
 
     def settle(self) -> None:
-        """Until pictures are drawn."""
+        """Wait until pictures are drawn."""
         self.wait(0.5)
         self.wait(60.0, lambda: not self.working)
         self.wait(0.3)
 
     def end(self) -> None:
-        """Close it."""
+        """Close the editor."""
         self.program.end()
         self.window.hide()
         self.window.deleteLater()
@@ -88,7 +88,7 @@ class Studio:
 
 
 def save(widget: QWidget, path: Path) -> None:
-    """A picture of a widget, small enough for a repository."""
+    """Save a picture of a widget at a size suitable for the repository."""
     shot = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
     picture = Image.frombuffer(
         "RGB", (shot.width(), shot.height()), bytes(shot.constBits()), "raw", "RGB", shot.bytesPerLine(), 1
@@ -97,7 +97,7 @@ def save(widget: QWidget, path: Path) -> None:
 
 
 def keep(studio: Studio, dialog: CharacterDialog) -> None:
-    """Keep a character, and give it to the player in front."""
+    """Save a character and assign it to the first selected player."""
     dialog.give.setChecked(True)
     box = child(dialog, QDialogButtonBox)
     QTest.mouseClick(box.button(QDialogButtonBox.StandardButton.Ok), Qt.MouseButton.LeftButton)
@@ -105,7 +105,7 @@ def keep(studio: Studio, dialog: CharacterDialog) -> None:
 
 
 def draw(target: Path, language: str, theme: str) -> None:
-    """All pictures in one language and theme."""
+    """Draw all pictures in one language and theme."""
     application = QApplication.instance()
     assert isinstance(application, QApplication)
     suffix = "" if language == "en" else f"_{language}"

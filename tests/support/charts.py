@@ -1,4 +1,4 @@
-"""Public fingering charts as tables: what each gives first for a note, and what beside it."""
+"""Public fingering charts as tables: first choices and alternates for each note."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from typing import TypeAlias
 FOLDER = Path(__file__).parents[1] / "data" / "fingerings"
 
 ByChart: TypeAlias = dict[str, dict[str, int]]
-"""Fingering -> chart -> rank: 1 the first choice, 2 to 100 alternates, 0 without an order."""
+"""Rank by chart and by fingering: 1 for the first choice, 2 to 100 for alternates, 0 without an order."""
 
 
 class Charts:
-    """The charts of one instrument, contemporary techniques left out."""
+    """Charts of one instrument, without contemporary techniques."""
 
     def __init__(self, name: str) -> None:
         self.path = FOLDER / f"{name}.csv"
 
     @cached_property
     def notes(self) -> dict[int, ByChart]:
-        """By written pitch."""
+        """Fingerings by written pitch."""
         found: dict[int, ByChart] = defaultdict(lambda: defaultdict(dict))
         with self.path.open(encoding="utf-8") as file:
             for row in csv.DictReader(file):
@@ -30,7 +30,7 @@ class Charts:
         return found
 
     def majority(self, written: int) -> str | None:
-        """Return the fingering that the most charts give first; None if two are given first equally often."""
+        """Return the fingering that most charts give first; None if two are equally frequent."""
         votes = {label: sum(rank == 1 for rank in by.values()) for label, by in self.notes[written].items()}
         most = max(votes.values())
         first = [label for label, count in votes.items() if count == most]

@@ -16,7 +16,7 @@ from typing import Final
 BESIDES: Final = frozenset(
     ("axis", "choices", "notice", "playhead", "preview", "sought", "status", "tab", "typing", "view", "work")
 )
-"""Changes that follow from others, and go on by itself while the piece plays."""
+"""Subjects that may change in addition, as a consequence of others or by themselves during playback."""
 
 _LINES: Final = """
 # The start page, the status line and the title of the window
@@ -222,7 +222,7 @@ TABLE: Final = _rows()
 
 @cache
 def expected(name: str) -> Row | None:
-    """The line of a control or entry: that of its own name, or the first pattern that fits; None: there is none."""
+    """Return the line for a control or entry: the one with its name, else the first matching pattern, else None."""
     if name in TABLE:
         return TABLE[name]
     return next((row for pattern, row in TABLE.items() if fnmatchcase(name, pattern)), None)

@@ -1,4 +1,4 @@
-"""Finds what can be clicked in the editor's window, clicks it by the mouse, and notes down what changes."""
+"""Find clickable controls in the editor's window, click them with the mouse, and record the changes."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ from widgets.common.actions import actions
 from widgets.common.section import SectionHeader
 
 Path = tuple[str, ...]
-"""Names of an entry of a menu and of the submenus it is in, the entry last."""
+"""Names of the submenus that contain an entry, and of the entry."""
 Open = Callable[[], QMenu | None]
-"""Opens a menu as a user does; None: nothing came."""
+"""Function that opens a menu like a user; None if no menu opened."""
 CALM = frozenset(
     ("sought", "view", "turned", "framed", "shown", "posing", "sound", "time", "pitch", "ghosts", "tool", "follow")
 )
 """Subjects that may stay changed before the next click."""
 NOTHING = frozenset(("unchanged",))
 TRIES = 4
-"""Places at which an entry of a context menu is clicked that does nothing."""
+"""Number of positions at which an entry of a context menu is tried until it has an effect."""
 CHOSEN = frozenset(("chosen already",))
-"""Result of a click on the one of several exclusive choices that holds: nothing changed."""
+"""Result of clicking the selected one of several exclusive choices, which changes nothing."""
 
 
 def controls(window: QMainWindow) -> dict[str, QWidget]:
-    """Buttons, choices and titles of sections that can be seen, by name; Qt's own parts are left out."""
+    """Visible buttons, choices and section titles by name, except for Qt's own parts."""
     widgets = Widgets(window)
     found: list[QWidget] = [
         widget
@@ -58,7 +58,7 @@ def has_menu_only(control: QWidget) -> bool:
 
 
 def click(control: QWidget) -> bool:
-    """Click a control; of a choice another entry. False: there is nothing else to choose."""
+    """Click a control, in a choice another entry. Return False if there is no other entry."""
     if not isinstance(control, QComboBox):
         mouse.press(control)
         return True
@@ -85,7 +85,7 @@ def click(control: QWidget) -> bool:
 
 
 def is_chosen_already(control: QWidget | QAction) -> bool:
-    """Return whether a control is the one of several choices that holds."""
+    """Return whether a control is the selected one of several exclusive choices."""
     if isinstance(control, QAbstractButton):
         group = control.group()
         exclusive = control.autoExclusive() or (group is not None and group.exclusive())
@@ -94,7 +94,7 @@ def is_chosen_already(control: QWidget | QAction) -> bool:
 
 
 def leaves(menu: QMenu, above: Path = ()) -> Iterator[Path]:
-    """Entries of a menu and its submenus that can be clicked."""
+    """Entries of a menu and its submenus that perform an action."""
     for entry in menu.actions():
         if entry.isSeparator() or not entry.isVisible() or not entry.isEnabled():
             continue
@@ -106,13 +106,13 @@ def leaves(menu: QMenu, above: Path = ()) -> Iterator[Path]:
 
 
 def name_of(entry: QAction) -> str:
-    """The object name of an entry or of its submenu, else its text."""
+    """Object name of an entry or its submenu, else its text."""
     inner = entry.menu()
     return entry.objectName() or (inner.objectName() if isinstance(inner, QMenu) else "") or entry.text()
 
 
 def entry_at(menu: QMenu, path: Path) -> tuple[QMenu, QAction]:
-    """Go to an entry by clicking those above it."""
+    """Navigate to an entry by clicking the submenus above it."""
     for name in path[:-1]:
         above = next(entry for entry in menu.actions() if name_of(entry) == name)
         inner = above.menu()
@@ -123,14 +123,14 @@ def entry_at(menu: QMenu, path: Path) -> tuple[QMenu, QAction]:
 
 
 def popup() -> QMenu | None:
-    """The menu that is open."""
+    """Currently open menu."""
     QApplication.processEvents()
     found = QApplication.activePopupWidget()
     return found if isinstance(found, QMenu) else None
 
 
 def menu_under(widget: QWidget, place: QPoint) -> QMenu | None:
-    """Right-click a place; None: it has no context menu, or cannot be seen."""
+    """Right-click at a position; None if no context menu opens or the widget is hidden."""
     # What was clicked before may have moved it out of sight.
     mouse.bring_into_view(widget)
     QApplication.processEvents()
@@ -145,14 +145,14 @@ def menu_under(widget: QWidget, place: QPoint) -> QMenu | None:
 
 
 def close_menus() -> None:
-    """Close whatever pops up."""
+    """Close all open menus and popups."""
     while (found := QApplication.activePopupWidget()) is not None:
         found.close()
         QApplication.processEvents()
 
 
 def places(widget: QWidget, columns: int, rows: int) -> Iterator[QPoint]:
-    """Places all over a widget."""
+    """Positions spread over a widget."""
     for row in range(rows):
         for column in range(columns):
             yield QPoint(
@@ -191,8 +191,9 @@ class Clicker:
             self._again(found)
 
     def buttons(self, every: bool = True) -> None:
-        """Click every button and choice that is there and is not greyed out; unless ``every``, of those that the table
-        has in one row only one, another in each state."""
+        """Click every enabled button and choice; unless ``every`` is true, controls that share a row of the table are
+        clicked once, a different one in each state.
+        """
         found = controls(self._window)
         for name in list(found) if every else self._one_of_each(list(found)):
             control: QWidget | None = found[name]
@@ -215,7 +216,7 @@ class Clicker:
                     self._note(name, frozenset((f"fault: {error!r}",)))
 
     def _click(self, name: str, control: QWidget, owed: Row | None = None) -> None:
-        """Click a control; raises an AssertionError where nothing of what is owed changes."""
+        """Click a control; fail if nothing changes that the table requires."""
         before = self._watcher.state()
         if click(control):
             QApplication.processEvents()
@@ -234,7 +235,7 @@ class Clicker:
     def entries(
         self, menu_name: str, open_menu: Open, skipped: Callable[[Path], bool] = lambda path: False, where: str = ""
     ) -> None:
-        """Click every entry of a menu and its submenus; ``where`` tells several menus of a name apart."""
+        """Click every entry of a menu and its submenus; ``where`` distinguishes menus of the same name."""
         menu = open_menu()
         if menu is None:
             return
@@ -254,7 +255,7 @@ class Clicker:
             self._note(name, found, where or menu_name)
 
     def _try(self, open_menu: Open, path: Path) -> frozenset[str]:
-        """Choose an entry; of what is chosen already another first."""
+        """Click an entry; if it is already selected, select another one first."""
         found = self._choose(open_menu, path)
         if found == CHOSEN and (other := self._beside(open_menu, path)) is not None:
             self._choose(open_menu, other)
@@ -265,7 +266,7 @@ class Clicker:
         return path[-1] if path[-1] in actions(self._program.session) else f"{menu_name} > {' > '.join(path)}"
 
     def _has_acted(self, name: str) -> bool:
-        """Return whether a click has already changed what the table says."""
+        """Return whether a previous click on an entry made the changes that the table requires."""
         row = expected(name)
         return row is not None and any(row.changes <= found for found in self.seen.get(name, {}).values())
 
@@ -282,7 +283,7 @@ class Clicker:
         return changed(before, self._watcher.state()) or (CHOSEN if was_chosen else NOTHING)
 
     def _beside(self, open_menu: Open, path: Path) -> Path | None:
-        """Another choice beside one that holds; None: there is none."""
+        """Another choice in the same group as a selected one; None if there is none."""
         close_menus()
         menu = open_menu()
         assert menu is not None, "the menu did not come again"
@@ -298,7 +299,7 @@ class Clicker:
         return others[0] if others and subject != "language" else None
 
     def bar(self, every: bool = True) -> None:
-        """Click every entry of the menu bar; unless ``every``, those whose effect no click has shown so far."""
+        """Click every entry of the menu bar; unless ``every`` is true, only entries whose effect was not seen yet."""
 
         def skipped(path: Path) -> bool:
             return path[-1] == "file.quit" or (self._has_acted(path[-1]) and not every)
@@ -336,7 +337,7 @@ class Clicker:
                 self.entries(name, open_menu)
 
     def context_menus(self, spots: dict[str, QWidget], columns: int = 8, rows: int = 3) -> None:
-        """Click every entry of the context menus that places of widgets have, at up to `TRIES` places until it acts."""
+        """Click every entry of context menus, each at up to `TRIES` positions of a widget until it has an effect."""
         session = self._program.session
         base = session.selection, session.players
         for spot, widget in spots.items():

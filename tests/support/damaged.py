@@ -1,4 +1,4 @@
-"""Damage as captures have it, put into a clip."""
+"""Insert damage typical of motion capture into a clip."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ KINDS: Final = ("flip", "bump", "lean", "zero", "all_zero", "root", "root_zero",
 
 
 def damaged(clip: MotionClip, kind: str, part: str, start: int, count: int, axis: FloatArray) -> MotionClip:
-    """The clip with so many bad frames.
+    """Return a clip with a number of damaged frames.
 
     Parameters
     ----------

@@ -52,7 +52,7 @@ PAIRS: Final = {
     "tuned": {"salsa_01": _JAZZ, "salsa_16": _SECOND, "indian_06": _SECOND},
     "judged": {"salsa_18": _LATIN, "salsa_03": _AFRO, "salsa_05": _SAMBA, "martial_04": _ROCK},
 }
-"""Clips and the drums that they are learned with; parameters are tuned on the first set and judged on the second."""
+"""Clips with the drums that they are learned with. Parameters are tuned on the first set and judged on the second."""
 PIECES: Final = {
     "tuned": (_JAZZ, _SECOND, "solo_flute_bach_partita_corrente"),
     "judged": (
@@ -63,16 +63,16 @@ PIECES: Final = {
         "reed_trio_mozart_k229_mv1",
     ),
 }
-"""Pieces that are danced to; those that are no drums have no percussion."""
+"""Pieces for dances by set; those other than drums have no percussion."""
 LONGEST_S: Final = 180.0
-"""Greatest length of a piece that is danced."""
+"""Greatest length in seconds of a piece."""
 
 
 # -------------------------------------------------------------------------------------------------------------- seams
 
 
 def angular_jumps(clip: MotionClip) -> FloatArray:
-    """(F, 16) change of each segment's angular velocity from the frame before to the frame after, rad/s; 0 at ends."""
+    """Change (F, 16) of each segment's angular velocity between adjacent frame intervals in rad/s; 0 at the ends."""
     steps = quaternion.multiply(quaternion.conjugate(clip.rotations[:-1]), clip.rotations[1:])
     velocity = quaternion.to_rotation_vector(steps) * float(clip.fps)
     jumps = np.zeros((len(clip), len(SEGMENTS)))
@@ -81,13 +81,14 @@ def angular_jumps(clip: MotionClip) -> FloatArray:
 
 
 def usual_jump_rad_s(sources: Sequence[MotionClip], fps: Fraction) -> float:
-    """The 99.9th percentile of the jumps, of all segments and frames, inside the source motion at a frame rate."""
+    """99.9th percentile of the jumps of all segments and frames within the source motion at a frame rate."""
     return float(np.percentile(np.concatenate([angular_jumps(resampled(one, fps))[1:-1] for one in sources]), 99.9))
 
 
 def seam_jumps_rad_s(clip: MotionClip, seams: Sequence[int], after: int = 2) -> FloatArray:
-    """(N,) the largest jump of any segment at each seam, from the frame before it, whose jump is the first that a
-    seam has a part in, to some frames after it."""
+    """Largest jump (N,) of any segment around each seam, from the frame before it, which the seam already influences,
+    to some frames after it.
+    """
     jumps = angular_jumps(clip).max(axis=1)
     return np.array([jumps[max(0, seam - 1) : seam + after + 1].max() for seam in seams])
 
@@ -96,7 +97,7 @@ def seam_jumps_rad_s(clip: MotionClip, seams: Sequence[int], after: int = 2) -> 
 
 
 def skating_m_s(clip: MotionClip, height_limit_m: float = 0.025) -> float:
-    """Mean over frames and feet of the speed over the floor of a tip that is low, weighted ``2 - 2^(h / H)``.
+    """Mean over frames and feet of the horizontal speed of low tips, weighted by ``2 - 2^(h / H)``.
 
     Source: H. Zhang and others, "Mode-Adaptive Neural Networks for Quadruped Motion Control", SIGGRAPH 2018. The height
     is over the lowest within two seconds, for captured floors are not level.
@@ -111,7 +112,7 @@ def skating_m_s(clip: MotionClip, height_limit_m: float = 0.025) -> float:
 
 
 def sliding_m_s(clip: MotionClip, standing: BoolArray) -> FloatArray:
-    """(N,) speed over the floor of the tips in the frames whose foot stands in them and in both neighbours."""
+    """Horizontal speed (N,) of the tips of feet that stand in a frame and in both adjacent ones."""
     tips = tips_m(clip)[..., [0, 2]]
     speed = np.zeros(standing.shape)
     speed[1:-1] = np.linalg.norm(tips[2:] - tips[:-2], axis=-1) * (0.5 * float(clip.fps))
@@ -122,7 +123,7 @@ def sliding_m_s(clip: MotionClip, standing: BoolArray) -> FloatArray:
 
 
 def knee_pop_rad_s2(clip: MotionClip, percentile: float = 99.9) -> float:
-    """A percentile of the angular acceleration of both knees: a knee that snaps shows."""
+    """Percentile of the angular acceleration of both knees, which reveals snapping knees."""
     knees = [SEGMENTS.index(f"{side}LowerLeg") for side in ("left", "right")]
     return float(np.percentile(angular_jumps(clip)[1:-1, knees], percentile) * float(clip.fps))
 
@@ -131,7 +132,7 @@ def knee_pop_rad_s2(clip: MotionClip, percentile: float = 99.9) -> float:
 
 
 def kinematic_beats_s(clip: MotionClip) -> FloatArray:
-    """Times of the local minima of the mean speed of the joints, smoothed with 5 frames of 60 a second.
+    """Times of the local minima of the joints' mean speed, smoothed over 5 frames of 60 per second.
 
     As of Li and others, "AI Choreographer", ICCV 2021.
     """
@@ -142,7 +143,9 @@ def kinematic_beats_s(clip: MotionClip) -> FloatArray:
 
 
 def alignment(motion_s: FloatArray, music_s: FloatArray, sigma_s: float = 0.05) -> tuple[float, float]:
-    """Beat alignment with 3 frames of 60 a second: mean over the motion's beats (FACT), over the music's (Bailando)."""
+    """Beat alignment with a tolerance of 3 frames of 60 per second: mean over the motion's beats (FACT) and over the
+    music's (Bailando).
+    """
     if not len(motion_s) or not len(music_s):
         return 0.0, 0.0
     off = np.square(motion_s[:, None] - music_s[None, :])
@@ -152,7 +155,7 @@ def alignment(motion_s: FloatArray, music_s: FloatArray, sigma_s: float = 0.05) 
 
 @dataclass(frozen=True)
 class Alignment:
-    """Alignment by one definition: of the dance, the mean of shifted copies of it, and their 95th percentile."""
+    """Alignment by one definition: of the dance, and mean and 95th percentile of shifted copies."""
 
     found: float
     chance: float
@@ -160,7 +163,7 @@ class Alignment:
 
 
 def alignments(motion_s: FloatArray, music_s: FloatArray, shifts: int = 1000, seed: int = 0) -> tuple[Alignment, ...]:
-    """Beat alignment by both definitions against the same motion shifted by chance, round the end to the start."""
+    """Beat alignment by both definitions, compared with the same motion shifted by random times with wrap-around."""
     music_s = music_s[(music_s >= motion_s.min(initial=0.0)) & (music_s <= motion_s.max(initial=0.0))]
     length_s = float(np.ptp(music_s)) if len(music_s) > 1 else 1.0
     first_s = float(music_s.min(initial=0.0))
@@ -176,21 +179,23 @@ def alignments(motion_s: FloatArray, music_s: FloatArray, shifts: int = 1000, se
 
 
 def poses_m(clip: MotionClip) -> FloatArray:
-    """(F, 63) places of the body's points, seen from below the hips and where they face, of a body of 1.7 m."""
+    """Positions (F, 63) of the body's points relative to the point below the hips and to their facing, for a body of
+    1.7 m.
+    """
     points = points_m(clip) - (clip.hips_m * (1.0, 0.0, 1.0))[:, None]
     seen = quaternion.rotate(quaternion.conjugate(facing(clip))[:, None], points)
     return np.asarray(seen * (STATURE_M / height_m(clip))).reshape(len(clip), -1)
 
 
 def nearest_m(clip: MotionClip, sources: Sequence[MotionClip]) -> FloatArray:
-    """(F,) root mean square distance of the points of each pose to those of the nearest pose of the sources."""
+    """Root mean square distance (F,) of the points of each pose to those of the most similar pose of the sources."""
     tree = cKDTree(np.concatenate([poses_m(one) for one in sources]))
     distances, _ = tree.query(poses_m(clip))
     return np.asarray(distances / np.sqrt(len(SEGMENTS) + len(ENDS)))
 
 
 def longest_run(values: Sequence[int]) -> int:
-    """Return the length of the longest run of one value."""
+    """Length of the longest run of equal values."""
     longest = run = 0
     for at, value in enumerate(values):
         run = run + 1 if at and value == values[at - 1] else 1
@@ -202,7 +207,8 @@ def longest_run(values: Sequence[int]) -> int:
 
 
 def concatenated(model: ChoreographyModel, dance: Dance, fps: Fraction) -> tuple[MotionClip, list[int]]:
-    """The segments of a dance laid end to end, place and facing carried on and nothing else; frames where they meet.
+    """Segments of a dance joined without any blending, with continuous place and facing, and the frames of the joins.
+    Each plays evenly from its start to its accent and from there to its end.
 
     Each goes evenly from its start to its accent, and on to its end, as a straightforward reconstruction does.
     """
@@ -241,7 +247,7 @@ def concatenated(model: ChoreographyModel, dance: Dance, fps: Fraction) -> tuple
 
 
 def sampled(clip: MotionClip, frames: FloatArray) -> MotionClip:
-    """A motion at frames, ascending, that need not be whole; by cubic splines, for lines would be seams themselves."""
+    """Sample a motion at ascending fractional frames by cubic splines; linear interpolation would add seams."""
     first, last = max(0, int(frames[0]) - 4), min(len(clip), int(frames[-1]) + 5)
     known, at = np.arange(first, last), np.minimum(frames, len(clip) - 1.0)
     turns = quaternion.normalize(CubicSpline(known, clip.rotations[first:last])(at))
@@ -249,13 +255,13 @@ def sampled(clip: MotionClip, frames: FloatArray) -> MotionClip:
 
 
 def yaws_rad(clip: MotionClip) -> FloatArray:
-    """(F,) where the hips face about +Y, without steps of a whole turn."""
+    """Direction (F,) of the hips about +Y without jumps of a whole turn."""
     turned = facing(clip)
     return np.unwrap(2.0 * np.arctan2(turned[:, 1], turned[:, 3]))
 
 
 def one_sided(rotations: FloatArray) -> FloatArray:
-    """Each frame on the side of the one before."""
+    """Choose the sign of each quaternion nearest to the previous frame's."""
     turned = np.einsum("fji,fji->fj", rotations[1:], rotations[:-1]) < 0.0
     sides = np.concatenate([np.ones((1, rotations.shape[1])), np.where(turned, -1.0, 1.0)]).cumprod(axis=0)
     return np.asarray(rotations * sides[..., None])
@@ -292,7 +298,7 @@ class Measured:
 
 
 def measured(model: ChoreographyModel, piece: Path, seed: int, folder: Path, fps: Fraction = Fraction(60)) -> Measured:
-    """Dance to a piece, and measure the file."""
+    """Generate a dance to a piece and measure the exported file."""
     rhythm = first_part(audible_rhythm(uncast_score(read_contents(piece))))
     choreographer = Choreographer(model)
     choreographer.candidates  # noqa: B018 - the model's share is not the piece's
@@ -343,7 +349,7 @@ def measured(model: ChoreographyModel, piece: Path, seed: int, folder: Path, fps
 
 
 def first_part(rhythm: Rhythm, longest_s: float = LONGEST_S) -> Rhythm:
-    """The beginning of a piece."""
+    """Beginning of a piece."""
     beats, hits = rhythm.beats_s < longest_s, rhythm.hits_s < longest_s
     return replace(
         rhythm,
@@ -358,12 +364,12 @@ def first_part(rhythm: Rhythm, longest_s: float = LONGEST_S) -> Rhythm:
 
 
 def read_back(file: Path) -> MotionClip:
-    """The motion of a file, as anyone reads it."""
+    """Read the motion from a file."""
     return read_motion(file).clip
 
 
 def learned(which: str) -> ChoreographyModel:
-    """The model of one of the sets of `PAIRS`."""
+    """Learn a model from one of the sets of `PAIRS`."""
     pairs = []
     for motion, drums in PAIRS[which].items():
         file = SHARED / "mocap" / f"cmu_{motion}.bvh"
@@ -373,7 +379,7 @@ def learned(which: str) -> ChoreographyModel:
 
 
 def midi(name: str) -> Path:
-    """The file of a piece or of drums."""
+    """MIDI file of a piece or of drums."""
     (file,) = [*SHARED.glob(f"midi/drums/gmd_{name}_*.mid"), *SHARED.glob(f"midi/ensemble/{name}.mid")]
     return file
 
@@ -403,11 +409,11 @@ COLUMNS: Final[dict[str, tuple[str, Callable[[Measured], float]]]] = {
     "away": ("5.2f", lambda one: one.away_m),
     "faces": ("6.0f", lambda one: one.faces_deg),
 }
-"""Units of the table: lengths in m, but nearness in mm; sliding and skating in mm/s."""
+"""Columns of the table: lengths in m, nearness in mm; sliding and skating in mm/s."""
 
 
 def table(rows: Sequence[Measured]) -> str:
-    """One line a dance."""
+    """Table with a line per dance."""
     heads = [f"{head.strip():>{form.split('.')[0].rstrip('df')}}" for head, (form, _) in COLUMNS.items()]
     lines = [" ".join([f"{'piece':42}", *heads])]
     for one in rows:
@@ -416,7 +422,7 @@ def table(rows: Sequence[Measured]) -> str:
 
 
 def of_sources(model: ChoreographyModel) -> str:
-    """Return a line with the measures of each capture that the model was made from."""
+    """Line with the measures of each capture from which the model was learned."""
     lines = []
     for source, clip in zip(model.sources, model.clips, strict=True):
         sliding = sliding_m_s(clip, foot_contacts(clip))

@@ -1,4 +1,4 @@
-"""Small motions and models to dance from, made here: a body that steps and swings its arms in several ways."""
+"""Small synthetic motions and models: a body that steps and swings its arms in several ways."""
 
 from __future__ import annotations
 
@@ -26,15 +26,16 @@ SHAPE = BodyShape.of(
 
 
 def still(frames: int, fps: int = 60) -> MotionClip:
-    """The T-pose."""
+    """Motion that stays in the T-pose."""
     rotations = np.zeros((frames, len(SEGMENTS), 4))
     rotations[..., 3] = 1.0
     return MotionClip(SHAPE, Fraction(fps), np.tile((0.0, HIPS_M, 0.0), (frames, 1)), rotations)
 
 
 def stepping(beats: int, seed: int = 1, beat_s: float = 0.5, fps: int = 60) -> MotionClip:
-    """Steps on the spot, a foot a beat, and arms that swing as far as chance says: smooth, feet exactly still when
-    they stand, most accelerated on the beat."""
+    """Steps on the spot, one per beat, with arms that swing randomly far: smooth, with motionless standing feet, and
+    with the greatest acceleration on the beat.
+    """
     random = np.random.default_rng(seed)
     times = np.arange(round(beats * beat_s * fps) + 1) / fps / beat_s
     clip = still(len(times), fps)
@@ -68,7 +69,7 @@ def stepping(beats: int, seed: int = 1, beat_s: float = 0.5, fps: int = 60) -> M
 
 
 def moving(frames: int, seed: int = 1) -> MotionClip:
-    """Smooth turns of all joints by chance; knees and elbows bend about one axis, as those of people do."""
+    """Smooth random rotations of all joints; knees and elbows bend about one axis."""
     random = np.random.default_rng(seed)
     times_s = np.arange(frames)[:, None, None] / 60.0
     phases, rates = random.uniform(0.0, 6.0, (2, 1, len(SEGMENTS), 3))
@@ -82,7 +83,7 @@ def moving(frames: int, seed: int = 1) -> MotionClip:
 
 
 def model(beats: int = 24, states: int = 4, seed: int = 1) -> ChoreographyModel:
-    """Two sources of steps, cut at their half beats, with states and probabilities by chance."""
+    """Model of two sources of steps, cut at half beats, with random states and probabilities."""
     random = np.random.default_rng(seed)
     clips = (stepping(beats, seed), stepping(beats, seed + 1, beat_s=0.6))
     segments = []
@@ -106,7 +107,7 @@ def model(beats: int = 24, states: int = 4, seed: int = 1) -> ChoreographyModel:
 
 
 def beaten(beats: int, beat_s: float = 0.5, seed: int = 0) -> Rhythm:
-    """Bars of four with a kick on each beat and chance strokes between."""
+    """Bars of four with a kick on each beat and random strokes between."""
     random = np.random.default_rng(seed)
     beats_s = beat_s * np.arange(beats)
     extra = np.sort(random.uniform(0.0, beats_s[-1], beats))

@@ -1,4 +1,4 @@
-"""The skinning of whole patches of a character, vertex by vertex: what landmarks and files are compared with."""
+"""Skinning of whole patches of a character vertex by vertex, as a reference for landmarks and files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The whole editor as a user finds it, and what the user did there before."""
+"""The whole editor with a prepared session, for tests of actions."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 
 class Desk:
-    """The editor, what was open before the action, and short words for what is there."""
+    """The editor, the project before the action, and abbreviations for its content."""
 
     def __init__(self, program: Program, answers: Answers, folder: Path, patch: pytest.MonkeyPatch) -> None:
         self.program = program
@@ -72,19 +72,19 @@ class Desk:
         return self.program.window.viewport
 
     def notes(self, project: Project | None = None) -> tuple[Note, ...]:
-        """The notes of whoever was in front before."""
+        """Notes of the player who was selected first before the action."""
         held = self.project if project is None else project
         return held.part(held.players[0]).notes
 
     def chosen(self) -> list[tuple[Note, Note | None]]:
-        """Return each selected note as it was before, with the same note afterwards (None: removed)."""
+        """Each selected note before the action with the same note after it (None if removed)."""
         after = {note.id: note for note in self.notes()}
         ids = self.seen["notes"]
         assert isinstance(ids, frozenset)
         return [(note, after.get(note.id)) for note in self.notes(self.before) if note.id in ids]
 
     def made(self, kind: type) -> list[object]:
-        """Corrections of a kind that were not there before."""
+        """Corrections of a kind that were added by the action."""
         old = self.before.corrections.get(self.before.players[0].id, ())
         return [
             item
@@ -93,7 +93,7 @@ class Desk:
         ]
 
     def dialog(self, name: str) -> bool:
-        """Return whether a dialog is up; it is closed."""
+        """Return whether a dialog is open, and close it."""
         found = [
             widget for widget in QApplication.topLevelWidgets() if isinstance(widget, QDialog) and widget.isVisible()
         ]
@@ -103,7 +103,7 @@ class Desk:
         return names == [name]
 
     def menu(self, *entries: str) -> bool:
-        """Return whether a menu is up that has these entries; it is closed."""
+        """Return whether a menu with these entries is open, and close it."""
         popup = QApplication.activePopupWidget()
         if popup is None:
             return False
@@ -112,7 +112,7 @@ class Desk:
         return set(entries) <= set(names)
 
     def settle(self) -> None:
-        """Let the window do what it does later."""
+        """Process deferred work of the window."""
         for _ in range(3):
             QApplication.processEvents()
 
@@ -149,7 +149,7 @@ def a_breath(desk: Desk) -> None:
 
 
 def recorded(take_id: str, span: tuple[int, int] | None = None, alone: bool = False) -> Deed:
-    """Someone recorded two takes, a second and a third above the part, and selected one; perhaps no one else plays."""
+    """Record two takes, a second and a third above the part, and select one; optionally remove the other players."""
 
     def ready(desk: Desk) -> None:
         clock, player = desk.project.score.tempo_map, desk.player
@@ -192,8 +192,9 @@ def has_percussion(desk: Desk) -> None:
 
 
 def quieten(desk: Desk, looks: bool = True) -> None:
-    """Stop the sound, close menus and dialogs, and show everything as it was at first; the language and the theme only
-    where ``looks`` says so."""
+    """Stop the sound, close menus and dialogs and restore the initial view; language and theme only if ``looks`` is
+    true.
+    """
     program, session = desk.program, desk.session
     if session.playback is not None:
         session.playback.stop()
@@ -223,7 +224,7 @@ def quieten(desk: Desk, looks: bool = True) -> None:
 
 
 def afresh(desk: Desk, opened: Project | None) -> Project:
-    """Everything as it was at first, with some notes selected."""
+    """Restore the initial state with some notes selected."""
     program, session = desk.program, desk.session
     quieten(desk)
     if session.project is not opened and session.document.done and session.document.done[0].before is opened:

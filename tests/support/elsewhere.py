@@ -1,4 +1,4 @@
-"""Projects whose files are on another computer."""
+"""Projects with files on another computer."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
 
 SHARES = ("\\\\host\\share\\", "//host/share/", "\\\\?\\UNC\\host\\share\\")
-"""The same folder of another computer, as files may name it."""
+"""Spellings in files of one folder on another computer."""
 
 
 def paths_on(share: str) -> tuple[str, ...]:
@@ -21,7 +21,7 @@ def paths_on(share: str) -> tuple[str, ...]:
 
 
 def on_share(project: Project, share: str) -> Project:
-    """A project that uses these files, by its first player and a dancer."""
+    """Project that uses these files for its first player and a dancer."""
     recording, video, moves, dance, source = paths_on(share)
     first, *others = project.players
     first = msgspec.structs.replace(first, parameters=msgspec.structs.replace(first.parameters, choreography=moves))

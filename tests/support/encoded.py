@@ -1,4 +1,4 @@
-"""Files as bytes, made by what writes them."""
+"""Files as bytes, made by the program's writers."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from app.formats.scene import Scene
 
 
 def encode_bvh(clip: BvhClip) -> bytes:
-    """A BVH file."""
+    """Encode a BVH file."""
     return b"".join(bvh_pieces(clip))
 
 
 def encode_elements(elements: Sequence[Element]) -> bytes:
-    """An FBX file of these elements."""
+    """Encode an FBX file from elements."""
     return b"".join(element_pieces(elements))
 
 
 def encode_scene(scene: Scene) -> bytes:
-    """An FBX file."""
+    """Encode an FBX file from a scene."""
     return encode_elements(scene_elements((scene,)))
 
 
 def encode_glb(scene: Scene) -> bytes:
-    """A GLB file."""
+    """Encode a GLB file."""
     return b"".join(glb_pieces((scene,)))

@@ -21,7 +21,7 @@ from tests.support.plan import PlainClock, PlainNote, make_plans, time_frame
 FILE = Path(__file__).parents[1] / "data" / "breaths" / "engraved.json"
 TICKS = 480
 SLUR = 12
-"""Ticks that a slurred note overlaps the next."""
+"""Ticks by which a slurred note overlaps the next one."""
 
 
 USUAL = PlayerParameters()
@@ -47,12 +47,12 @@ class Agreement(msgspec.Struct, frozen=True):
 
 @cache
 def marked_lines() -> tuple[dict[str, Any], ...]:
-    """Every line of the file."""
+    """All lines of a file with breath marks or phrase slurs."""
     return tuple(json.loads(FILE.read_text()))
 
 
 def agreement(row: dict[str, Any], parameters: PlayerParameters = USUAL) -> Agreement:
-    """Plan a line alone, and compare."""
+    """Plan a line alone and compare its breaths with the marks."""
     slurred = set(row["slurred_to"])
     notes = tuple(
         PlainNote(f"1:{index + 1}", round(onset * TICKS), round(length * TICKS) + SLUR * (index + 1 in slurred), pitch)

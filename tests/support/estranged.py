@@ -1,4 +1,5 @@
-"""Our own characters as other programs would have made them: bones turned and renamed, another rest pose, other units.
+"""Bundled characters in the form of other programs: bones with other axes and names, another rest pose, other units.
+The files are written by this module or by the program's FBX writer; reading them must give the original character.
 
 The files are written by hand or by our own FBX writer; what is read back must be the character they were made from.
 """
@@ -29,7 +30,7 @@ VRM0_THUMBS = {"ThumbMetacarpal": "ThumbProximal", "ThumbProximal": "ThumbInterm
 
 @dataclass(frozen=True, eq=False)
 class Foreign:
-    """A character as a file may hold it.
+    """A character as stored in a foreign file.
 
     Attributes
     ----------
@@ -55,7 +56,9 @@ def still(character: Character) -> np.ndarray:
 
 
 def own_axes(character: Character, seed: int) -> np.ndarray:
-    """``joint_from_bone`` (J, 4): along chains of fingers the bone's Y axis points to the next, elsewhere anything."""
+    """Axes ``joint_from_bone`` (J, 4) of the bones: in fingers the Y axis points to the next bone, elsewhere the axes
+    are random.
+    """
     skeleton = character.skeleton
     turns = Rotation.random(len(skeleton.names), random_state=np.random.default_rng(seed)).as_quat()
     for joint, name in enumerate(skeleton.names):
@@ -74,7 +77,7 @@ def foreign(
     rename: Callable[[str], str] = lambda name: f"Bip_{name}",
     extra: bool = True,
 ) -> Foreign:
-    """A character as another program might hold it.
+    """Convert a character to the form of another program.
 
     Parameters
     ----------
@@ -124,7 +127,7 @@ def _with(mesh: Mesh, **values: Any) -> Mesh:
 
 
 def _shared(mesh: Mesh, bone: int, twin: int) -> Mesh:
-    """A third of every vertex's hold by a bone goes to its twin."""
+    """Transfer a third of each vertex's weight for a bone to the bone's twin."""
     own = np.where(mesh.joints == bone, mesh.weights, 0.0)
     joints = np.concatenate([mesh.joints, np.full((len(mesh.joints), 1), twin, np.int32)], axis=1)
     weights = np.concatenate([mesh.weights - own / 3.0, own.sum(axis=1, keepdims=True) / 3.0], axis=1)
@@ -215,7 +218,7 @@ def write_glb(
 
 
 def _pieces(figure: Foreign) -> list[tuple[int, Mesh]]:
-    """Each mesh cut into what its bones hold; vertices stay, triangles are shared out by their first corner."""
+    """Divide each mesh by the bone with the greatest weight; triangles follow their first corner."""
     found = []
     for mesh in figure.meshes:
         best = np.argmax(mesh.weights, axis=1)
@@ -237,7 +240,7 @@ def _pieces(figure: Foreign) -> list[tuple[int, Mesh]]:
 
 
 def _local(bone: np.ndarray, scale: float, places_m: np.ndarray) -> np.ndarray:
-    """Places in the world in the space of a bone that hangs from an armature of a scale."""
+    """Convert world positions to the space of a bone below an armature with a scale."""
     inverse = np.linalg.inv(bone)
     return (places_m / scale) @ inverse[:3, :3].T + inverse[:3, 3]
 
@@ -303,7 +306,7 @@ def _gltf_mesh(writer: _Glb, mesh: Mesh) -> dict[str, Any]:
 
 
 class _Glb:
-    """Arrays of a glTF binary."""
+    """Buffers of a binary glTF file."""
 
     def __init__(self) -> None:
         self._blobs: list[bytes] = []
@@ -321,7 +324,7 @@ class _Glb:
         return len(self._accessors) - 1
 
     def blob(self, data: bytes) -> int:
-        """The number of a buffer view."""
+        """Add a buffer view and return its index."""
         self._blobs.append(data + b"\0" * (-len(data) % 4))
         return len(self._blobs) - 1
 
@@ -344,7 +347,7 @@ class _Glb:
 
 
 def write_fbx(path: Path, figure: Foreign) -> Path:
-    """Write a figure as a binary FBX file, in centimetres."""
+    """Write a figure as a binary FBX file in centimetres."""
     world = figure.world.copy()
     world[:, :3, 3] *= 100.0
     bones = []

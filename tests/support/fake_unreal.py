@@ -1,4 +1,6 @@
-"""An `unreal` module that remembers what it is asked to do, as far as the plug-in asks.
+"""An `unreal` module that records the plug-in's calls. It provides only names of the documented API that the plug-in
+uses, checked against the stub in `tests/support/unreal_api`, with the types of its editor properties. FBX files are
+read by the program's own reader, so that an import contains what its file contains.
 
 It knows only names of the documented API: those of the stub beside it (`tests/support/unreal_api`), whose editor
 properties it takes with their types, and whose classes and functions it is held against in the tests. FBX files that it
@@ -30,7 +32,7 @@ INTERCHANGE = "Interchange.FeatureFlags.Import.FBX"
 
 @dataclass(frozen=True)
 class FbxContents:
-    """Contents of a file that an import takes; no frames where nothing moves."""
+    """Contents of an imported file; zero frames without motion."""
 
     bones: tuple[str, ...]
     morphs: frozenset[str]
@@ -40,7 +42,7 @@ class FbxContents:
 
 
 _READ: dict[bytes, FbxContents] = {}
-"""By the digest of the bytes: most tests import the same files."""
+"""Contents of files by digest, since most tests import the same files."""
 
 
 def fbx_contents(path: Path) -> FbxContents:
@@ -61,19 +63,19 @@ def fbx_contents(path: Path) -> FbxContents:
 
 @cache
 def stub() -> ast.Module:
-    """The documented API that the plug-in uses."""
+    """The documented API, as far as the plug-in uses it."""
     return ast.parse(STUB.read_text(encoding="utf-8"))
 
 
 @cache
 def stub_classes() -> dict[str, ast.ClassDef]:
-    """Its classes by name."""
+    """Classes of the documented API by name."""
     return {node.name: node for node in stub().body if isinstance(node, ast.ClassDef)}
 
 
 @cache
 def editor_properties(name: str, function: str) -> dict[str, str]:
-    """The properties that a class's ``set_editor_property`` or ``get_editor_property`` knows, and their types."""
+    """Types of the properties that a class's ``set_editor_property`` and ``get_editor_property`` accept, by name."""
     found: dict[str, str] = {}
     bases = [base.id for base in stub_classes()[name].bases if isinstance(base, ast.Name)]
     for base in bases:
@@ -92,7 +94,7 @@ def editor_properties(name: str, function: str) -> dict[str, str]:
 
 
 def fake_unreal(project: Path, language: str = "en") -> Any:
-    """A fresh `unreal` module of an editor that has a project open; ``unreal.studio`` is what has become of it."""
+    """Make a new `unreal` module of an editor with an open project; ``unreal.studio`` is its recorded state."""
     module = types.ModuleType("unreal")
     studio = Studio(project, language)
     classes = {name: value for name, value in _classes(studio, module).items() if name in stub_classes()}
@@ -108,7 +110,7 @@ def fake_unreal(project: Path, language: str = "en") -> Any:
 
 @dataclass
 class Studio:
-    """The editor and its project, as the tests look at it.
+    """State of the editor and its project for tests.
 
     Attributes
     ----------
@@ -153,14 +155,14 @@ class Studio:
     ids: Iterator[int] = field(default_factory=lambda: itertools.count(1))
 
     def add(self, path: str, asset: Any) -> Any:
-        """Have an asset at a path."""
+        """Add an asset at a path."""
         self.assets[path] = asset
         asset._path = path
         return asset
 
 
 def _classes(studio: Studio, module: Any) -> dict[str, type]:
-    """All classes of the module; those that only have to be there have nothing in them."""
+    """All classes of the module; those without function are empty."""
 
     class Object:
         _path = ""
@@ -901,7 +903,7 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
         _section = MovieSceneAudioSection
 
     class Tracks:
-        """Object with tracks."""
+        """Base of objects with tracks."""
 
         def __init__(self) -> None:
             self._tracks: list[Any] = []

@@ -1,4 +1,4 @@
-"""Element tree -> text, so that two FBX files can be compared line by line."""
+"""Convert an element tree to text, so that two FBX files can be compared line by line."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _LONGEST_ENDS = 4
 
 
 def text(root: Element) -> str:
-    """Readable, stable text of a decoded file.
+    """Deterministic text of a decoded file.
 
     Parameters
     ----------

@@ -46,7 +46,7 @@ FAMILIES = {
 
 @dataclass(frozen=True)
 class Context:
-    """One row of the table: ``pitches`` are written MIDI numbers, ``quarters`` the length of every note."""
+    """A row of the table: ``pitches`` are written MIDI numbers, ``quarters`` is the length of every note."""
 
     map: str
     name: str
@@ -59,7 +59,7 @@ class Context:
 
     @property
     def family(self) -> str:
-        """The family its instrument belongs to."""
+        """Family of the row's instrument."""
         return next(name for name, maps in FAMILIES.items() if self.map in maps)
 
 
@@ -90,7 +90,7 @@ def written_pitch(name: str) -> int:
 
 
 def planned_labels(context: Context) -> tuple[str, ...]:
-    """The labels of the fingerings that are planned for the notes of a context."""
+    """Labels of the planned fingerings for the notes of a row."""
     instrument = bundled_maps()[context.map]
     step_tick = context.quarters * TICKS_PER_QUARTER
     notes = line_of(
@@ -108,7 +108,7 @@ def planned_labels(context: Context) -> tuple[str, ...]:
 
 
 def is_right(context: Context, labels: tuple[str, ...]) -> bool:
-    """Return whether the labels fulfil one of the lists of conditions of the answer."""
+    """Return whether labels satisfy one of the answer's lists of conditions."""
     return any(
         all(_holds(condition, context, labels) for condition in conditions.split(";"))
         for conditions in context.answer.split(" or ")
@@ -134,7 +134,7 @@ def _fits(accepted: str, label: str) -> bool:
 
 
 def right_of(chosen: Iterable[Context]) -> dict[str, tuple[int, int]]:
-    """Return the number of right contexts and the number of all, by family."""
+    """Number of correct rows and number of all rows by family."""
     result: dict[str, tuple[int, int]] = {}
     for context in chosen:
         right, total = result.get(context.family, (0, 0))
@@ -143,7 +143,7 @@ def right_of(chosen: Iterable[Context]) -> dict[str, tuple[int, int]]:
 
 
 def main() -> None:
-    """Print the table; with ``--wrong`` the wrong contexts that are not held out too."""
+    """Print the table; with ``--wrong`` also the wrong rows that are not held out."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--wrong", action="store_true", help="list the wrong contexts that are not held out")
     parser.add_argument("--family", choices=FAMILIES, help="only this family")

@@ -1,4 +1,5 @@
-"""Characters on skeletons that are not ours, made from ours: other names, rest rotations, an A-pose, bones in between.
+"""Characters on foreign skeletons, made from bundled ones: other names, other rest rotations, an A-pose, additional
+bones. Their correct motion is known, since it is that of the bundled character.
 
 What such a character does is known exactly, because it is one of ours underneath.
 """
@@ -28,7 +29,7 @@ def foreign(
     in_chain: str = "",
     root: str = "Reference",
 ) -> Character:
-    """The character as if it had come from a file.
+    """Convert a character to a form as if read from a foreign file.
 
     Bones have turned rest frames and are at rest where the character was bound (an A-pose); a twist bone lies beside
     each forearm and upper arm, a chain of hair hangs from the head. Two morphs are of the file's own.
@@ -63,7 +64,7 @@ def foreign(
         return len(names) - 1
 
     def hung(parent: int, offset: np.ndarray, turn: Rotation) -> tuple[Any, ...]:
-        """A bone that keeps its place on its parent, at rest and in the T-pose."""
+        """Add a bone that keeps its place relative to its parent, at rest and in the T-pose."""
         return tuple(
             (place[parent][0] + place[parent][1].apply(offset), place[parent][1] * turn) for place in (rest, t_pose)
         )

@@ -1,4 +1,6 @@
-"""An editor of which every name that comes from a file looks like HTML, and a judge of what it shows."""
+"""An editor in which every name from a file looks like HTML, and a check that the window displays all of them as plain
+text.
+"""
 
 from __future__ import annotations
 
@@ -44,20 +46,20 @@ from tests.support.takes import take_of
 CHARACTER = Path(__file__).parents[1] / "data" / "characters" / "toddler_vrm1.vrm"
 FIELD = re.compile(r'alt="(\w+)"')
 KEY = QKeySequence("Alt+8")
-"""Key that ``&8`` in a name would become."""
+"""Shortcut that ``&8`` in a name would create."""
 PLACES = 4
-"""The mouse rests at so many places across a widget that answers by itself."""
+"""Number of positions of the mouse across a widget that responds to hovering."""
 
 
 def hostile_score(score: Score, canary: Canary) -> Score:
-    """The same notes; title, parts and markers are called otherwise."""
+    """Copy of a score with hostile titles, part names and markers."""
     parts = tuple(msgspec.structs.replace(part, name=canary.name("track")) for part in score.parts)
     markers = (Marker(0, canary.name("marker")), Marker(4 * score.ticks_per_quarter, canary.name("marker")))
     return msgspec.structs.replace(score, title=canary.name("title"), parts=parts, markers=markers)
 
 
 def with_more(project: Project, canary: Canary) -> Project:
-    """Return the project with things that no MIDI file holds: a take, an expression that is shown, a recording."""
+    """Add content that no MIDI file contains to a project: a take, a displayed expression, a recording."""
     front = project.players[0]
     played = [(1.0 + 0.5 * beat, 1.45 + 0.5 * beat, 60 + beat, 0.7) for beat in range(8)]
     named = {"name": canary.name("take"), "device": canary.name("device"), "recorded": canary.name("recorded")}
@@ -77,7 +79,7 @@ def with_more(project: Project, canary: Canary) -> Project:
 
 
 def write_library(canary: Canary, instruments: Path, characters: Path, presets: Path) -> None:
-    """A user's own files: of instruments, characters and presets one that is good and one that is not."""
+    """Write a user's own instruments, characters and presets: a valid and an invalid file of each."""
     for folder in (instruments, characters):
         folder.mkdir(parents=True)
     name, title = (msgspec.json.encode(canary.name(field)).decode() for field in ("instrument", "character"))
@@ -92,7 +94,7 @@ def write_library(canary: Canary, instruments: Path, characters: Path, presets: 
 
 
 class Spoken(SpokenFor):
-    """A device with a hostile name."""
+    """A MIDI device with a hostile name."""
 
     def __init__(self, on_news: Callable[[], None], port: str) -> None:
         super().__init__(on_news, Clock())
@@ -104,7 +106,7 @@ class Spoken(SpokenFor):
 
 
 class Judge:
-    """Looks at everything that is shown, rests the mouse on it, and notes what is no plain text."""
+    """Examines all visible texts and tool tips, and records those that are not plain text."""
 
     def __init__(self, canary: Canary) -> None:
         self.canary = canary
@@ -114,7 +116,7 @@ class Judge:
         self._state = ""
 
     def look(self, state: str, beside: QWidget | None = None) -> None:
-        """Judge what is shown now; ``beside`` a window that was judged before."""
+        """Check the visible widgets; ``beside`` is a window that was checked before."""
         self._state = state
         for _ in range(3):
             QApplication.processEvents()
@@ -168,14 +170,14 @@ class Judge:
             self._key(menu, QKeySequence.mnemonic(action.text()))
 
     def open_menus(self, state: str) -> None:
-        """The menus of the menu bar and of buttons, filled as when they open."""
+        """Check the menus of the menu bar and of buttons, filled as when opened."""
         self._state = state
         for menu in (widget for widget in QApplication.allWidgets() if isinstance(widget, QMenu)):
             menu.aboutToShow.emit()
             self._judge_menu(menu)
 
     def ask_menus(self, widget: QWidget) -> None:
-        """The context menus of a widget, at some places."""
+        """Check the context menus of a widget at some positions."""
         for place in _grid(widget.rect(), 3):
             event = QContextMenuEvent(QContextMenuEvent.Reason.Mouse, place, widget.mapToGlobal(place))
             QApplication.sendEvent(widget, event)
@@ -187,7 +189,7 @@ class Judge:
                 popup.close()
 
     def hover(self, widget: QWidget) -> None:
-        """Move the mouse over a widget that tells what is below it."""
+        """Move the mouse over a widget that describes what is under the pointer."""
         no = Qt.MouseButton.NoButton
         for place in _grid(widget.rect(), 12):
             local, screen = QPointF(place), QPointF(widget.mapToGlobal(place))
@@ -198,7 +200,7 @@ class Judge:
                 self.rest(widget, place)
 
     def _places(self, widget: QWidget) -> Iterator[QPoint]:
-        """Yield the places of a widget at which a tool tip may come up."""
+        """Yield the positions of a widget at which a tool tip may appear."""
         if "<img" in widget.toolTip():
             yield widget.rect().center()
         elif any(
@@ -215,7 +217,7 @@ class Judge:
                     yield view.visualRect(index).center()
 
     def rest(self, widget: QWidget, place: QPoint) -> None:
-        """Let a tip come up, and judge it."""
+        """Show a tool tip and check it."""
         QApplication.sendEvent(widget, QHelpEvent(QEvent.Type.ToolTip, place, widget.mapToGlobal(place)))
         if not QToolTip.isVisible():
             return

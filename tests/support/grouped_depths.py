@@ -1,4 +1,6 @@
-"""Depth of hands in closed bodies, group by group and body by body: the judge that the quick one is compared with.
+"""Depth of hands in closed bodies, group by group and body by body: a reference for the faster method of the program.
+Vertices are grouped, and only groups near a body are examined vertex by vertex; this is exact, because a group's
+vertices stay within its radius.
 
 Vertices are grouped, and only groups whose middle is near enough to a body are looked at vertex by vertex: nothing is
 left out, because a group's vertices stay within its radius.
@@ -17,23 +19,23 @@ from app.rig.skinning import Skin
 from instrument_maps.hold import Proxy
 
 GROUP = 8
-"""Vertices per group, about."""
+"""Approximate number of vertices per group."""
 BLOCK = 32
-"""Frames looked at together."""
+"""Number of frames examined together."""
 STRETCH = 1.3
-"""Times farther from its middle than in the bind pose a vertex of a group may come when the hand bends."""
+"""Factor by which the distance of a vertex from its group's centre in the bind pose may grow when the hand bends."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Group:
     members: AnyIntArray
-    """Rows of the hand's vertices."""
+    """Indices of the hand's vertices."""
     middle: int
     radius_m: float
 
 
 class GroupedDepths:
-    """The skin of a hand and the bodies it must not enter.
+    """Skin of a hand and the bodies that it must not penetrate.
 
     Parameters
     ----------
@@ -62,7 +64,7 @@ class GroupedDepths:
         morphs: Mapping[str, AnyFloatArray],
         world_from_node: Mapping[str, FloatArray],
     ) -> FloatArray:
-        """Greatest depth of any vertex in any body, at each of some frames.
+        """Greatest depth of any vertex in any body at each of some frames.
 
         Parameters
         ----------
@@ -102,8 +104,9 @@ class GroupedDepths:
 
 
 class _Blocks:
-    """Places of points (n, G, 3), some frames at a time: hands hardly move on what they hold, so one look at the
-    middle of a point's places rules out a whole block."""
+    """Positions of points (n, G, 3) for blocks of frames: hands hardly move relative to what they hold, so one test of
+    a point's centre can exclude a whole block.
+    """
 
     def __init__(self, places: AnyFloatArray) -> None:
         self._frames = len(places)
@@ -115,8 +118,9 @@ class _Blocks:
         self._wander = np.linalg.norm(high - low, axis=-1) / 2.0
 
     def possible_depths(self, body: Proxy, radii: FloatArray) -> Iterator[tuple[int, FloatArray]]:
-        """Yield, for each point near a body, its index and the greatest depth in the body that anything within the
-        radius (G,) of the point may have, (n,)."""
+        """Yield for each point near a body its index and the greatest possible depth (n,) in the body of anything
+        within the point's radius (G,).
+        """
         # A distance changes by no more than the point moves, so nothing within reach is passed over.
         close = signed_distance(body, self._middle) < radii + self._wander
         block, point = np.nonzero(close)
@@ -132,12 +136,12 @@ class _Blocks:
 
 
 def _moved(matrices: AnyFloatArray, points: AnyFloatArray) -> AnyFloatArray:
-    """Points (n, V, 3) through transforms (n, 4, 4)."""
+    """Transform points (n, V, 3) by matrices (n, 4, 4)."""
     return points @ matrices[:, :3, :3].swapaxes(1, 2) + matrices[:, None, :3, 3]
 
 
 def _split(rows: AnyIntArray, positions_m: FloatArray) -> list[AnyIntArray]:
-    """Halve along the longest side until the groups are small."""
+    """Halve groups along their longest side until they are small."""
     if len(rows) <= GROUP:
         return [rows]
     extent = np.ptp(positions_m[rows], axis=0)

@@ -1,4 +1,4 @@
-"""JACK's dummy server: MIDI ports without hardware, each test module its own server."""
+"""JACK's dummy server, which provides MIDI ports without hardware; each test module has its own server."""
 
 from __future__ import annotations
 
@@ -20,16 +20,20 @@ from app.capture.midi_library import load_library
 
 RATE_HZ: Final = 48000
 PATIENT_FRAMES: Final = 4096
-"""A period so long that no client gets the processor too late on a busy machine: it would read what is already the next
-period's, and messages would be lost on the way to us."""
+"""Frames per period, so many that every client is scheduled in time on a busy machine; otherwise messages would be lost
+before the program receives them.
+"""
 QUICK_FRAMES: Final = 64
-"""For latency, and for what must not be lost: then in step with the clients, which a killed one would stop."""
+"""Frames per period for measuring latency, and for messages that must not be lost: the server then waits for its
+clients, so that killing one would stop it.
+"""
 _VARIABLE: Final = "JACK_DEFAULT_SERVER"
 
 
 def require_jack() -> None:
-    """Skip where JACK is not installed; where every check must run (CI=true) that fails. Skip without a MIDI
-    library."""
+    """Skip the test if JACK or a MIDI library is not installed; fail instead for JACK if all checks are mandatory
+    (CI=true).
+    """
     try:
         load_library()
     except ImportError as error:
@@ -44,7 +48,7 @@ def require_jack() -> None:
 def jack_server(
     name: str, period_frames: int = PATIENT_FRAMES, *, is_in_step: bool = False, is_realtime: bool = False
 ) -> Iterator[Server]:
-    """A dummy server that this process and its children use, as long as the block runs."""
+    """Run a dummy server for this process and its children within a ``with`` block."""
     require_jack()
     before = os.environ.get(_VARIABLE)
     server = Server(name, period_frames, is_in_step=is_in_step, is_realtime=is_realtime)
@@ -60,7 +64,7 @@ def jack_server(
 
 
 class Server:
-    """A server that can be started and stopped; in real time, as musicians run theirs, where the system permits it."""
+    """A server that can be started and stopped; in real time if the system permits it."""
 
     def __init__(self, name: str, period_frames: int, *, is_in_step: bool, is_realtime: bool = False) -> None:
         self.name, self.period_frames, self.is_in_step = name, period_frames, is_in_step
@@ -69,7 +73,8 @@ class Server:
         self._process: subprocess.Popen[bytes] | None = None
 
     def start(self) -> str:
-        """Start it and wait until it answers; its name, the one it had before if that can be.
+        """Start the server, wait until it answers, and return its name, if possible the previous one. JACK supports at
+        most eight names and keeps a killed server's until the name is used again.
 
         JACK knows eight names at most, a killed server's until one of the same name comes: few names, taken again.
         """
@@ -96,7 +101,7 @@ class Server:
         )
 
     def stop(self, by: signal.Signals = signal.SIGTERM) -> None:
-        """End it."""
+        """Stop the server."""
         if self._process is not None:
             self._process.send_signal(by)
             try:

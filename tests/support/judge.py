@@ -1,5 +1,6 @@
-"""A second opinion on ``suisou inspect --json``: everything the printed object promises, checked from the object and
-from what mido reads, without a line of the program.
+"""An independent check of ``suisou inspect --json``: verifies everything promised about the printed object from the
+object and from mido's reading of the file, without code of the program. `faults` returns sentences, so that a test
+shows all of them.
 
 `faults` returns sentences, so that a test shows all of them at once.
 """
@@ -19,7 +20,7 @@ import mido
 
 Inspection = Mapping[str, Any]
 Sounding = tuple[int, int, int, int]
-"""Onset tick, duration in ticks, pitch, velocity."""
+"""Onset tick, duration in ticks, pitch and velocity."""
 
 # Table 3.1 of the thesis, concert pitches.
 TABLE = {
@@ -43,9 +44,9 @@ FIRST = {
 HELD_S = 0.35
 RELEASED = 0.22
 OFF_S = 0.045
-"""Seconds by which a played note may begin before or after its place."""
+"""Seconds by which a played note may begin before or after its written position."""
 SLOW_S = 0.4
-"""Neighbouring onsets further apart than this force no one to an alternate."""
+"""Seconds between adjacent onsets above which no alternate fingering is needed."""
 TUBE_M = 2.76
 TRAVEL_M = 0.62
 
@@ -56,17 +57,19 @@ FAMILY = {
     "flugelhorn_Bb": "trumpet",
     "trombone_tenor_F_attachment": "trombone",
 }
-"""Instruments whose published table is here: three valves in B flat, or the tenor's slide."""
+"""Instruments whose published fingerings are in this module: three valves in B flat, or the tenor's slide."""
 
 
 def opened(path: Path) -> mido.MidiFile:
-    """A file as mido reads it; key signatures that it refuses are blanked."""
+    """Read a file with mido; key signatures that mido refuses are blanked."""
     data = re.sub(rb"\xff\x59\x02..", b"\xff\x59\x02\x00\x00", path.read_bytes(), flags=re.DOTALL)
     return mido.MidiFile(file=io.BytesIO(data), clip=True)
 
 
 def sounding_notes(path: Path) -> list[tuple[int, int, Sounding]]:
-    """(track, channel, note) of a file that mido reads: first in, first out; velocity 0 is off; format 0 and 1."""
+    """Notes (track, channel, note) of a file of format 0 or 1 in mido's reading; the first note-on is ended first, and
+    velocity 0 is a note-off.
+    """
     found = []
     for number, track in enumerate(opened(path).tracks):
         tick = 0
@@ -88,7 +91,7 @@ def sounding_notes(path: Path) -> list[tuple[int, int, Sounding]]:
 
 
 def tempos(path: Path) -> list[tuple[int, int]]:
-    """(tick, microseconds per quarter) of all tracks, by tick; of several at one tick the last track's."""
+    """Pairs (tick, microseconds per quarter) of all tracks by tick; of several at one tick the last track's counts."""
     changes = {0: 500000}
     ordered = []
     for track in opened(path).tracks:
@@ -102,7 +105,7 @@ def tempos(path: Path) -> list[tuple[int, int]]:
 
 
 def slow_seconds(tick: float, changes: Sequence[tuple[int, int]], quarter: int) -> float:
-    """Seconds at a tick, tempo by tempo; the first extends backwards."""
+    """Time of a tick in seconds, calculated tempo by tempo; the first tempo also applies before its tick."""
     time_s = 0.0
     if tick < 0:
         return tick * changes[0][1] / quarter / 1e6
@@ -118,7 +121,7 @@ def faults(
     path: Path, found: Inspection, *, thresholds: Sequence[float] = (0.5, 1.0, 2.0), felt_beat: float = 1.0,
     preroll: float | None = None,
 ) -> list[str]:  # fmt: skip
-    """Everything that is wrong with what was printed about a file of format 0 or 1."""
+    """All errors in the output about a file of format 0 or 1."""
     changes, quarter = tempos(path), found["ticks_per_beat"]
     wrong = _notes(path, found, changes, quarter)
     names = [player["name"] for player in found["players"]]
@@ -242,7 +245,7 @@ def _expected_controls(kind: str, label: str, controls: Mapping[str, float]) -> 
 
 
 VALVE_KEPT = {41: "T1", 48: "T1"}
-"""F 2 and C 3 of a trombone with an F valve."""
+"""Labels of F 2 and C 3 on a trombone with an F valve."""
 
 
 def _fingerings(player: Mapping[str, Any]) -> list[str]:
@@ -283,8 +286,9 @@ def _fingerings(player: Mapping[str, Any]) -> list[str]:
 
 
 def _detached(notes: Sequence[Mapping[str, Any]]) -> list[bool]:
-    """Return whether the silence before each note is how the one before was articulated: as in two neighbours of the
-    same step, or as after half of all the notes."""
+    """Return whether the silence before each note is due to the articulation of the previous note: as for two
+    neighbours with the same step, or for at least half of all notes.
+    """
     steps = [math.nan, *(other["onset_tick"] - one["onset_tick"] for one, other in pairwise(notes))]
     shares = [
         math.nan,
@@ -313,7 +317,7 @@ def _unserved(
     seconds: Callable[[float], float],
     note_id: str,
 ) -> list[str]:
-    """Return the problems of the breath in a rest of ``rest`` beats, which is ``late`` beats longer in the score."""
+    """Problems of the breath in a rest of ``rest`` beats, which is longer in the score by ``late`` beats."""
     least, last, prepare = thresholds
     if rest + late >= prepare:
         requested: tuple[float, ...] = (onset - min(2 * beat, rest * beat), onset - beat, onset)
@@ -339,11 +343,11 @@ def _unserved(
 
 
 CATCH_BREATH_S, SHORTEST_NOTE_S = 0.2, 1.0 / 24.0
-"""The least that a breath takes, and the least that is heard of a note whose end is given up for it."""
+"""Least seconds of a breath, and of the sound of a note that is shortened for it."""
 
 
 def leaves_out(breath: Mapping[str, Any], note: Mapping[str, Any], following: Mapping[str, Any]) -> bool:
-    """Return whether a breath says that it takes the place of a note, of which nothing would be left but for a gasp."""
+    """Return whether a breath replaces a note, of which hardly anything would remain otherwise."""
     named = re.search(r"(?:instead|in place) of notes? (\S+) \(\S+\)(?: and (\S+) \(\S+\))?,", breath["reason"])
     step_s = following["onset_s"] - note["onset_s"]
     pitches = [_named_pitch(name) for name in named.groups() if name] if named else []
@@ -351,7 +355,7 @@ def leaves_out(breath: Mapping[str, Any], note: Mapping[str, Any], following: Ma
 
 
 def _named_pitch(name: str) -> int:
-    """The MIDI number of a pitch as it is named where middle C is C4."""
+    """MIDI number of a pitch's name with middle C as C4."""
     letter, accidental, octave = re.fullmatch(r"([A-G])([♯♭]?)(-?\d+)", name).groups()
     return (
         12 * (int(octave) + 1)
@@ -362,8 +366,7 @@ def _named_pitch(name: str) -> int:
 
 
 def _given_up_s(length_s: float) -> float:
-    """Return the time (s) that a note may lose to a breath: half of it, or for the least breath all but its
-    beginning."""
+    """Seconds that a note may lose to a breath: half of it, or for the shortest breath all but its beginning."""
     return max(0.5 * length_s, min(length_s - SHORTEST_NOTE_S, CATCH_BREATH_S))
 
 

@@ -1,4 +1,4 @@
-"""Waiting for what a recorder tells."""
+"""Wait for the reports of a recorder."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from app.capture.protocol import Events, News
 
 T = TypeVar("T", bound=News)
 PATIENCE_S = 30.0
-"""The machine may be busy with other tests."""
+"""Seconds to wait for a report, since the machine may be busy with other tests."""
 QUIET_S = 5.0
-"""Time after which a message was lost on its way."""
+"""Seconds after which a message counts as lost."""
 
 
 class Ear:
-    """Everything a link has reported, in order."""
+    """All reports of a link, in order."""
 
     def __init__(self, link: RecorderLink) -> None:
         self.link = link
         self.reported: list[News] = []
 
     def look(self) -> None:
-        """Take what has come."""
+        """Receive pending reports."""
         self.reported += self.link.poll()
 
     def wait(self, kind: type[T], where: Callable[[T], bool] = lambda reported: True, *, after: int = 0) -> T:
-        """The first of a kind, of all that was reported from place `after` on."""
+        """Wait for the first report of a kind, starting at index `after`."""
         end_s = time.monotonic() + PATIENCE_S
         while True:
             self.look()
@@ -42,7 +42,7 @@ class Ear:
             time.sleep(0.005)
 
     def wait_for_messages(self, count: int) -> list[tuple[int, bytes]]:
-        """Wait until so many messages have come; all."""
+        """Wait for a number of messages, and return all."""
         end_s = time.monotonic() + PATIENCE_S
         while len(self.messages) < count and time.monotonic() < end_s:
             self.look()
@@ -50,7 +50,7 @@ class Ear:
         return self.messages
 
     def wait_for_most(self, count: int) -> None:
-        """Wait until so many messages have come, or none has for a while: JACK may have lost some."""
+        """Wait for a number of messages, or until none arrive for a while, since JACK may lose some."""
         end_s = time.monotonic() + PATIENCE_S
         quiet_since_s = time.monotonic()
         while len(self.messages) < count and time.monotonic() < end_s and time.monotonic() < quiet_since_s + QUIET_S:
@@ -62,7 +62,7 @@ class Ear:
 
     @property
     def messages(self) -> list[tuple[int, bytes]]:
-        """All messages that have come."""
+        """All messages received so far."""
         return [
             pair
             for reported in self.reported

@@ -1,4 +1,4 @@
-"""A performance played to someone who does not know what comes, frame by frame."""
+"""A performance played frame by frame to a live player who does not know the following notes."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ from tests.support.performed import performance_curves
 QUARTER = 480
 FPS = 60
 LATE_S = 0.13
-"""After an onset everything is in place: what a finger takes to its key, and a frame."""
+"""Seconds after an onset by which everything is in place: a finger's move to its key, and a frame."""
 
 Notes = list[tuple[int, int, int]]
-"""Onset and length in ticks, concert pitch; a beat is half a second."""
+"""Onset and length in ticks and sounding pitch; a beat is half a second."""
 
 
 @dataclass(frozen=True, eq=False)
 class Played:
-    """Poses that were seen.
+    """Live poses of a performance.
 
     Attributes
     ----------
@@ -60,49 +60,49 @@ class Played:
 
     @property
     def player(self) -> object:
-        """The same as in `PerformanceCurves`, for the judge of contacts."""
+        """Same as in `PerformanceCurves`, for checking contacts."""
         return self.playing.player
 
     @property
     def instrument_map(self) -> object:
-        """The same as in `PerformanceCurves`."""
+        """Same as in `PerformanceCurves`."""
         return self.playing.instrument_map
 
     @property
     def body(self) -> object:
-        """The same as in `PerformanceCurves`."""
+        """Same as in `PerformanceCurves`."""
         return self.playing.body
 
     @property
     def stopping(self) -> object:
-        """The same as in `PerformanceCurves`."""
+        """Same as in `PerformanceCurves`."""
         return self.playing.stopping
 
     @property
     def controls(self) -> dict[str, object]:
-        """The same as in `PerformanceCurves`: none, since they cannot be known beforehand."""
+        """Same as in `PerformanceCurves`: empty, since controls are unknown in advance."""
         return {}
 
     def ankles_m(self, times_s: FloatArray) -> dict[str, FloatArray]:
-        """The same as in `PerformanceCurves`: the feet of a live player stay."""
+        """Same as in `PerformanceCurves`: the feet of a live player do not move."""
         place = self.playing.player.place
         return {side: np.tile(ankle_m, (len(times_s), 1)) for side, ankle_m in place.ankles_m.items()}
 
     def placed(self, times_s: FloatArray) -> dict[str, StationBlend]:
-        """Return the positions of the hands at some times, by hand."""
+        """Positions of the hands at some times, by hand."""
         frames = np.round((times_s - self.motion.first_frame_s) * FPS).astype(int)
         return {name: StationBlend(*rows[frames].T) for name, rows in self.hands.items()}
 
 
 def performance_of(instrument_id: str, notes: Notes) -> Performance:
-    """A performance of one player."""
+    """Performance of one player."""
     rows = tuple(Note(f"1:{index}", *note, 80) for index, note in enumerate(notes, start=1))
     part = Part("1.1.1", "Player", 0, 0, 0, None, None, instrument_id, rows)
     return Performance(project_from_score(Score("live", QUARTER, TempoMap(QUARTER), parts=(part,)), bundled_maps()))
 
 
 def line(instrument_id: str, count: int, seed: int = 1) -> Notes:
-    """Notes from all of the range, eighths, quarters and halves, some of them after a rest."""
+    """Notes from the whole range in eighths, quarters and halves, some of them after a rest."""
     limits = bundled_maps()[instrument_id].range
     random = np.random.default_rng(seed)
     notes, tick, pitch = [], 4 * QUARTER, (limits.easy_low + limits.easy_high) // 2
@@ -115,13 +115,13 @@ def line(instrument_id: str, count: int, seed: int = 1) -> Notes:
 
 
 def playing_alone(instrument_id: str, notes: Notes) -> PerformanceCurves:
-    """One player's playing."""
+    """Curves of a single player."""
     performance = performance_of(instrument_id, notes)
     return performance_curves(performance, performance.project.players[0])
 
 
 def played(playing: PerformanceCurves, notes: Notes) -> Played:
-    """Play the notes of a playing to someone, and look on."""
+    """Play the notes of a performance to a live player and record its poses."""
     along, plan = PlayAlong(playing), playing.plan
     events = [
         (time_s, on, note[2])
@@ -159,7 +159,7 @@ def played(playing: PerformanceCurves, notes: Notes) -> Played:
 
 
 def motion_of(poses: list[Pose], first_s: float) -> Motion:
-    """Poses, one after the other."""
+    """Join poses to a motion."""
     morphs = sorted({name for pose in poses for name in pose.morphs})
     return Motion(
         fps=Fraction(FPS),
@@ -174,7 +174,7 @@ def motion_of(poses: list[Pose], first_s: float) -> Motion:
 
 
 def ready_spans(live: LiveMotion, player_id: str) -> tuple[tuple[float, float], ...]:
-    """Return the spans of time (s, in order) for which a player's motion has been made."""
+    """Time spans (s, in order) for which a player's motion has been computed."""
     shown = live._shown
     track = shown.tracks.get(player_id)
     if track is None:

@@ -1,4 +1,6 @@
-"""A long day at the editor: piece after piece, panels moved about, languages, themes; what is left after each round.
+"""A long session of the editor: piece after piece, with changes of panels, languages and themes, and a measurement of
+memory and objects after each round. ``python -m tests.support.long_session ROUNDS`` runs it and prints the measurements
+of each round.
 
 ``python -m tests.support.long_session ROUNDS`` runs it for long, and prints what each round left.
 """
@@ -43,7 +45,7 @@ _PAGE = resource.getpagesize()
 
 @dataclass(frozen=True)
 class Footprint:
-    """Memory and objects that the process holds.
+    """Memory and objects of the process.
 
     Attributes
     ----------
@@ -77,7 +79,7 @@ class Footprint:
 
 
 def footprint() -> Footprint:
-    """Return the memory and objects of the process after everything that can be freed is freed."""
+    """Measure memory and objects of the process after freeing everything that can be freed."""
     for _ in range(3):
         QCoreApplication.processEvents()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
@@ -119,7 +121,7 @@ def _children() -> list[str]:
 
 
 class LongDay:
-    """Someone who does it all again and again.
+    """A user who repeats all activities in rounds.
 
     Parameters
     ----------
@@ -132,7 +134,7 @@ class LongDay:
         self.program, self.session, self.pieces = program, program.session, pieces
 
     def round(self) -> None:
-        """Every piece once: opened, looked at, heard, edited, closed."""
+        """Open, view, play, edit and close every piece once."""
         window = self.program.window
         for path in self.pieces:
             self.program.editor.files.open(path, ask=False)
@@ -158,13 +160,13 @@ class LongDay:
         self.wait(0.3)
 
     def dress(self) -> None:
-        """Another theme and language, and back."""
+        """Change theme and language, and change them back."""
         for action_id in ("theme.light", "language.ja", "theme.dark", "language.en"):
             self.trigger(action_id)
             self.wait(0.02)
 
     def move_panels(self) -> None:
-        """Every panel floated, docked, closed and shown."""
+        """Float, dock, close and show every panel."""
         for name, dock in self.program.window.docks.items():
             dock.setFloating(True)
             self.wait(0.02)
@@ -175,7 +177,7 @@ class LongDay:
         self.trigger("workspace.reset")
 
     def fill_screen(self) -> None:
-        """The viewport alone, every view, and back."""
+        """Show the viewport in full screen with every view, and restore the window."""
         self.trigger("application.full_screen")
         for view in ("ensemble", "hands", "mouth", "front"):
             self.trigger(f"viewport.{view}")
@@ -183,7 +185,7 @@ class LongDay:
         self.trigger("application.full_screen")
 
     def play(self) -> None:
-        """A second is heard, or would be."""
+        """Play for a second."""
         self.session.set_playhead(2.0)
         for source in ("synthesiser", "recording"):
             self.session.listening.set(source=source)
@@ -192,7 +194,7 @@ class LongDay:
             self.session.set_playing(False)
 
     def edit(self) -> None:
-        """A note goes up, and down again."""
+        """Raise a note and lower it again."""
         self.trigger("notes.select_all")
         self.trigger("notes.up")
         self.trigger("edit.undo")
@@ -206,7 +208,7 @@ class LongDay:
         child(window, ReimportDialog).reject()
 
     def open_dialogs(self) -> None:
-        """Every dialog that stands beside the window, closed at once."""
+        """Open every non-modal dialog and close it immediately."""
         for action_id in (
             *("application.palette", "application.preferences", "application.shortcuts", "application.about"),
             *("export.files", "export.playblast"),
@@ -222,17 +224,17 @@ class LongDay:
                 palette.hide()
 
     def trigger(self, action_id: str) -> None:
-        """Do what an action does, if it makes sense now."""
+        """Trigger an action if it is enabled."""
         self.program.editor.table.refresh()
         if actions(self.session)[action_id].isEnabled():
             actions(self.session)[action_id].trigger()
 
     def wait(self, seconds: float) -> None:
-        """Let the window work."""
+        """Process events for a time."""
         pause(round(1000 * seconds))
 
     def until(self, ready: Callable[[], bool], most_s: float = 60.0) -> None:
-        """Let the window work until something is so."""
+        """Process events until a condition holds."""
         end_s = time.monotonic() + most_s
         while not ready():
             if time.monotonic() > end_s:
@@ -241,14 +243,14 @@ class LongDay:
 
 
 def larger_piece(folder: Path, players: int, notes: int) -> Path:
-    """A made-up project in a file."""
+    """Write a synthetic project to a file."""
     path = folder / f"{players} players.suisou"
     save(large_project(players, notes), path)
     return path
 
 
 def long_run(rounds: int, players: int = 20, notes: int = 500) -> None:
-    """Print what each round leaves, and in the end what grew."""
+    """Print the measurements of each round and finally the growth."""
     make_application()
     garbage = Garbage()
     with tempfile.TemporaryDirectory() as name:

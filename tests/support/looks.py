@@ -79,14 +79,14 @@ from widgets.viewport import figures
 
 OWN_CHARACTER = Path(__file__).parents[1] / "data" / "characters" / "toddler_vrm1.vrm"
 ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "problems_who", "problems_kind"}
-"""Texts that may be cut short: all of it stands in the list that opens, in the tool tip, or beside it."""
+"""Widgets whose text may be cut short, since the full text is in a list, a tool tip or nearby."""
 _JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
 _ID = re.compile(r"\b[a-z_]+\.[a-z_]+\b")
 _TRIES = 5
 _SAME_IN_BOTH = {"日本語", "End", "L"}
-"""The name of a language, and keys."""
+"""Texts that are equal in both languages: the name of a language, and keys."""
 QTS_OWN = {"qt_keysequenceedit_lineedit", "palette_field", "shortcut_search"}
-"""Fields whose small button is Qt's; keys do the same."""
+"""Fields with a small button of Qt, for which there are keys."""
 
 
 def faults(application: QApplication) -> Iterator[str]:
@@ -100,7 +100,7 @@ def faults(application: QApplication) -> Iterator[str]:
 
 
 def left_over(application: QApplication, language: str) -> list[str]:
-    """Visible texts that are not in the language that is shown, or hold the id of a text instead of it."""
+    """Visible texts that are not in the selected language, or that are ids of texts."""
     texts = {text for window in application.topLevelWidgets() if window.isVisible() for text in texts_of(window)}
     japanese = {text for text in texts if _JAPANESE.search(text)}
     ids = {text for text in texts if TEXTS.keys() & set(_ID.findall(text))}
@@ -169,7 +169,7 @@ def _name(widget: QWidget) -> str:
 
 
 def _label(widget: QWidget) -> str:
-    """The label that belongs to it, or a list's own contents."""
+    """Label that belongs to a widget, or a list's own contents."""
     labels = widget.window().findChildren(QLabel)
     named = next((label.text() for label in labels if label.buddy() is widget), "")
     return named or (widget.currentText() if isinstance(widget, QComboBox) else "")
@@ -189,7 +189,7 @@ def _place(widget: QWidget) -> str:
 
 
 class Look:
-    """An editor in every state, one after another."""
+    """An editor that is shown in every state, one after another."""
 
     def __init__(
         self, theme: str, size: tuple[int, int], folder: Path, pictures: Path | None, *, switches: bool = False
@@ -220,16 +220,16 @@ class Look:
         self.window.resize(*size)
 
     def speak(self, language: str) -> None:
-        """Go on in a language."""
+        """Switch the language."""
         self.language = language
         self.program.editor.speak(language)
 
     def settle(self, seconds: float = 0.08) -> None:
-        """Let the editor lay itself out."""
+        """Process events until the layout is finished."""
         pause(round(1000 * seconds))
 
     def at(self, state: str) -> None:
-        """Judge a state; where the language is switched, in the other language too, which stays."""
+        """Check a state; if languages are switched, also in the other language, which then stays."""
         self._judge(state)
         if self.switches:
             self.speak("en" if self.language == "ja" else "ja")
@@ -257,7 +257,7 @@ class Look:
             self.application.primaryScreen().grabWindow(0).save(str(self.pictures / f"{name}.png"))
 
     def do(self, action_id: str) -> None:
-        """Choose an action."""
+        """Trigger an action."""
         self.program.editor.table.refresh()
         actions(self.session)[action_id].trigger()
 
@@ -269,7 +269,7 @@ class Look:
         self.settle(0.02)
 
     def start(self) -> None:
-        """The start page, empty and full."""
+        """Check the start page, without and with recent files."""
         self.both("start")
         long = Path("/a folder/with/a long way/of folders") / f"{'a long name of a piece ' * 3}.suisou"
         self.program.editor.settings.add_recent(long)
@@ -281,26 +281,26 @@ class Look:
         self.both("start_full")
 
     def both(self, state: str) -> None:
-        """Judge a state in both languages."""
+        """Check a state in both languages."""
         for language in ("ja",) if self.switches else ("ja", "en"):
             self.speak(language)
             self.at(state)
 
     def open(self) -> None:
-        """The piece, in a new window's layout."""
+        """Open the piece in the layout of a new window."""
         self.program.editor.files.open(LUTKIN, ask=False)
         self.window.reset_workspace()
         self.at("window")
 
     def workspaces(self) -> None:
-        """Every workspace as it comes, the first one last."""
+        """Check the default layout of every workspace, the first one last."""
         for workspace in reversed(WORKSPACES):
             self.do(f"workspace.{workspace.id}")
             self.do("workspace.reset")
             self.at(f"workspace_{workspace.id}")
 
     def selections(self) -> None:
-        """The window with whatever can be selected."""
+        """Check the window with each kind of selection."""
         player = self.session.project.players[0]
         notes = self.session.project.part(player).notes
         plan = self.session.performance.plan(player)
@@ -336,7 +336,7 @@ class Look:
         self.window.banner.hide()
 
     def takes(self, player_id: str) -> None:
-        """A take, in the timeline and in the inspector; taken out again."""
+        """Check a take in the timeline and the inspector, and remove it."""
         played = [(1.0 + 0.5 * beat, 1.45 + 0.5 * beat, 60 + beat, 0.7) for beat in range(8)]
         project, (id,) = add_takes(self.session.project, player_id, [take_of(played)])
         self.session.attempt(Message("edit.comp_before"), lambda _: comp_whole(project, player_id, id))
@@ -346,7 +346,7 @@ class Look:
         self.session.document.undo()
 
     def dialogs(self) -> None:
-        """Every dialog."""
+        """Check every dialog."""
         steps: dict[str, Callable[[], object]] = {
             "help": lambda: self.do("help.guides"),
             "about": lambda: self.do("application.about"),
@@ -391,7 +391,7 @@ class Look:
         self.do("file.compare_metadata")
 
     def _follow_recording(self) -> None:
-        """Follow a recording in the piece, which has a lane then."""
+        """Follow a recording in the piece, which adds a lane."""
         path = self.folder / "tone.wav"
         if not path.exists():
             soundfile.write(path, 0.1 * np.sin(np.arange(22_050) * 0.1), 22_050)
@@ -410,7 +410,7 @@ class Look:
         dialog.show()
 
     def sharp(self) -> None:
-        """The picture of the players has as many pixels as the screen."""
+        """Check that the picture of the players has as many pixels as the screen."""
         canvas = self.window.viewport.findChild(QOpenGLWidget)
         assert isinstance(canvas, QOpenGLWidget)
         shot, ratio = canvas.grabFramebuffer(), canvas.devicePixelRatioF()
@@ -423,7 +423,7 @@ class Look:
 
 
 def look_at(screen: str, pictures: Path | None) -> None:
-    """Look at one scale, and print what was found."""
+    """Check one scale and print the faults."""
     scale, theme, width, height, *live = screen.split(":")
     os.environ["QT_SCALE_FACTOR"] = scale
     with tempfile.TemporaryDirectory() as folder:
@@ -445,7 +445,7 @@ def look_at(screen: str, pictures: Path | None) -> None:
 
 
 def load() -> None:
-    """Load everything that is the same at every scale: modules, the piece's plans, and its figures."""
+    """Load everything that is independent of the scale: modules, the piece's plans, and its figures."""
     for package in (widgets.dialogs, app.shell):
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             importlib.import_module(module.name)
@@ -458,7 +458,7 @@ def load() -> None:
 
 
 def main() -> int:
-    """Look at one scale after another; 1 where one of them failed."""
+    """Check one scale after another; return 1 if one of them failed."""
     screens = [argument for argument in sys.argv[1:] if ":" in argument]
     pictures = Path(sys.argv[-1]) if sys.argv[-1] not in screens else None
     load()

@@ -1,4 +1,4 @@
-"""Sound and film files that ffmpeg makes for tests, and damaged or hostile ones."""
+"""Sound and film files made by ffmpeg for tests, some of them damaged or hostile."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def ffmpeg(*arguments: str) -> None:
 
 
 def clicks(path: Path, rate_hz: int, at_s: tuple[float, ...] = (1.0, 3.0), length_s: float = 4.0) -> Path:
-    """Bursts of a tone in silence, as a WAV file."""
+    """Write short tones separated by silence to a WAV file."""
     sound = np.zeros(round(length_s * rate_hz))
     burst = 0.8 * np.sin(2.0 * np.pi * 1000.0 * np.arange(round(0.05 * rate_hz)) / rate_hz)
     for second in at_s:
@@ -25,14 +25,14 @@ def clicks(path: Path, rate_hz: int, at_s: tuple[float, ...] = (1.0, 3.0), lengt
 
 
 def heard_s(samples: np.ndarray, around_s: float, rate_hz: int) -> float:
-    """Second at which a burst begins near another."""
+    """Time in seconds at which a tone begins near a given time."""
     first = max(round((around_s - 0.3) * rate_hz), 0)
     loud = np.abs(samples[first : first + round(0.8 * rate_hz), 0].astype(np.int64)) > 8000
     return (first + int(loud.argmax())) / rate_hz
 
 
 def with_gap(path: Path, gap_s: float, pictures: bool = False, length_s: float = 0.4, codec: str = "aac") -> Path:
-    """A tone, and pictures, in which time jumps in the middle."""
+    """Write a film with a tone and pictures whose time stamps jump in the middle."""
     later = f"PTS+gt(T\\,{length_s / 2})*{gap_s}/TB"
     inputs = ["-f", "lavfi", "-i", f"sine=440:r=48000:d={length_s}"]
     if pictures:

@@ -1,5 +1,6 @@
-"""Motion of known plans that is made and judged once for all tests of a process: the quartet's takes seconds of the
-processor."""
+"""Cache of motion and contacts of known plans for all tests of a process, since the quartet takes seconds of processor
+time.
+"""
 
 from __future__ import annotations
 
@@ -19,14 +20,14 @@ from app.motion.perform import PerformanceCurves
 from app.plan.model import PlayerPlan
 
 MOST_FRAMES: Final = 500
-"""Longer motion, as exports make it at once, is made each time."""
+"""Number of frames above which motion is not cached, as in exports."""
 
 _CURVES: Final = IdentityCache[PerformanceCurves](16)
 
 
 @dataclass(eq=False)
 class _Known:
-    """Motion that was made of some curves.
+    """Computed motion of some curves.
 
     Attributes
     ----------
@@ -42,14 +43,14 @@ _KNOWN: Final = WeakKeyDictionary[PerformanceCurves, _Known]()
 
 
 class _Prepared(IdentityCache[PerformanceCurves]):
-    """Keeps the curves of known plans, whatever is made beside them."""
+    """Keeps the curves of known plans, whatever else is computed."""
 
     def __init__(self, plans: Callable[[], Collection[PlayerPlan]], size: int) -> None:
         super().__init__(size)
         self._plans = plans
 
     def helped(self, function: Any, help: Any, *inputs: Any, **named: Any) -> Any:
-        """The same as in any other cache."""
+        """Same as in any other cache."""
         if any(inputs[0] is plan for plan in self._plans()):
             made = _CURVES.helped(function, help, *inputs, **named)
             _KNOWN.setdefault(made, _Known())
@@ -58,7 +59,8 @@ class _Prepared(IdentityCache[PerformanceCurves]):
 
 
 def know_motion(monkeypatch: pytest.MonkeyPatch, plans: Callable[[], Collection[PlayerPlan]]) -> None:
-    """Motion is made and judged only where it is new, or not of one of these plans.
+    """Compute and judge motion only if it is new. The same frames of the same curves are equal to the bit, as
+    tests/unit/motion/test_perform checks; code that changes them in place fails.
 
     The same frames of the same curves are the same bits, as tests/unit/motion/test_perform says; whoever changes them
     in place fails.

@@ -21,11 +21,11 @@ LEFT = Qt.MouseButton.LeftButton
 NONE = Qt.KeyboardModifier.NoModifier
 
 _place = QPoint()
-"""The mouse on the screen, as Qt knows it."""
+"""Position of the mouse on the screen according to Qt."""
 
 
 def park_pointer() -> None:
-    """Put the display's own pointer into a corner where no menu comes up under it."""
+    """Move the display's own pointer to a corner where no menu opens under it."""
     QCursor.setPos(QApplication.primaryScreen().geometry().topRight())
     # The answer comes after the display has moved it.
     QCursor.pos()
@@ -33,7 +33,7 @@ def park_pointer() -> None:
 
 
 def move(widget: QWidget, place: QPoint) -> None:
-    """Move the mouse to a place of a widget."""
+    """Move the mouse to a position of a widget."""
     global _place
     window = widget.window()
     _place = widget.mapToGlobal(place)
@@ -41,7 +41,7 @@ def move(widget: QWidget, place: QPoint) -> None:
 
 
 def bring_into_view(widget: QWidget) -> None:
-    """Scroll every area that holds the widget."""
+    """Scroll every area that contains the widget."""
     above = widget.parentWidget()
     while above is not None:
         if isinstance(above, QScrollArea) and above.widget() is not None and above.widget().isAncestorOf(widget):
@@ -50,7 +50,7 @@ def bring_into_view(widget: QWidget) -> None:
 
 
 def press(widget: QWidget, place: QPoint | None = None) -> None:
-    """Click a widget where the display shows it.
+    """Click a widget at its position on the screen.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def press(widget: QWidget, place: QPoint | None = None) -> None:
 
 
 def choose(menu: QMenu, entry: QAction) -> None:
-    """Click an entry of a menu that is open."""
+    """Click an entry of an open menu."""
     assert menu.isVisible(), "the menu is closed"
     # When the display first shows it, Qt takes it for the menu in front, also if a submenu has come up meanwhile.
     assert QTest.qWaitForWindowExposed(menu, PATIENCE_MS), "the display does not show the menu"
@@ -90,7 +90,7 @@ def choose(menu: QMenu, entry: QAction) -> None:
 
 
 def open_submenu(menu: QMenu, entry: QAction, inner: QMenu) -> None:
-    """Open a submenu by a click on its entry.
+    """Open a submenu by clicking its entry.
 
     Raises
     ------
@@ -104,7 +104,7 @@ def open_submenu(menu: QMenu, entry: QAction, inner: QMenu) -> None:
 
 
 def in_menu_of(button: QToolButton, do: Callable[[QMenu], None]) -> None:
-    """Open the menu of a button by a click, do something in it, and close it.
+    """Open the menu of a button by a click, call a function, and close the menu.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def in_menu_of(button: QToolButton, do: Callable[[QMenu], None]) -> None:
 
 
 def menu_at(widget: QWidget, place: QPoint) -> QMenu | None:
-    """Ask for the context menu of a place; None: there is none."""
+    """Open the context menu at a position; None if there is none."""
     event = QContextMenuEvent(QContextMenuEvent.Reason.Mouse, place, widget.mapToGlobal(place))
     QApplication.sendEvent(widget, event)
     QApplication.processEvents()
@@ -148,7 +148,7 @@ def menu_at(widget: QWidget, place: QPoint) -> QMenu | None:
 
 
 def open_in_bar(bar: QMenuBar, path: list[QMenu]) -> QMenu:
-    """Open a menu of a menu bar and those in it, each by a click."""
+    """Open a menu of a menu bar, and submenus in it, by clicks."""
     title = path[0].menuAction()
     QTest.mouseClick(bar, LEFT, NONE, bar.actionGeometry(title).center())
     for outer, inner in pairwise(path):

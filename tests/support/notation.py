@@ -1,4 +1,7 @@
-"""Our reader of MusicXML beside two others: music21 and partitura, each in a Python of its own.
+"""Comparison of the program's MusicXML reader with two others, music21 and partitura, each in a separate Python.
+`./test` installs a Python with both readers and names it in `SUISOU_NOTATION_PYTHON`. The comparison covers onsets,
+ends (so that ties are joined), sounding pitches, slurs, and the order in which measures are played. Onsets are those of
+the written score, each measure once; repeats show in the order of measures.
 
 `./test` sets the Python with both readers up and names it in `SUISOU_NOTATION_PYTHON`. Compared are onsets, ends (so
 that ties are joined), sounding pitches, slurs, and the order in which measures are played. Onsets are those of the
@@ -30,11 +33,11 @@ DATA: Final = ROOT / "tests/data/musicxml"
 EXAMPLES: Final = ROOT / "resources/examples"
 READERS: Final = ("music21", "partitura")
 NEAR: Final = 0.02
-"""Quarters: tuplets are rounded by some."""
+"""Tolerance in quarters, since some readers round tuplets."""
 
 
 class Read(NamedTuple):
-    """Result of a reader; times in quarters.
+    """Result of a reader, with times in quarters.
 
     Attributes
     ----------
@@ -54,7 +57,7 @@ class Read(NamedTuple):
 
 
 def ours(path: Path) -> Read:
-    """Read a score by the program's own reader."""
+    """Read a score with the program's reader."""
     root, _ = read_document(path)
     place = Place(str(path))
     quarter = ticks_per_quarter(root)
@@ -80,20 +83,20 @@ def ours(path: Path) -> Read:
 
 
 def python_of_readers() -> str:
-    """The Python that has both readers; empty: there is none."""
+    """Path of the Python with both readers; empty if there is none."""
     return os.environ.get("SUISOU_NOTATION_PYTHON", "")
 
 
 @cache
 def corpus() -> Path:
-    """The folder of music21's package, which brings scores of many programs."""
+    """Folder of music21's package, which contains scores from many programs."""
     code = "import importlib.util as u; print(u.find_spec('music21').submodule_search_locations[0])"
     found = subprocess.run([python_of_readers(), "-c", code], capture_output=True, text=True, check=True)
     return Path(found.stdout.strip())
 
 
 def others(reader: str, paths: Sequence[Path]) -> Iterator[Read]:
-    """Yield the contents that another reader finds in each of some files."""
+    """Yield another reader's result for each of some files."""
     command = [python_of_readers(), str(Path(__file__).with_name("notation_readers.py")), reader, *map(str, paths)]
     found = subprocess.run(command, capture_output=True, text=True, check=False)
     rows: list[dict[str, Any]] = [json.loads(line) for line in found.stdout.splitlines()]
@@ -109,7 +112,7 @@ def others(reader: str, paths: Sequence[Path]) -> Iterator[Read]:
 
 
 def differences(own: Read, other: Read) -> set[str]:
-    """Return the kinds of contents that two readers read differently: "error", "notes", "ends", "slurs", "order"."""
+    """Kinds of contents that two readers read differently: "error", "notes", "ends", "slurs", "order"."""
     if other.error:
         return {"error"}
     found = set()
@@ -125,7 +128,7 @@ def differences(own: Read, other: Read) -> set[str]:
 
 
 def _near(rows: Sequence[tuple[float, ...]], others: Sequence[tuple[float, ...]]) -> bool:
-    """Return whether rows are the same but for rounding."""
+    """Return whether rows are equal except for rounding."""
     # Sorted by rounded values, so that what is rounded differently stays in its place.
     mine, theirs = (sorted(each, key=lambda row: [round(value * 8) for value in row]) for each in (rows, others))
     return len(mine) == len(theirs) and all(

@@ -1,4 +1,5 @@
-"""Every score that music21 or partitura reads in another way than we do, and why ours is right.
+"""Scores that music21 or partitura read differently from the program, and the reason why the program's reading is
+correct. The format is that of the MusicXML reference (w3.org/2021/06/musicxml40); `tests.support.notation` compares.
 
 The format is that of the MusicXML reference (w3.org/2021/06/musicxml40); `tests.support.notation` compares.
 """
@@ -94,7 +95,7 @@ KNOWN: Final[dict[str, dict[str, tuple[str, str]]]] = {
 
 
 def known(path: str, reader: str) -> tuple[set[str], str]:
-    """Return the kinds of contents that a reader is known to read differently in a file, and the reason."""
+    """Kinds of contents that a reader is known to read differently in a file, and the reason."""
     own = next((found for name, found in KNOWN.items() if path.endswith(name)), {})
     facts, reason = own.get(reader, ("", ""))
     return set(facts.split()), reason

@@ -58,7 +58,7 @@ def by_music21(path: Path) -> dict[str, Any]:
 
 
 def _order_of_music21(score: Any, repeat: Any) -> list[int]:
-    """The places of the measures in the order in which music21 plays its first part."""
+    """Indices of the measures in the order in which music21 plays its first part."""
     part = score.parts[0]
     for place, measure in enumerate(part.getElementsByClass("Measure")):
         measure.editorial["place"] = place
@@ -106,7 +106,7 @@ def by_partitura(path: Path) -> dict[str, Any]:
 
 
 def _order_of_partitura(part: Any, kinds: Any) -> list[int]:
-    """The places of the measures in the order in which partitura plays a part."""
+    """Indices of the measures in the order in which partitura plays a part."""
     starts = sorted(measure.start.t for measure in part.iter_all(kinds.Measure))
     found: list[int] = []
     path = kinds.get_paths(part, no_repeats=False, all_repeats=True, ignore_leap_info=False)[0]
@@ -121,7 +121,7 @@ READERS = {"music21": by_music21, "partitura": by_partitura}
 
 
 def main() -> None:
-    """Print what a reader reads of some files."""
+    """Print a reader's results for some files."""
     warnings.simplefilter("ignore")
     read = READERS[sys.argv[1]]
     for name in sys.argv[2:]:

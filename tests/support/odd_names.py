@@ -1,4 +1,4 @@
-"""Names of files that are not UTF-8, as they come out of a Japanese zip archive."""
+"""File names that are not UTF-8, as extracted from a Japanese zip archive."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import pytest
 from hypothesis import strategies as st
 
 NAME = "クラリネット"
-"""Name that was meant."""
+"""Intended name."""
 
 on_bytes = pytest.mark.skipif(sys.platform != "linux", reason="names are text there")
 
 
 def odd(folder: Path, ending: str = "") -> Path:
-    """A path in a folder that is called `NAME` in CP932."""
+    """Path in a folder with the name `NAME` encoded in CP932."""
     return folder / os.fsdecode(f"{NAME}{ending}".encode("cp932"))
 
 
@@ -30,4 +30,4 @@ byte_names = (
     .map(lambda name: os.fsdecode(name.replace(b"\0", b"\1").replace(b"/", b"\2")))
     .filter(lambda name: name not in (".", ".."))
 )
-"""Any name that a file can have there."""
+"""Strategy for any file name that may occur on the system."""

@@ -1,4 +1,6 @@
-"""OSC 1.0 read by the letter of its specification, with nothing of the library that writes it; a receiver on UDP."""
+"""OSC 1.0 reader according to its specification, independent of the library that the program uses for writing, and a
+UDP receiver.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,7 @@ class Reported:
 
 
 def read_packet(data: bytes) -> list[Reported]:
-    """All messages of a packet, those within bundles in their order. ValueError where it is no OSC."""
+    """Return all messages of a packet, including those in bundles, in order. Raises ValueError for other data."""
     if len(data) % 4:
         raise ValueError(f"a packet's size is a multiple of 4, not {len(data)}")
     if not data.startswith(b"#bundle\0"):
@@ -81,7 +83,7 @@ class Frame:
 
 
 def frames(packets: list[tuple[float, bytes]]) -> list[Frame]:
-    """Packets with the moments they came as frames: each begins with ``/VMC/Ext/OK``."""
+    """Group packets and their arrival times into frames, each of which begins with ``/VMC/Ext/OK``."""
     found = list[Frame]()
     for at_s, packet in packets:
         for message in read_packet(packet):
@@ -154,7 +156,7 @@ class Receiver:
         return found if not found or found[-1].applied else found[:-1]
 
     def wait(self, ready: Callable[[], bool], most_s: float = 5.0) -> bool:
-        """Until something is so, at most so long; whether it is."""
+        """Wait until a condition holds or the time is over; return whether it holds."""
         end_s = time.monotonic() + most_s
         while not ready() and time.monotonic() < end_s:
             time.sleep(0.005)

@@ -1,4 +1,6 @@
-"""Values of parameters, as their declarations allow them: a new parameter is in every test that draws from here."""
+"""Values of parameters according to their declarations, so that new parameters are included in all tests
+that use them.
+"""
 
 from __future__ import annotations
 
@@ -15,11 +17,11 @@ NAMES = {
     "habits": ("", "swayer", "statue,tapper"),
     "layers_off": ("", "gaze", "breath_motion,sway"),
 }
-"""Some values of the parameters that name something."""
+"""Example values of the parameters that are names."""
 
 
 def values(parameter: Parameter) -> st.SearchStrategy[Any]:
-    """Any value of a parameter."""
+    """Any valid value of a parameter."""
     if parameter.choices:
         return st.sampled_from([value for value, _ in parameter.choices])
     if parameter.bounds is None:
@@ -28,7 +30,7 @@ def values(parameter: Parameter) -> st.SearchStrategy[Any]:
 
 
 def others(parameter: Parameter, now: object) -> list[Any]:
-    """Values far from the present one: what is chosen from, or the ends of what is usual."""
+    """Values far from the present one: other choices, or the ends of the usual range."""
     if parameter.choices:
         found = [value for value, _ in parameter.choices]
     elif parameter.bounds is None:

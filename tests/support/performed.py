@@ -1,4 +1,4 @@
-"""A player of a performance, made ready and in motion: `app.performance.motion` for tests that have one player."""
+"""Motion of a single player, by `app.performance.motion`, for tests."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from app.steps import StepRuns
 def performance_curves(
     performance: Performance, player: Player, before: PerformanceCurves | None = None
 ) -> PerformanceCurves:
-    """The player's plan, ready to be seen."""
+    """Curves of the player's plan."""
     return motion.performance_curves(performance, performer_of(performance, player), before)
 
 
 def player_motion(performance: Performance, player: Player, span: FrameSpan) -> Motion:
-    """The player's motion over some frames."""
+    """Motion of the player over some frames."""
     return motion.player_motion(performance, performer_of(performance, player), span)
 
 
@@ -40,13 +40,15 @@ def perform(
     frames: int | None = None,
     first_frame: int = 0,
 ) -> Motion:
-    """One player's motion, to the end or so many frames; ``player``: the rest of what `prepare` needs."""
+    """Motion of one player to the end or for a number of frames; ``player`` contains other arguments of `prepare`."""
     if frames is None:
         frames = max(0, frame_count(plan.time_frame, fps) - first_frame)
     return prepare(StepRuns(), plan, *player, felt_beats=felt_beats).motion(fps, first_frame, frames)
 
 
 def in_seventh(project: Project, player: Player) -> Project:
-    """The project with a tenor trombone's low E and B natural pinned to the seventh position, as without a trigger."""
+    """Pin a tenor trombone's low E and B natural to seventh position in a project, as for an instrument without a
+    trigger.
+    """
     pins = [PinFingering(note.id, "7") for note in project.part(player).notes if note.pitch in (40, 47)]
     return with_corrections(project, player.id, pins)

@@ -1,4 +1,4 @@
-"""Sound of phrases that is rendered once for all tests of a process: the quartet takes seconds of the processor."""
+"""Cache of rendered phrases for all tests of a process, since the quartet takes seconds of processor time."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from app.audio.synth import Synthesiser
 from app.audio.track import Samples
 
 _KNOWN: Final = dict[bytes, Samples]()
-"""The same MIDI is the same sound, in whichever process, as tests/unit/audio/test_render_process says."""
+"""Rendered sound by MIDI content, which determines it in every process (tests/unit/audio/test_render_process)."""
 
 
 def _known(midi: bytes, render: Callable[[bytes], Samples] = rendered) -> Samples:
@@ -24,7 +24,7 @@ def _known(midi: bytes, render: Callable[[bytes], Samples] = rendered) -> Sample
 
 
 def know_phrases(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Mixes and the process that renders for the editor render only phrases that are new."""
+    """Render only phrases that are new, both in mixes and in the editor's rendering process."""
     in_process = RenderProcess.__call__
     monkeypatch.setattr(RenderProcess, "__call__", lambda self, midi: _known(midi, lambda midi: in_process(self, midi)))
     monkeypatch.setattr("app.audio.mix.Synthesiser", lambda: Synthesiser(_known))

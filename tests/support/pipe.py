@@ -1,4 +1,4 @@
-"""A made-up instrument, as a stranger would add it: a map and a model in a folder, and nothing else.
+"""A made-up instrument that consists only of a map and a model in a folder, like one that a user adds.
 
 A plain tube with six holes (one that may be half closed, one with a ring), a thumb hole with a register key beside it,
 three keys for the right little finger, two for the left one, and a pad that follows a hole and a key.
@@ -20,7 +20,7 @@ RADIUS_M, LENGTH_M = 0.0115, 0.56
 HOLES_M = {"L1": 0.170, "L2": 0.203, "L3": 0.233, "R1": 0.300, "R2": 0.330, "R3": 0.362}
 THUMB_M, REGISTER_M, REST_M = 0.182, 0.165, 0.318
 KEYS_M = {"E": (-0.017, 0.386), "F": (-0.017, 0.402), "G": (-0.009, 0.386), "C": (0.010, 0.258), "D": (0.010, 0.271)}
-"""Keys for the little fingers: to the left of the middle, and along the tube."""
+"""Positions in metres of the keys for the little fingers: to the left of the centre, and along the tube."""
 KEY_HALF_M, KEY_HEIGHT_M = (0.004, 0.0015, 0.006), 0.0165
 FINGERS = {
     "L1": "left.index", "L2": "left.middle", "L3": "left.ring", "R1": "right.index", "R2": "right.middle",
@@ -86,11 +86,11 @@ support_hand = "right"
 """
 
 LINE = ["E R1 R2 R3", "R1 R2 R3", "F R1 R2 R3", "R1 R2", "G R1 R2", "R1", "", "D", "C"]
-"""Fingers that the lower joint adds to the three holes of the upper one, from the lowest note upwards."""
+"""Fingers of the lower joint that are added to the three holes of the upper joint, from the lowest note upwards."""
 
 
 def fingerings() -> list[tuple[int, str]]:
-    """Written pitch and label of every note: two registers, and forks between."""
+    """Written pitch and label of every note: two registers and forked fingerings between."""
     upper = ["L1 L2 L3 T"] * 9 + ["L1 L2 T", "L1 T", "L1h T"]
     lower = [*LINE, "", "", ""]
     first = list(zip(upper, lower, strict=True))
@@ -101,7 +101,7 @@ def fingerings() -> list[tuple[int, str]]:
 
 
 def add(folder: Path) -> Path:
-    """Write map and model into a folder; returns the map's path."""
+    """Write map and model into a folder and return the map's path."""
     model, contacts = _model()
     write(model, folder / f"{ID}.glb")
     text = HEAD
@@ -150,7 +150,7 @@ def _carriages() -> list[str]:
 
 
 def _ring(centre: list[float], radius: float) -> Shape:
-    """A thin ring that no hand is kept out of."""
+    """Thin ring that is no obstacle for hands."""
     return replace(torus(centre, [0.0, 1.0, 0.0], radius, 0.0007), proxies=())
 
 

@@ -1,4 +1,5 @@
-"""Small ideal instruments, notes, clocks and whole plans for the plan's tests: nothing here reads a file.
+"""Small ideal instruments, notes, clocks and whole plans for tests of planning, without files. The instruments follow
+from acoustics alone (harmonics of tubes), independent of the bundled maps.
 
 The instruments are made from acoustics alone (harmonics of tubes), so that they are independent of the bundled maps.
 """
@@ -30,7 +31,7 @@ class PlainNote:
 
 @dataclass(frozen=True)
 class PlainClock:
-    """Tempo changes as (tick, beats per minute), linear between and before."""
+    """Clock with tempo changes as (tick, beats per minute), linear between and before them."""
 
     changes: tuple[tuple[int, float], ...] = ((0, 120.0),)
     ticks_per_quarter: int = 480
@@ -61,18 +62,18 @@ def piece_of(
     has_pickup: bool = False,
     accompaniment: tuple[tuple[int, int], ...] = (),
 ) -> Piece:
-    """A piece of such metres, in which one beat is felt throughout, the quarter by default."""
+    """Piece with given metres and one felt beat throughout, by default the quarter."""
     felt = () if felt_ticks is None else ((0, felt_ticks),)
     return Piece(clock, MetreMap(clock.ticks_per_quarter, metres, has_pickup, felt), accompaniment)
 
 
 def line_of(*notes: tuple[int, int, int] | tuple[int, int, int, int], track: int = 1) -> tuple[PlainNote, ...]:
-    """Notes from (onset, duration, pitch[, velocity]) in ticks."""
+    """Line of notes (onset, duration, pitch[, velocity]) in ticks."""
     return tuple(PlainNote(f"{track}:{index + 1}", *note) for index, note in enumerate(notes))
 
 
 def even(pitches: list[int], step_tick: int = 240, start_tick: int = 0, track: int = 1) -> tuple[PlainNote, ...]:
-    """Notes of one length, each touching the next."""
+    """Line of equally long notes without gaps."""
     return line_of(
         *((start_tick + index * step_tick, step_tick, pitch) for index, pitch in enumerate(pitches)), track=track
     )
@@ -94,7 +95,7 @@ _HARMONIC_CENTS = {2: (12, 0.0), 3: (19, 2.0), 4: (24, 0.0), 5: (28, -14.0), 6: 
 
 
 def valves() -> InstrumentMap:
-    """Three valves on a tube whose second harmonic is concert B flat 3 (58), transposing a tone."""
+    """Instrument with three valves on a tube whose second harmonic is concert B flat 3 (58), notated a tone higher."""
     combos = {"0": 0, "2": 1, "1": 2, "12": 3, "23": 4, "13": 5, "123": 6, "3": 3}
     sharp = {"12": 11.0, "23": 16.0, "13": 30.0, "123": 54.0}
     found: dict[int, list[tuple[int, str, float]]] = {}
@@ -125,7 +126,9 @@ def valves() -> InstrumentMap:
 
 
 def slide() -> InstrumentMap:
-    """A slide of seven places on a tube whose second harmonic is B flat 2 (46), with a thumb lever a fourth down."""
+    """Instrument with seven slide positions on a tube whose second harmonic is B flat 2 (46), with a thumb lever that
+    lowers it by a fourth.
+    """
     found: dict[int, list[tuple[float, str, dict[str, float], float]]] = {}
     for lever in (False, True):
         for position in range(1, 7 if lever else 8):
@@ -162,7 +165,7 @@ def slide() -> InstrumentMap:
 
 
 def time_frame(lines: tuple[MonophonicPart, ...], clock: Any, *preroll_beats: float, **options: Any) -> TimeFrame:
-    """The performance's span around the notes of all lines; without any, around tick 0."""
+    """Time range of a performance around the notes of all lines; around tick 0 without notes."""
     first = min((line.notes[0].onset_tick for line in lines if line.notes), default=0)
     last = max((note.onset_tick + note.duration_tick for line in lines for note in line.notes), default=0)
     return frame_around(first, last, clock, *preroll_beats, **options)
@@ -171,5 +174,5 @@ def time_frame(lines: tuple[MonophonicPart, ...], clock: Any, *preroll_beats: fl
 def make_plans(
     piece: Piece, lines: tuple[MonophonicPart, ...], frame: TimeFrame, seed: int = 0, **options: Any
 ) -> dict[str, PlayerPlan]:
-    """Plan every line of the ensemble, in order; options are those of `EnsemblePlanning`."""
+    """Plan every line of the ensemble in order; options are those of `EnsemblePlanning`."""
     return EnsemblePlanning(piece, lines, frame, seed, **options).finished()

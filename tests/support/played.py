@@ -1,4 +1,4 @@
-"""An engraved MIDI file as someone might have played it into a sequencer. Synthetic: made by rule and by chance.
+"""Convert an engraved MIDI file to one as if played into a sequencer, by rules and random numbers.
 
 Every note begins up to 20 ms early or late; in some half bars the notes are slurred, each lasting 5 to 60 ms into the
 next; velocities follow a phrase arch; controllers 1, 2 and 11 move around mezzoforte; the tempo bends by 8 % and slows
@@ -26,7 +26,7 @@ _CONTROL_EVERY_S: Final = 0.2
 
 
 class Manner(NamedTuple):
-    """Habits of a made-up player.
+    """Playing habits of a synthetic player.
 
     Attributes
     ----------
@@ -47,7 +47,9 @@ class Manner(NamedTuple):
     controllers: tuple[int, ...] = (1, 2, 11)
     rubato: float = 0.08
     arched: float | None = 40.0
-    """Velocity between the softest and the loudest note of a phrase of six seconds; None: as in the file."""
+    """Difference of velocity between the softest and the loudest note of a phrase of six seconds; None to keep the
+    file's velocities.
+    """
 
 
 class _Sounding(NamedTuple):
@@ -58,7 +60,7 @@ class _Sounding(NamedTuple):
 
 
 def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
-    """The bytes of a played version of a file: the same tracks, names, programs and metres."""
+    """Return the bytes of a played version of a file with the same tracks, names, programs and metres."""
     manner = manner or Manner()
     by_chance = random.Random(f"{seed}:{path.stem}")
     contents = read_contents(path)
@@ -126,7 +128,7 @@ def _half_bars(onset_ticks: list[int], contents: PieceContents) -> list[int]:
 def _performed(
     notes: list[_Sounding], half_bars: list[int], manner: Manner, by_chance: random.Random
 ) -> list[_Sounding]:
-    """The notes of a track with onsets, ends and velocities as played, grace notes and key switches among them.
+    """Notes of a track with played onsets, ends and velocities, including grace notes and key switches.
 
     Parameters
     ----------
@@ -168,7 +170,7 @@ def _performed(
 
 
 def _one_key_each(notes: list[_Sounding]) -> list[_Sounding]:
-    """The notes with each ended before its own key is struck again; two players in unison on one key excepted."""
+    """End each note before the same key is struck again, except for two players in unison on one key."""
     following: dict[int, float] = {}
     result = []
     for note in reversed(notes):
@@ -193,7 +195,7 @@ def _controllers(
 
 
 def _bent(tempo_map: TempoMap, end_tick: int, rubato: float) -> list[tuple[int, int]]:
-    """The tempi, bent a little every two quarters, and slower in the last eight quarters."""
+    """Vary the tempi slightly every two quarters, and slow down in the last eight quarters."""
     quarter = tempo_map.ticks_per_quarter
     ticks = sorted({change.tick for change in tempo_map.changes} | set(range(0, end_tick, 2 * quarter)))
     tempi, place = [], 0

@@ -37,7 +37,7 @@ _Key = tuple[int, int, int]
 
 
 class Planned(NamedTuple):
-    """The plan of a file by its notes.
+    """Plan of a file, indexed by its notes.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class Planned(NamedTuple):
 
 
 def planned(path: Path) -> Planned:
-    """The plan of a file."""
+    """Plan a file."""
     maps = bundled_maps()
     score = read_midi(path, maps=map_choices(maps.values()))
     performance = Performance(project_from_score(score, maps))

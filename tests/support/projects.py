@@ -1,4 +1,4 @@
-"""Any sound project, for hypothesis."""
+"""Hypothesis strategy for valid projects."""
 
 from __future__ import annotations
 
@@ -163,7 +163,7 @@ def players(draw: st.DrawFn, id: str, name: str, part_ids: list[str]) -> Player:
 
 @st.composite
 def additive_curves(draw: st.DrawFn) -> AdditiveCurve:
-    """A curve on any channel, with any handles."""
+    """Draw a curve on any channel with any handles."""
     channel = draw(st.sampled_from([*CHANNELS]))
     most = CHANNELS[channel].most
     forward = st.integers(0, 100_000)
@@ -192,7 +192,7 @@ def additive_curves(draw: st.DrawFn) -> AdditiveCurve:
 
 @st.composite
 def corrections(draw: st.DrawFn) -> Correction:
-    """A correction of any kind there is, also of kinds that come later: the fields say what they hold."""
+    """Draw a correction of any kind, from the types of its fields, so that new kinds are included."""
     struct = draw(st.sampled_from(Correction.__args__))
     if struct is AdditiveCurve:
         return draw(additive_curves())
@@ -217,7 +217,7 @@ def corrections(draw: st.DrawFn) -> Correction:
 
 @st.composite
 def _mark_anchors(draw: st.DrawFn, kind: str) -> dict[str, object]:
-    """Anchors and text of a mark, as its kind has them."""
+    """Draw anchors and text of a mark of a given kind."""
     anchor = MARK_KINDS[kind].anchor
     at_tick = anchor in ("place", "span")
     note = st.none() if at_tick else st.text("0123456789:", min_size=1, max_size=8)

@@ -1,4 +1,5 @@
-"""Test what `./test --quick` changes: nothing of Qt is loaded, so that no package of the system is needed.
+"""Plug-in for the tests that `./test --quick` runs: Qt's modules cannot be imported, so that no system package is
+needed.
 
 The plug-ins for Qt and the display are left out (``-p no:pytest-qt -p no:xvfb``); their options are known all
 the same. A test that loads one of Qt's modules fails here, wherever Qt is installed.
@@ -19,7 +20,7 @@ NEEDS_A_SYSTEM = ("PySide6.QtGui", "PySide6.QtWidgets", "PySide6.QtOpenGL", "rtm
 
 
 class _Refused:
-    """Finds nothing that takes libraries from the system."""
+    """Import hook that refuses modules with system libraries."""
 
     def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> ModuleSpec | None:
         if name in NEEDS_A_SYSTEM:
@@ -28,6 +29,6 @@ class _Refused:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Know the options of the plug-ins that are left out, and leave out what needs a system."""
+    """Declare the options of the missing plug-ins, and deselect tests that need system packages."""
     plain.pytest_addoption(parser)
     sys.meta_path.insert(0, _Refused())

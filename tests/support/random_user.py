@@ -62,9 +62,9 @@ from tests.support.windows import draw_coarsely
 from widgets.viewport.canvas import Canvas
 
 MOST_LOST_S: Final = 5.0
-"""Work of the editor's last seconds that a kill may cost."""
+"""Seconds of work that a kill may lose."""
 PATIENCE_S: Final = 240.0
-"""Longer than any autosave takes on a machine that other work keeps busy; what hangs is found all the same."""
+"""Seconds to wait, longer than any autosave on a busy machine; a hang is still detected."""
 WINDOW_PX: Final = (1280, 800)
 FIRST: Final = "duet <b>&amp; {file}.mid"
 SHORT_TICKS: Final = 8 * 480
@@ -72,7 +72,7 @@ DANCE: Final = "steps.choreography"
 
 
 def digest(project: Project) -> str:
-    """Stands for everything a project's file holds; of one that no file could hold, why not."""
+    """Digest of everything that a project's file contains; for a project that cannot be stored, the reason."""
     try:
         content = storage.encode(project, Path("/nowhere/digest.suisou"))
     except AppError as error:
@@ -82,7 +82,7 @@ def digest(project: Project) -> str:
 
 
 class Clock:
-    """The editor's clock: it goes on between two deeds, so that no noise of the machine is taken for work.
+    """Clock of the editor that only advances between two deeds, so that system noise is not mistaken for work.
 
     Attributes
     ----------
@@ -93,12 +93,12 @@ class Clock:
         self.now_s = 0.0
 
     def monotonic(self) -> float:
-        """Stand-in for `time.monotonic`."""
+        """Replacement for `time.monotonic`."""
         return self.now_s
 
 
 class Log:
-    """Record of events, line by line; lines that are written are the system's, and outlive the process."""
+    """Record of events, one per line; written lines survive the death of the process."""
 
     def __init__(self, stream: IO[str], clock: Clock) -> None:
         self._stream, self._clock = stream, clock
@@ -110,7 +110,7 @@ class Log:
 
 
 class RandomAnswers(Answers):
-    """Answers anything; file dialogs name files of the user's folder."""
+    """Answers questions randomly; file dialogs return files in the user's folder."""
 
     def __init__(self, chance: random.Random, folder: Path, log: Log) -> None:
         super().__init__()
@@ -119,18 +119,18 @@ class RandomAnswers(Answers):
         self.log = log
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
-        """One of the files there, of whatever kind."""
+        """Choose an existing file of any kind."""
         return None if self.chance.random() < 0.2 else self.chance.choice(sorted(self.folder.iterdir()))
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
-        """A file there, or a new one with a name that no one expects."""
+        """Choose an existing file or an unusual new name."""
         self.path = None if self.chance.random() < 0.1 else self.folder / file_name(self.chance)
         path = super().save_file(title, proposal, filters, suffixes)
         self.log.note("named", path=str(path or ""))
         return path
 
     def unsaved(self, name: str) -> Answer:
-        """Most often saved; given up in the open."""
+        """Usually save, otherwise discard."""
         answer: Answer = self.chance.choice(("save", "save", "discard", "cancel"))
         if answer == "discard":
             self.log.note("discarded")
@@ -138,8 +138,9 @@ class RandomAnswers(Answers):
 
 
 def dancing(project: Project, name: str, number: int, folder: Path) -> Project:
-    """Another dancer, of every other the choreography is there; of those who are there already a basic motion is
-    pinned, or one leaves."""
+    """Add a dancer, whose choreography exists for every second one; or pin a basic motion of an existing dancer, or
+    remove one.
+    """
     if number >= len(project.dancers):
         return add_dancer(project, folder / ("gone.choreography" if number % 2 else DANCE), name)[0]
     dancer = project.dancers[number]
@@ -147,14 +148,14 @@ def dancing(project: Project, name: str, number: int, folder: Path) -> Project:
 
 
 def file_name(chance: random.Random) -> str:
-    """A name that a file can have, hostile or not, without a suffix."""
+    """Random valid file name without a suffix, possibly hostile."""
     text = chance.choice((*TEXTS, *["work"] * 10))
     plain = text.replace("/", "").replace("\0", "").encode()[:180].decode("utf-8", "ignore")
     return plain if plain not in ("", ".", "..") else "work"
 
 
 class RandomUser(Restless):
-    """A restless user who opens, saves, names, undoes and imports again as well.
+    """A restless user who also opens, saves, names, undoes and imports.
 
     Parameters
     ----------
@@ -169,7 +170,7 @@ class RandomUser(Restless):
         self.folder = folder
 
     def step(self) -> None:
-        """Do one thing; one in four is a matter of files, or an edit that no click is likely to make."""
+        """Do one thing; one in four concerns files, or is an edit that clicks rarely cause."""
         if self.random.random() < 0.25:
             deeds = (self.open, self.save, self.take_back, self.name, self.again, self.edit)
             self.random.choices(deeds, (3, 3, 3, 4, 2, 7))[0]()
@@ -179,7 +180,7 @@ class RandomUser(Restless):
             super().step()
 
     def edit(self) -> None:
-        """Change something by hand."""
+        """Change something in the project."""
         project, chance = self.session.project, self.random
         if not project.players:
             return
@@ -205,20 +206,20 @@ class RandomUser(Restless):
         self.session.attempt(Message("edit.move_notes", {"count": 1, "of": ""}), edits[place])
 
     def open(self) -> None:
-        """Open a file, good or hostile."""
+        """Open a valid or hostile file."""
         path = self.random.choice(sorted(path for path in self.folder.iterdir() if path.is_file()))
         self.deeds.append(f"open {path.name}")
         self.busy(lambda: self.program.editor.files.open(path, ask=self.random.random() < 0.3))
 
     def save(self) -> None:
-        """Save, or save elsewhere."""
+        """Save, or save under another name."""
         files = self.program.editor.files
         if files.is_open:
             self.deeds.append("save")
             (files.save if self.random.random() < 0.6 else files.save_as)()
 
     def take_back(self) -> None:
-        """Undo some steps, and make some again."""
+        """Undo some steps and redo some of them."""
         document = self.session.document
         back, forth = self.random.randint(0, 6), self.random.randint(0, 6)
         self.deeds.append(f"undo {back} redo {forth}")
@@ -230,7 +231,7 @@ class RandomUser(Restless):
             QApplication.processEvents()
 
     def name(self) -> None:
-        """Write a hostile text into a field."""
+        """Enter a hostile text in a field."""
         fields = [
             field
             for window in QApplication.topLevelWidgets()
@@ -247,14 +248,14 @@ class RandomUser(Restless):
         self.busy(lambda: field.editingFinished.emit())
 
     def again(self) -> None:
-        """Import a MIDI file into the open piece once more."""
+        """Import a MIDI file into the open piece."""
         path = self.random.choice(sorted(self.folder.glob("*.mid")))
         self.deeds.append(f"import again {path.name}")
         if self.program.editor.files.is_open:
             reimport_from(self.program.editor, path)
 
     def look_away(self) -> None:
-        """Dialogs that ask are agreed to or not."""
+        """Accept or reject open dialogs."""
         super().look_away()
         for widget in QApplication.topLevelWidgets():
             if isinstance(widget, QDialog) and widget.isVisible() and widget.objectName() == "reimport_midi":
@@ -266,7 +267,7 @@ class RandomUser(Restless):
 
 
 class SessionRun:
-    """The editor of one session.
+    """Editor of one session.
 
     Parameters
     ----------
@@ -305,7 +306,7 @@ class SessionRun:
         self.log.note("project", digest=digest(change.after), opened=change.opened)
 
     def run(self, is_killed: bool) -> None:
-        """All of it."""
+        """Run the whole session."""
         self._take_up()
         for number in range(self.deeds):
             if is_killed and number == self.deeds - 1:
@@ -325,7 +326,7 @@ class SessionRun:
         self.log.note("end")
 
     def _be_killed(self) -> None:
-        """In a moment, most often while something is written."""
+        """Kill the process at a random moment, preferably while a file is being written."""
         begin = self.chance.choice((self.files.write_soon, self.files.save, self.files.save_as, lambda: None))
         most_s = self.chance.choice((0.02, 0.1, 0.6))
         if self.files.is_open:
@@ -333,13 +334,13 @@ class SessionRun:
         threading.Timer(self.chance.uniform(0.0, most_s), os.kill, (os.getpid(), signal.SIGKILL)).start()
 
     def _pass_time(self) -> None:
-        """A moment of the editor's time; what is due is done within it."""
+        """Advance the editor's clock and do the work that is due."""
         self.clock.now_s += self.chance.uniform(0.1, 0.8)
         self.files.tick()
         self._wait(lambda: all(task.name.id != "work.autosave" for task in self.tasks.running), "an autosave")
 
     def _take_up(self) -> None:
-        """Go on with what the session before left."""
+        """Restore the work of the previous session."""
         found: list[tuple[Recoverable, ...]] = []
         self.files.find_recoverable(found.append)
         self._wait(lambda: bool(found), "what is recoverable")
@@ -389,7 +390,7 @@ class Journey:
 
 
 def prepare(folder: Path, seed: int) -> None:
-    """The user's files: good ones, and hostile ones of every kind that can be opened."""
+    """Write the user's files: valid ones, and hostile ones of every kind that can be opened."""
     chance = random.Random(seed)
     files = folder / "files"
     files.mkdir(parents=True)
@@ -407,7 +408,7 @@ def prepare(folder: Path, seed: int) -> None:
 
 
 def travel(folder: Path, seed: int, deeds: int, kills: int) -> Journey:
-    """Sessions one after another, all but the last killed."""
+    """Run sessions one after another, all but the last killed."""
     prepare(folder, seed)
     journey = Journey()
     environment = {
@@ -445,7 +446,7 @@ def travel(folder: Path, seed: int, deeds: int, kills: int) -> Journey:
 
 
 def _write_short_piece(path: Path) -> None:
-    """The beginning of a duet: motion is made of all of it after every edit."""
+    """Write the beginning of a duet, short because its motion is computed after every edit."""
     whole = mido.MidiFile(seeds.DATA / "midi" / "ensemble" / "trumpet_duet_bach_minuet.mid")
     for track in whole.tracks:
         tick = 0
@@ -458,7 +459,7 @@ def _write_short_piece(path: Path) -> None:
 
 
 def read_log(path: Path) -> list[dict[str, Any]]:
-    """The lines of a session's log; the last may be torn."""
+    """Events of a session's log; the last line may be incomplete."""
     found = []
     for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else ():
         try:
@@ -469,7 +470,9 @@ def read_log(path: Path) -> list[dict[str, Any]]:
 
 
 def _digests_of_files(events: list[dict[str, Any]]) -> list[str]:
-    """Digests of the files that a session had open last or named for a save, which may be done when it is killed."""
+    """Digests of the files that a session had open last, or named for a save that may have finished when it
+    was killed.
+    """
     opened = next((event["path"] for event in reversed(events) if event["event"] == "deed"), "")
     paths = [Path(path) for path in {opened, *(event["path"] for event in events if event["event"] == "named")} if path]
     found = []
@@ -482,7 +485,7 @@ def _digests_of_files(events: list[dict[str, Any]]) -> list[str]:
 
 
 def lost_work(events: Sequence[dict[str, Any]], found: Sequence[str]) -> str:
-    """Return a text about the work of a killed session that is lost; empty if only the last seconds are.
+    """Describe the lost work of a killed session; empty if only the last seconds are lost.
 
     Parameters
     ----------

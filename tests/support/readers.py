@@ -1,4 +1,7 @@
-"""Other programs' readers judge a file: `judge` runs `check_animation_file.py` beside this module.
+"""Check of an animation file by other programs' readers: `judge` runs `check_animation_file.py` in this folder. The
+environment locates the readers: ``CHECK_ANIM_PYTHONS`` (interpreters, separated by colons) and
+``CHECK_ANIM_NODE_MODULES``, as set by ``./test``. Fast readers are development dependencies and run in every test; slow
+ones run in tests marked ``readers``.
 
 Where the readers live is reported by the environment: ``CHECK_ANIM_PYTHONS`` (interpreters, separated by colons) and
 ``CHECK_ANIM_NODE_MODULES``, as ``./test`` sets them. The quick ones come with the development dependencies and are
@@ -73,7 +76,7 @@ class Expected:
 
 @functools.cache
 def installed(reader: str) -> bool:
-    """Return whether a reader is there to be asked."""
+    """Return whether a reader is available."""
     if reader in ("structure", "gltf"):  # built in
         return True
     if reader == "assimp":
@@ -97,7 +100,7 @@ def judge(
     tolerance_cm: float = 0.01,
     weight_tolerance: float = 1e-4,
 ) -> None:
-    """Let readers load a file and compare what they find with what we meant.
+    """Let readers load a file and compare their results with the expected content.
 
     Raises
     ------
@@ -131,8 +134,9 @@ def judge(
 
 
 def _differences(reader: str, found: dict[str, object], expected: Expected) -> list[str]:
-    """Return the differences that the tool itself does not look for: hierarchy, number of frames, rate, as far as the
-    reader gives them."""
+    """Differences that the tool does not check: hierarchy, number of frames and rate, as far as the reader reports
+    them.
+    """
     problems = []
     parents = found["parent"]
     assert isinstance(parents, dict)

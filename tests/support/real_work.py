@@ -41,12 +41,12 @@ from widgets.viewport.panel import ViewportPanel
 
 LUTKIN = Path(__file__).parents[1] / "data" / "midi" / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
 OFFSET_S = -1.37
-"""The recording begins this long before the music's first tick."""
+"""Time in seconds at which the recording begins, relative to the first tick."""
 PATIENCE_S = 240.0
 
 
 class Work:
-    """An editor and the user at it."""
+    """An editor and its user."""
 
     def __init__(self, folder: Path) -> None:
         self.application: QApplication = make_application()
@@ -69,7 +69,7 @@ class Work:
             raise AssertionError(message)
 
     def until(self, ready: Callable[[], bool], what: str) -> None:
-        """Let the editor work until something is so."""
+        """Process events until a condition holds."""
         end_s = time.monotonic() + PATIENCE_S
         while not ready():
             if time.monotonic() > end_s:
@@ -77,11 +77,11 @@ class Work:
             pause(LOOK_AGAIN_MS)
 
     def planned(self) -> None:
-        """Until the plans are those of the newest project."""
+        """Wait until the plans belong to the newest project."""
         self.until(lambda: self.session.performance.project is self.session.project, "plans")
 
     def picture(self, name: str) -> None:
-        """The window as it is, once its figures stand as planned."""
+        """Screenshot of the window with the figures in their planned poses."""
         self.planned()
         viewport, playhead_s = self.viewport, self.session.playhead_s
         self.until(lambda: self.program.generator.live.pose(self.front, playhead_s) is not None, "motion")
@@ -92,12 +92,12 @@ class Work:
         self.draw(self.window, name)
 
     def draw(self, shown: QWidget, name: str) -> None:
-        """Leave a picture of a widget, if pictures are asked for."""
+        """Write a picture of a widget if pictures are requested."""
         if "pictures" in sys.argv[3:]:
             shown.grab().save(str(self.folder / f"{self.pictures:02}_{name}.jpg"))
 
     def do(self, action_id: str) -> None:
-        """Choose an action."""
+        """Trigger an action."""
         self.program.editor.table.refresh()
         action = actions(self.session)[action_id]
         assert action.isEnabled(), action_id
@@ -105,11 +105,11 @@ class Work:
         self.application.processEvents()
 
     def key(self, widget: QWidget, key: Qt.Key) -> None:
-        """Press a key with the focus somewhere."""
+        """Press a key with the focus on a widget."""
         self.keys(widget, (key,))
 
     def keys(self, widget: QWidget, keys: Iterable[Qt.Key]) -> None:
-        """Press keys one right after the other, faster than a slow machine draws."""
+        """Press keys immediately one after another, faster than a slow machine draws."""
         widget.setFocus()
         self.program.editor.table.refresh()
         for key in keys:
@@ -143,7 +143,7 @@ class Work:
         return found
 
     def show_bars(self, first: int, last: int) -> None:
-        """Bring bars into view."""
+        """Scroll to bars."""
         score = self.session.project.score
         clock = score.tempo_map
         start_s, end_s = (clock.seconds(float(score.metre_map.tick_of_bar(bar))) for bar in (first, last + 1))
@@ -161,7 +161,7 @@ class Work:
 
 
 def pin_three(work: Work) -> None:
-    """Another fingering, by typing it, where the instrument has one."""
+    """Type other fingerings for three notes with alternates."""
     assert work.session.player is not None
     instrument = work.session.performance.instrument(work.session.player)
     digits = {str(digit): Qt.Key(Qt.Key.Key_0.value + digit) for digit in range(10)}
@@ -221,7 +221,7 @@ def lower_amplitude(work: Work) -> None:
 
 
 def strain(work: Work) -> None:
-    """Two bars of a strained face."""
+    """Add a strained expression of two bars."""
     work.session.set_players((work.session.project.players[0].id,))
     work.show_bars(16, 19)
     score = work.session.project.score
@@ -263,7 +263,7 @@ def lift_bell(work: Work) -> None:
 
 
 def take_recording(work: Work) -> None:
-    """A recording that began earlier than the music; its offset is found by listening."""
+    """Add a recording that begins before the music, whose offset is estimated."""
     path = work.folder / "recording.flac"
     sound = mixdown(work.session.project, OFFSET_S, 40.0, 48_000)
     noise = np.random.default_rng(1).normal(0.0, 0.003, sound.shape).astype(np.float32)
@@ -281,7 +281,7 @@ def take_recording(work: Work) -> None:
 
 
 def work_until_killed(folder: Path) -> None:
-    """Everything up to the kill."""
+    """Do all steps and wait to be killed."""
     work = Work(folder)
     work.answers.path = LUTKIN
     work.do("file.import_midi")
@@ -320,7 +320,7 @@ def work_until_killed(folder: Path) -> None:
 
 
 def recover_and_export(folder: Path) -> None:
-    """The editor begins anew: what was lost is offered; then export."""
+    """Start the editor again, accept the offered recovery, and export."""
     work = Work(folder)
     offered: list[Recoverable] = []
     work.program.editor.files.find_recoverable(offered.extend)

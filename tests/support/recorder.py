@@ -1,4 +1,4 @@
-"""A recorder that a test speaks for, and a clock that it turns."""
+"""A recorder whose reports a test provides, and a clock that the test controls."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ EWI = "EWI5000 MIDI 1"
 
 
 class Clock:
-    """Time that passes when the test waits."""
+    """Clock that advances while the test waits."""
 
     def __init__(self) -> None:
         self.ns = 10**12
@@ -27,14 +27,14 @@ class Clock:
 
 
 class RunningClock(Clock):
-    """The machine's own."""
+    """Clock of the machine."""
 
     def now_ns(self) -> int:
         return time.perf_counter_ns()
 
 
 class SpokenFor(RecorderLink):
-    """A link without a process: the test says what the recorder tells; journals are real."""
+    """A link without a process: the test provides the recorder's reports; journals are real."""
 
     def __init__(self, on_news: Callable[[], None], clock: Clock) -> None:
         self.on_news, self.clock = on_news, clock
@@ -54,7 +54,7 @@ class SpokenFor(RecorderLink):
         self.writer, self.elsewhere = JournalWriter(str(path), header), elsewhere
 
     def move(self) -> None:
-        """The disk of the journal is full."""
+        """Fail as if the disk of the journal were full."""
         self.writer.write()
         self.writer.move(str(self.elsewhere))
         self.say(Moved(os.fsencode(str(self.elsewhere)), "No space left on device"))

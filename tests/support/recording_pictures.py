@@ -48,23 +48,23 @@ LATE_S, UNEVEN_S = 0.045, 0.009
 
 
 class Wind:
-    """The player, in a process of its own: a window that draws does not make them stumble."""
+    """The player in a separate process, so that drawing does not disturb the timing."""
 
     def __init__(self) -> None:
         command = [sys.executable, "-m", "tests.support.recording_pictures", "--wind"]
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, cwd=ROOT, text=True)
 
     def play(self, played: Sequence[tuple[int, bytes]]) -> None:
-        """Blow messages at moments of `time.perf_counter_ns`, after what was to be blown before."""
+        """Queue messages for moments of `time.perf_counter_ns`."""
         self._process.stdin.write(json.dumps([(ns, message.hex()) for ns, message in played]) + "\n")
         self._process.stdin.flush()
 
     def send(self, message: bytes) -> None:
-        """Blow now."""
+        """Send messages immediately."""
         self.play([(0, message)])
 
     def close(self) -> None:
-        """Unplug."""
+        """Disconnect the device."""
         self._process.stdin.close()
         try:
             self._process.wait(3.0)
@@ -75,7 +75,7 @@ class Wind:
 
 
 def blow() -> None:
-    """Send MIDI messages read from standard input at their times; run in the player's process."""
+    """Send MIDI messages read from standard input at their times, in the player's process."""
     with WindPlayer("EWI5000", "MIDI 1") as wind:
         for line in sys.stdin:
             for ns, raw in json.loads(line):
@@ -84,7 +84,7 @@ def blow() -> None:
 
 
 class Film:
-    """The editor, and a player before it."""
+    """The editor and a player in front of it."""
 
     def __init__(self, application: QApplication, folder: Path, wind: Wind, language: str) -> None:
         self.application, self.wind = application, wind
@@ -105,7 +105,7 @@ class Film:
         self.chance = random.Random(5)
 
     def wait(self, until: Callable[[], bool], most_s: float = 120.0) -> None:
-        """Let the window live until something is so."""
+        """Process events until a condition holds."""
         end_s = time.monotonic() + most_s
         while not until():
             if time.monotonic() > end_s:
@@ -114,7 +114,7 @@ class Film:
             time.sleep(0.001)
 
     def rest(self, seconds: float) -> None:
-        """Let the window live for a while."""
+        """Process events for a time."""
         end_s = time.monotonic() + seconds
         self.wait(lambda: time.monotonic() >= end_s)
 
@@ -131,12 +131,12 @@ class Film:
         print(f"{path.relative_to(ROOT)}: {image.width} x {image.height}, {path.stat().st_size // 1024} KB")
 
     def play(self, played: Sequence[Played], now_s: Callable[[], float]) -> None:
-        """Have it blown when a clock is there."""
+        """Send the messages once the clock runs."""
         begin_ns = time.perf_counter_ns() - round(now_s() * 1e9)
         self.wind.play([(begin_ns + round(due_s * 1e9), message) for due_s, message in played])
 
     def part_played(self, seed: int) -> list[Played]:
-        """The part of the player in front as someone might play it: a little uneven, breath by phrase."""
+        """Part of the first selected player with a little unevenness and a breath per phrase."""
         chance = random.Random(seed)
         project, score = self.session.project, self.session.project.score
         first, last = score.metre_map.tick_of_bar(FIRST_BAR), score.metre_map.tick_of_bar(LAST_BAR)
@@ -161,7 +161,7 @@ class Film:
 
 
 def open_piece(film: Film) -> None:
-    """The quartet, as large as the README's pictures."""
+    """Open the quartet at the size of the README's pictures."""
     window, session = film.window, film.session
     window.resize(1600, 1000)
     window.show()
@@ -176,7 +176,7 @@ def open_piece(film: Film) -> None:
 
 
 def devices(film: Film) -> None:
-    """The device is chosen, and something comes in."""
+    """Choose the device and receive a message."""
     actions(film.session)["record.devices"].trigger()
     dialog = child(film.window, MidiDevicesDialog, "midi_devices")
     tree = child(dialog, QTreeWidget, "midi_device_list")
@@ -206,7 +206,7 @@ def devices(film: Film) -> None:
 
 
 def latency(film: Film) -> None:
-    """Someone blows on the clicks."""
+    """Play to the clicks of the latency measurement."""
     actions(film.session)["record.latency"].trigger()
     dialog = child(film.window, LatencyDialog, "latency")
     film.rest(0.5)
@@ -227,7 +227,7 @@ def latency(film: Film) -> None:
 
 
 def record(film: Film) -> None:
-    """Three takes over the others."""
+    """Record three takes over the other parts."""
     session = film.session
     score, playback = session.project.score, session.playback
     assert playback is not None
@@ -263,7 +263,7 @@ def _takes(film: Film, player: str) -> tuple[object, ...]:
 
 
 def takes(film: Film) -> None:
-    """The takes, and a part put together from them by swiping."""
+    """Show the takes, and combine a part from them by swiping."""
     session = film.session
     panel = film.window.timeline
     score = session.project.score

@@ -1,4 +1,4 @@
-"""One captured motion on other rigs: bones with axes of their own, other names, other sides."""
+"""One captured motion on other rigs: with other bone axes, names and sides."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Axes = Callable[[BvhClip], FloatArray]
 
 
 def rerigged(bvh: BvhClip, axes: Axes) -> BvhClip:
-    """The clip with every joint where it was in every frame, and another zero pose."""
+    """Clip with every joint at the same place in every frame, but another zero pose."""
     new, turns = axes(bvh), np.array(bvh.rotations_xyzw)
     offsets, moved = np.array(bvh.offsets_cm, np.float64), dict(bvh.translations_cm)
     for joint, parent in enumerate(bvh.parents):
@@ -35,7 +35,9 @@ def rerigged(bvh: BvhClip, axes: Axes) -> BvhClip:
 
 
 def along(axis: int) -> Axes:
-    """Every bone along an axis of its own: X as in LAFAN1 and MotionBuilder, Y as in Rokoko Studio and Bandai-Namco."""
+    """Rotate every bone's axes so that one points along the bone: X as in LAFAN1 and MotionBuilder, Y as in Rokoko
+    Studio and Bandai-Namco.
+    """
 
     def axes(bvh: BvhClip) -> FloatArray:
         found = []
@@ -53,12 +55,14 @@ def along(axis: int) -> Axes:
 
 
 def at_random(bvh: BvhClip) -> FloatArray:
-    """Every bone turned anyhow."""
+    """Rotate every bone's axes randomly."""
     return np.asarray(Rotation.random(len(bvh.names), random_state=3).as_quat(), np.float64)
 
 
 def rolled(bvh: BvhClip) -> FloatArray:
-    """Every bone turned about what was ahead by right angles: a pelvis that lies on its side, knees behind."""
+    """Rotate every bone's axes by right angles about the forward direction, as for a pelvis on its side or knees that
+    point sideways.
+    """
     angles = 0.5 * np.pi * (1 + np.arange(len(bvh.names)) % 3)
     return np.array([quaternion.from_axis_angle((0.0, 0.0, 1.0), angle) for angle in angles])
 
@@ -67,17 +71,17 @@ REST_POSES: Final[Mapping[str, Axes]] = {"x": along(0), "y": along(1), "random":
 
 
 def renamed(bvh: BvhClip, names: Callable[[str], str]) -> BvhClip:
-    """The clip with other names."""
+    """Clip with other names."""
     return replace(bvh, names=tuple(map(names, bvh.names)))
 
 
 def without_names(bvh: BvhClip) -> BvhClip:
-    """The clip with names that say nothing."""
+    """Clip with meaningless names."""
     return replace(bvh, names=tuple(f"b{(7 * joint) % 97}" for joint in range(len(bvh.names))))
 
 
 def turned(bvh: BvhClip, turn: FloatArray) -> BvhClip:
-    """The clip in a world with other axes, and bones that are turned with it."""
+    """Clip in a world with other axes, with rotated bones."""
     back = quaternion.conjugate(turn)
 
     def placed(ways: FloatArray) -> FloatArray:
@@ -94,7 +98,7 @@ def turned(bvh: BvhClip, turn: FloatArray) -> BvhClip:
 
 
 def mirrored(bvh: BvhClip) -> BvhClip:
-    """The clip in a mirror: what is called left is at the right."""
+    """Mirrored clip, in which bones named left are on the right."""
     across, turn = np.array([-1.0, 1.0, 1.0]), np.array([1.0, -1.0, -1.0, 1.0])
     return replace(
         bvh,
@@ -107,7 +111,9 @@ def mirrored(bvh: BvhClip) -> BvhClip:
 
 
 def without_joints(bvh: BvhClip, lost: Callable[[str], bool]) -> BvhClip:
-    """The clip without some bones at the ends of chains; what carried them ends where the farthest of them began."""
+    """Clip without some bones at the ends of chains; the preceding bone then ends at the start of the
+    farthest of them.
+    """
     kept = [joint for joint, name in enumerate(bvh.names) if not lost(name)]
     new = {joint: at for at, joint in enumerate(kept)}
     ends = {new[joint]: end for joint, end in bvh.end_sites_cm.items() if joint in new}
@@ -127,7 +133,7 @@ def without_joints(bvh: BvhClip, lost: Callable[[str], bool]) -> BvhClip:
 
 
 def with_prop(bvh: BvhClip, bone: str, ways: Sequence[tuple[float, float, float]]) -> BvhClip:
-    """The same motion with a stiff chain of further bones in a hand, as of a sword; lengths in centimetres."""
+    """Same motion with a stiff chain of additional bones in a hand, such as a sword; lengths in centimetres."""
     first, at = len(bvh.names), bvh.names.index(bone)
     still = np.zeros((len(bvh.rotations_xyzw), len(ways), 4))
     still[..., 3] = 1.0
@@ -143,7 +149,7 @@ def with_prop(bvh: BvhClip, bone: str, ways: Sequence[tuple[float, float, float]
 
 
 def together(*texts: str) -> str:
-    """The figures of several BVH files, of as many frames, in one."""
+    """Join the figures of several BVH files with equal numbers of frames in one file."""
     heads, motions = zip(*(text.split("MOTION", 1) for text in texts), strict=True)
     tables = [motion.strip().splitlines() for motion in motions]
     rows = [" ".join(row) for row in zip(*(table[2:] for table in tables), strict=True)]

@@ -1,4 +1,4 @@
-"""A restless user: clicks, drags, turns the wheel and presses keys all over the whole editor, by a seed."""
+"""A restless user who clicks, drags, turns the wheel and presses keys randomly all over the editor."""
 
 from __future__ import annotations
 
@@ -39,14 +39,16 @@ from widgets.common.actions import actions
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 
 LEFT_ALONE = frozenset(("file.quit",))
-"""The one thing this user never does."""
+"""The only action that the user never triggers."""
 ASKS_THE_SYSTEM = frozenset(
     (
         *("export_browse", "playblast_browse", "swatch"),
         *("evaluation_browse", "evaluation_browse_film", "evaluation_browse_keyframes", "evaluation_start"),
     )
 )
-"""Buttons that open a dialog of the system, which no test can close, and one that starts minutes of another process."""
+"""Buttons that open a dialog of the system, which tests cannot close, and one that starts a process of
+several minutes.
+"""
 KEYS = (
     *(Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Home, Qt.Key.Key_End),
     *(Qt.Key.Key_Tab, Qt.Key.Key_Backtab, Qt.Key.Key_Escape, Qt.Key.Key_Return, Qt.Key.Key_Space),
@@ -63,7 +65,7 @@ BUTTONS = (*([Qt.MouseButton.LeftButton] * 8), Qt.MouseButton.MiddleButton, Qt.M
 
 
 class Restless:
-    """The user at the whole editor who knows no fear.
+    """The restless user.
 
     Parameters
     ----------
@@ -85,7 +87,7 @@ class Restless:
         self._closer.start()
 
     def _end_loops(self) -> None:
-        """A menu or dialog of Qt's own that runs a loop inside a click is closed from outside."""
+        """Close a menu or dialog of Qt that runs an event loop within a click."""
         if not self._busy:
             return
         popup = QApplication.activePopupWidget()
@@ -96,7 +98,7 @@ class Restless:
             modal.reject()
 
     def step(self) -> None:
-        """Do one thing."""
+        """Do one random thing."""
         if not self.program.editor.files.is_open:
             self.program.editor.files.open(QUARTET, ask=False)
             QApplication.processEvents()
@@ -111,7 +113,7 @@ class Restless:
         self.look_away()
 
     def busy(self, deed: Callable[[], None]) -> None:
-        """Do something; a loop of Qt's own inside it is ended from outside."""
+        """Do something while nested event loops of Qt are ended by a timer."""
         self._busy = True
         try:
             deed()
@@ -119,7 +121,7 @@ class Restless:
             self._busy = False
 
     def look_away(self) -> None:
-        """Sometimes close what asks something; a menu left open would take every other event."""
+        """Sometimes close a menu or dialog, which would otherwise receive every other event."""
         popup = QApplication.activePopupWidget()
         if popup is not None and self.random.random() < 0.7:
             if isinstance(popup, QMenu):
@@ -144,7 +146,7 @@ class Restless:
     # Where
 
     def _widget(self) -> QWidget | None:
-        """Any visible widget, small or large, of any window."""
+        """Choose any visible widget of any window."""
         windows = [
             widget
             for widget in QApplication.topLevelWidgets()
@@ -201,7 +203,7 @@ class Restless:
             QTest.mouseClick(widget, button, keys, place)
 
     def drag(self) -> None:
-        """Press somewhere, go somewhere, perhaps press Escape, let go."""
+        """Press the mouse, move it, perhaps press Escape, and release."""
         widget = self._widget()
         if widget is None:
             return
@@ -253,7 +255,7 @@ class Restless:
         QApplication.sendEvent(widget, event)
 
     def press(self) -> None:
-        """Press a key where the keyboard is; sometimes somewhere else first."""
+        """Press a key in the widget with the focus, sometimes after changing the focus."""
         if self.random.random() < 0.5:
             widget = self._widget()
             if widget is not None and widget.focusPolicy() != Qt.FocusPolicy.NoFocus:
@@ -268,7 +270,7 @@ class Restless:
         QTest.keyClick(target, key, keys)
 
     def command(self) -> None:
-        """Do what an action does, by its key where it has one."""
+        """Trigger an action, by its shortcut if it has one."""
         table = self.program.editor.table
         action_id = self.random.choice([row for row in table.rows if row not in LEFT_ALONE])
         if action_id == "file.close" and self.random.random() < 0.8:
@@ -285,7 +287,7 @@ class Restless:
             actions(self.session)[action_id].trigger()
 
     def context_menu(self) -> None:
-        """Ask for the menu of something."""
+        """Open the context menu of a widget."""
         widget = self._widget()
         if widget is None:
             return
@@ -300,12 +302,12 @@ class Restless:
             popup.close()
 
     def play_on(self) -> None:
-        """Wait a moment: what is slow catches up."""
+        """Wait a moment for slow work."""
         self.deeds.append("wait")
         pause(self.random.randint(1, 40))
 
     def record(self) -> None:
-        """Someone has played something on a wind controller."""
+        """Add notes as if played on a wind controller."""
         player = self.session.player
         if player is None:
             return
@@ -324,7 +326,7 @@ class Restless:
     # What must be true
 
     def calm_down(self) -> None:
-        """Close whatever is open, end whatever plays, end full screen."""
+        """Close everything that is open, stop playback and leave full screen."""
         for _ in range(5):
             popup = QApplication.activePopupWidget()
             if popup is not None:
@@ -338,8 +340,9 @@ class Restless:
         QApplication.processEvents()
 
     def judge(self, folder: Path) -> None:
-        """The document is sound: a file holds it, its plans are what they would be made anew, and undo leads back to
-        the very first project, redo to the very last."""
+        """Check the document: it can be stored, its plans equal freshly computed ones, undo leads to the first project
+        and redo to the last.
+        """
         self.calm_down()
         end_s = time.monotonic() + 90.0
         while self.session.performance.project is not self.session.project:
@@ -367,7 +370,7 @@ class Restless:
 
 
 def by_hand(project: Project) -> object:
-    """Everything the user decides, as a value."""
+    """All decisions of the user as a comparable value."""
     return (
         tuple((part.id, part.notes) for part in project.score.parts),
         project.players,
@@ -380,18 +383,18 @@ def by_hand(project: Project) -> object:
 
 
 class Complaints:
-    """Lines that Qt logs, and exceptions that were not caught."""
+    """Lines logged by Qt, and uncaught exceptions."""
 
     def __init__(self) -> None:
         self.found: list[str] = []
 
     def install(self) -> None:
-        """Listen from now on."""
+        """Start collecting."""
         sys.excepthook = self._uncaught
         qInstallMessageHandler(self._logged)
 
     def take(self, error: BaseException) -> None:
-        """Note it down."""
+        """Record a line."""
         self.found.append("".join(traceback.format_exception(error)))
 
     def _uncaught(self, kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:

@@ -1,4 +1,6 @@
-"""Skeletons of other makers as lists of bones (``tests/data/skeletons``), and figures and faces made of names."""
+"""Skeletons of other makers as lists of bones (``tests/data/skeletons``), and figures and faces that consist of names
+only.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,7 @@ FOLDER = Path(__file__).parents[1] / "data" / "skeletons"
 
 @dataclass(frozen=True)
 class ListedBone:
-    """A bone where it is in the world, and the joint it is known to be (empty: none)."""
+    """A bone with its place in the world and the joint that it represents (empty: none)."""
 
     name: str
     parent: str
@@ -25,7 +27,7 @@ class ListedBone:
 
 
 def listed(name: str) -> list[ListedBone]:
-    """A list of ``tests/data/skeletons``."""
+    """Read a list of ``tests/data/skeletons``."""
     bones = []
     for line in (FOLDER / f"{name}.tsv").read_text(encoding="utf-8").splitlines():
         if not line.startswith("#"):
@@ -40,7 +42,7 @@ def figure_of(
     humanoid: dict[str, int] | None = None,
     skinned: Sequence[str] = (),
 ) -> Figure:
-    """A figure, with a vertex for each of the skinned bones; a parent must be before its children."""
+    """Make a figure with a vertex for each skinned bone; parents must precede their children."""
     at = {bone.name: index for index, bone in enumerate(bones)}
     parents = [at[bone.parent] if bone.parent else -1 for bone in bones]
     places = np.array([bone.place_m for bone in bones])
@@ -58,7 +60,7 @@ def figure_of(
 
 
 def _dots(places: np.ndarray, bones: Sequence[int], morphs: Sequence[Morph] = ()) -> Mesh:
-    """A mesh without triangles whose vertices each hang on one bone."""
+    """Make a mesh without triangles whose vertices each belong to one bone."""
     count = len(bones)
     return Mesh(
         name="dots",
@@ -75,7 +77,7 @@ def _dots(places: np.ndarray, bones: Sequence[int], morphs: Sequence[Morph] = ()
 
 
 def face_of(morphs: Sequence[str], expressions: dict[str, dict[str, float]] | None = None) -> Figure:
-    """A figure of one bone whose mesh has morphs of these names."""
+    """Make a figure of one bone whose mesh has morphs with these names."""
     place = np.array([[0.0, 1.5, 0.0]], dtype=np.float32)
     mesh = _dots(place, [0], [Morph(name, np.array([0], dtype=np.int32), place, None) for name in morphs])
     bones = [ListedBone("head", "", (0.0, 1.5, 0.0), "head")]

@@ -20,7 +20,7 @@ _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 @dataclass(frozen=True)
 class Shown:
-    """One frame."""
+    """Joints, morphs and faces of one frame."""
 
     joints_cm: np.ndarray
     weights: dict[str, float]

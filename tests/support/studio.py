@@ -1,4 +1,4 @@
-"""The editor beside a wind controller that a test speaks for."""
+"""The editor with a wind controller whose messages a test provides."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tests.support.recorder import Clock, SpokenFor
 
 
 class Studio:
-    """A program whose clock runs while the test waits."""
+    """A program whose clock advances while the test waits."""
 
     def __init__(self, program: Program, folder: Path, clock: Clock) -> None:
         self.program, self.folder, self.clock = program, folder, clock
@@ -41,7 +41,7 @@ class Studio:
         QTest.keyClick(window.palette_field, key, Qt.KeyboardModifier.ControlModifier)
 
     def blow(self, pitch: int, at_s: float, length_s: float = 0.1) -> None:
-        """Play a note when the performance is there."""
+        """Play a note when the performance reaches it."""
         playback = self.session.playback
         assert playback is not None
         # Not by the playhead, which follows when the machine has time for it: after a loop's turn it may be an old one.

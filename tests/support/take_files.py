@@ -1,4 +1,4 @@
-"""MIDI files as players of wind controllers make them."""
+"""MIDI files like those of wind controllers."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def take_file(
     chord: bool = False,
     fault: bool = True,
 ) -> Path:
-    """A melody of detached quarters at 120 with a breath for each; the third is struck twice in one breath."""
+    """Melody of detached quarters at 120 with a breath for each; the third note is struck twice within one breath."""
     file = mido.MidiFile(ticks_per_beat=Q)
     events: list[tuple[int, mido.Message]] = []
     for place, pitch in enumerate(MELODY):

@@ -1,4 +1,4 @@
-"""Takes of a synthetic wind player, made note by note; no one played them."""
+"""Synthetic takes of wind controllers, made note by note."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from app.score.take import Cleaning, ControllerMapping, Take
 from app.score.tempo import TempoMap
 
 PlayedNote = tuple[float, float, int, float]
-"""Onset and end in seconds, pitch, and the breath it is blown with, 0..1."""
+"""Onset and end in seconds, pitch, and strength of the breath 0..1."""
 
 
 def take_of(
@@ -24,7 +24,7 @@ def take_of(
     more: Sequence[tuple[float, str]] = (),
     velocity: int = 90,
 ) -> Take:
-    """A take in which each note is blown with one breath; where notes touch or overlap the breath goes on."""
+    """Make a take in which each note has its own breath; the breath continues where notes touch or overlap."""
     notes = sorted(notes)
     events: list[tuple[float, int, str]] = [(time_s, 1, raw) for time_s, raw in more]
     for index, (onset_s, note_end_s, pitch, breath) in enumerate(notes):

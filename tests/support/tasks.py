@@ -1,4 +1,4 @@
-"""A task runner that works at once, so that a test never waits."""
+"""A task runner that works synchronously, so that tests need not wait."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 class ImmediateTasks:
-    """Runs work where it is asked for; remembers its names and its errors."""
+    """Runs work in the call; records its names and errors."""
 
     def __init__(self) -> None:
         self.names: list[Message] = []
@@ -19,7 +19,7 @@ class ImmediateTasks:
 
     @property
     def writing(self) -> tuple[Message, ...]:
-        """No work is ever under way."""
+        """Always false: no work is in progress between calls."""
         return ()
 
     def run(
@@ -33,7 +33,7 @@ class ImmediateTasks:
         *,
         writes: bool = False,
     ) -> None:
-        """Work now."""
+        """Run work immediately."""
         self.names.append(name)
         over = ended or (lambda: None)
         try:

@@ -1,4 +1,4 @@
-"""A small textured scene: a square whose picture is a letter in a corner, so that what is mirrored is seen."""
+"""A small textured scene: a square with a letter in one corner of its picture, which reveals mirroring."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SIDE_PX = 64
 
 
 def encoded(pixels: np.ndarray, kind: str = "PNG") -> bytes:
-    """An image file of these pixels."""
+    """Encode pixels as an image file."""
     stream = io.BytesIO()
     Image.fromarray(pixels).save(stream, kind)
     return stream.getvalue()
@@ -31,7 +31,7 @@ def letter() -> np.ndarray:
 
 
 def slope() -> np.ndarray:
-    """Pixels of a normal map that leans up the picture: green is more than half."""
+    """Pixels of a normal map that tilts towards the top of the picture (green above half)."""
     return np.full((8, 8, 3), (128, 200, 230), np.uint8)
 
 

@@ -1,4 +1,5 @@
-r"""A record of the files that the program asks the system about.
+r"""A record of the files that the program asks the system about. On Linux ``\\host\share`` is an ordinary file name and
+no other computer is contacted; the record shows the accesses that would contact one on Windows.
 
 On Linux ``\\host\share`` is an odd file name and nothing leaves the machine: the record shows what Windows would do.
 """
@@ -21,7 +22,7 @@ _PATH = ("isfile", "isdir", "exists", "lexists", "getsize", "getmtime", "realpat
 
 
 class Touched:
-    """Paths that were touched, in order.
+    """Paths that were accessed, in order.
 
     Attributes
     ----------
@@ -33,7 +34,7 @@ class Touched:
         self.elsewhere: list[str] = []
 
     def note(self, *values: object) -> None:
-        """Note down what of the values is a path on another computer."""
+        """Record those of the values that are paths on another computer."""
         for value in values:
             if isinstance(value, list | tuple):
                 self.note(*value)
@@ -47,7 +48,7 @@ class Touched:
 
 @contextmanager
 def touching() -> Iterator[Touched]:
-    """Record what is touched meanwhile, by Python and by processes that are begun."""
+    """Record accesses by Python and by started processes within a ``with`` block."""
     touched = Touched()
 
     def spy(original: Callable[..., Any]) -> Callable[..., Any]:

@@ -64,7 +64,7 @@ class Artist:
         last.setValue(2)
 
     def live(self, until: object, most_s: float = 240.0) -> None:
-        """Let the window live until something is so."""
+        """Process events until a condition holds."""
         end_s = time.monotonic() + most_s
         assert callable(until)
         while not until():
@@ -73,19 +73,19 @@ class Artist:
         self.application.processEvents()
 
     def export(self) -> None:
-        """Export, and wait for it."""
+        """Export and wait until it is finished."""
         start = child(self.dialog, QPushButton, "export_start")
         QTest.mouseClick(start, Qt.MouseButton.LeftButton)
         self.live(start.isEnabled)
 
     def look(self, path: Path) -> None:
-        """A picture of the dialog."""
+        """Write a picture of the dialog."""
         self.application.processEvents()
         self.dialog.grab().save(str(path))
 
 
 def main(folder: str = str(PICTURES), language: str = "en", theme: str = "dark") -> None:
-    """Draw."""
+    """Draw the pictures."""
     target = Path(folder).resolve()
     with tempfile.TemporaryDirectory() as work:
         artist = Artist(Path(work), language, theme)

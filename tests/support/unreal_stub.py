@@ -19,7 +19,7 @@ _PROPERTY = re.compile(r"^    - ``(\w+)`` \((.*?)\): +\[(Read-Only|Read-Write)\]
 
 @cache
 def _blocks() -> dict[str, tuple[str, str]]:
-    """The text of every class and the name of its base."""
+    """Text and name of the base of every class."""
     text = FILE.read_text(encoding="utf-8-sig")
     found = list(_CLASS.finditer(text))
     ends = [match.start() for match in found[1:]] + [text.index("\ndef log(")]
@@ -33,7 +33,7 @@ def _head_and_functions() -> tuple[str, str]:
 
 
 def excerpt(names: set[str]) -> str:
-    """Source of some classes, of what they are derived from, and of all functions of the module."""
+    """Source of some classes, their bases, and all functions of the module."""
     blocks, chosen = _blocks(), set[str]()
     for name in names:
         while name in blocks and name not in chosen:
@@ -47,6 +47,6 @@ def excerpt(names: set[str]) -> str:
 
 
 def documented_properties(name: str) -> dict[str, str]:
-    """Type of every editor property of a class that may be set, as its documentation lists them."""
+    """Type of every writable editor property of a class according to its documentation."""
     text, _ = _blocks()[name]
     return {prop: kind for prop, kind, access in _PROPERTY.findall(text) if access == "Read-Write"}

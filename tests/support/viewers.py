@@ -1,4 +1,4 @@
-"""Viewers who judge as a test says: evaluations whose results are known."""
+"""Synthetic viewers with known opinions: evaluations with known results."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from app.evaluation.key import ASPECTS, SCALES, Aspect, EvaluationClip, Evaluati
 
 EVALUATION = "c0ffee01"
 TRUTH: Mapping[Variant, float] = {"film": 4.2, "generated": 3.6, "still": 2.4, "shifted": 3.5}
-"""Mean opinion of a variant, before a viewer's own taste."""
+"""Mean opinion of each variant, without a viewer's individual taste."""
 
 
 def key_of(
     variants: Sequence[Variant] = ("film", "generated", "still", "shifted"), excerpts: int = 3, piece: str = "Air"
 ) -> EvaluationKey:
-    """An evaluation; codes say nothing, as they must."""
+    """Key of an evaluation with random codes."""
     clips = [(variant, excerpt) for excerpt in range(1, excerpts + 1) for variant in variants]
     random.Random(5).shuffle(clips)
     return EvaluationKey(
@@ -34,7 +34,7 @@ def key_of(
 
 
 def answer_of(clip: str = "c01", **changes: object) -> Answer:
-    """An answer; the rest as given."""
+    """An answer with default values except for those given."""
     values: dict[str, object] = {
         "evaluation": EVALUATION,
         "viewer": "a0000001",
@@ -52,12 +52,12 @@ def answer_of(clip: str = "c01", **changes: object) -> Answer:
 
 
 def viewer_of(answers: Sequence[Answer], name: str = "answers.csv") -> ViewerFile:
-    """The file that these answers would be read from."""
+    """Viewer file with these answers."""
     return ViewerFile(Path(name), tuple(answers), tuple(range(2, len(answers) + 2)))
 
 
 def opinion(truth: Mapping[Variant, float], variant: Variant, aspect: Aspect, scale: Scale, late: float) -> float:
-    """Return the mean rating of viewers; late fingers lower the rating of the fingers' synchrony alone."""
+    """Mean rating of viewers; late fingers lower only the rating of the fingers' synchrony."""
     lost = late if (variant, aspect, scale) == ("shifted", "fingers_arms", "synchrony") else 0.0
     return truth[variant] - lost
 
@@ -72,7 +72,7 @@ def viewers(
     presentations: Sequence[Presentation] = ("single",),
     skips: float = 0.0,
 ) -> list[ViewerFile]:
-    """Made-up viewers, each with a random order of clips.
+    """Synthetic viewers, each with a random order of clips.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def _viewer(
 
 
 def write_viewers(files: Sequence[ViewerFile], folder: Path) -> list[Path]:
-    """Write the files as the page does."""
+    """Write files like the evaluation page."""
     for file in files:
         (folder / file.path).write_bytes(encode_answers(file.answers))
     return [folder / file.path for file in files]

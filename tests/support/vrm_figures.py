@@ -1,4 +1,4 @@
-"""VRM figures for the readers of VRM animations: a written GLB with the extension of VRM 1.0 besides."""
+"""VRM figures for the readers of VRM animations: GLB files with the extension of VRM 1.0."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.formats.gltf.vrma import PRESETS
 
 
 def document_of(path: Path) -> tuple[dict[str, Any], bytes]:
-    """The JSON document of a GLB and the bytes of its binary chunk."""
+    """JSON document of a GLB and the bytes of its binary chunk."""
     data = path.read_bytes()
     (length,) = struct.unpack_from("<I", data, 12)
     return json.loads(data[20 : 20 + length]), data[28 + length :]
@@ -30,7 +30,7 @@ def write_document(path: Path, document: dict[str, Any], binary: bytes) -> Path:
 def as_vrm(
     glb: Path, to: Path, bones: Mapping[str, str], expressions: Mapping[str, Sequence[str]] | None = None
 ) -> Path:
-    """Write a GLB as a VRM 1.0 figure whose eyes turn as far as they look.
+    """Write a GLB as a VRM 1.0 figure whose eye bones rotate by the full angle of the gaze.
 
     Parameters
     ----------

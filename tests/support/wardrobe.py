@@ -1,4 +1,4 @@
-"""An outfit for tests: the clothes of a finished body as a file of the wardrobe."""
+"""An outfit for tests, made from the clothes of a bundled body."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ TITLE = {"en": "Test suit", "ja": "試験服"}
 def write_outfit(
     path: Path, id: str = "test_suit", body: str = "man_adult", meshes: Collection[str] = GARMENTS, **facts: Any
 ) -> None:
-    """Write the clothes of a finished body as an outfit whose shirt takes the main colour, the trousers the second."""
+    """Write the clothes of a bundled body as an outfit with the main colour for the shirt and the second colour for the
+    trousers.
+    """
     data = bundled_characters()[body].read_bytes()
     (length,) = struct.unpack_from("<I", data, 12)
     document, binary = json.loads(data[20 : 20 + length]), data[20 + length :]
@@ -52,7 +54,7 @@ def write_outfit(
 
 @contextmanager
 def wardrobe_in(folder: Path) -> Iterator[None]:
-    """Have the wardrobe of a folder instead of the program's."""
+    """Use the wardrobe in a folder instead of the bundled one."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "_folder", lambda: folder)
         wardrobe.cache_clear()

@@ -1,4 +1,6 @@
-"""A synthetic wind player: NOT the user's playing, but what one does to a recorder, made by rule.
+"""A synthetic wind player, made by rule and not a recording of a person. It sends phrases with a breath curve on
+controller 2 (and as channel pressure, like an EWI USB), legato overlaps, ghost notes, bite vibrato as pitch bend and
+bursts of 1,000 messages a second through a virtual port of JACK.
 
 Phrases with a breath curve on controller 2 (and the same as channel pressure, as an EWI USB sends it), legato overlaps,
 ghost notes, bite vibrato as pitch bend, bursts of 1,000 messages a second; through a virtual port of JACK's.
@@ -21,7 +23,7 @@ from typing import Self
 from app.capture.midi_library import PythonRtmidi, load_library
 
 Played = tuple[float, bytes]
-"""Time at which a message is due, seconds from the begin, and its bytes."""
+"""Time in seconds from the beginning at which a message is due, and its bytes."""
 
 
 def phrase(pitches: Sequence[int], *, beat_s: float = 0.4, seed: int = 0, ghosts: int = 0) -> list[Played]:
@@ -54,13 +56,14 @@ def phrase(pitches: Sequence[int], *, beat_s: float = 0.4, seed: int = 0, ghosts
 
 
 def burst(seconds: float, rate_hz: float = 1000.0) -> Iterator[Played]:
-    """Bend messages that count, so many a second: each tells its place, modulo 16384."""
+    """Numbered pitch bend messages at a constant rate; each value is its index modulo 16384."""
     for number in range(int(seconds * rate_hz)):
         yield number / rate_hz, bytes([0xE0, number & 0x7F, number >> 7 & 0x7F])
 
 
 class WindPlayer:
-    """Plays into a virtual port of a process of its own, which does not wait for this one's Python.
+    """Plays into a virtual port of a separate process, whose timing does not depend on this process. In this process,
+    closing the port could crash, since JACK's thread may be in the library's callback.
 
     In this process, closing the port could crash it: JACK's thread may be in the library's callback.
 
@@ -83,7 +86,7 @@ class WindPlayer:
         self.unplug()
 
     def plug_in(self) -> None:
-        """Appear."""
+        """Open the port."""
         self._process = subprocess.Popen(
             [sys.executable, "-m", __name__, *self._arguments],
             cwd=Path(__file__).parents[2],
@@ -94,7 +97,7 @@ class WindPlayer:
         self._answer()
 
     def unplug(self) -> None:
-        """Vanish."""
+        """Close the port."""
         if self._process is not None:
             # At the end of its input it closes the port and ends, unless it still plays.
             try:
@@ -105,24 +108,24 @@ class WindPlayer:
             self._process = None
 
     def send(self, message: bytes) -> int:
-        """Play one message; the moment of `time.perf_counter_ns` just before."""
+        """Send one message and return the moment of `time.perf_counter_ns` just before."""
         ((ns, _),) = self.play([(0.0, message)])
         return ns
 
     def play(self, played: Iterable[Played]) -> list[tuple[int, bytes]]:
-        """Play in time; what was sent and when."""
+        """Send messages at their times and return them with the times at which they were sent."""
         self.start(played)
         return self.sent()
 
     def start(self, played: Iterable[Played]) -> None:
-        """Begin to play."""
+        """Start sending."""
         assert self._process.stdin is not None
         json.dump([(due_s, message.hex()) for due_s, message in played], self._process.stdin)
         self._process.stdin.write("\n")
         self._process.stdin.flush()
 
     def sent(self) -> list[tuple[int, bytes]]:
-        """Wait for the end; what was sent and when."""
+        """Wait for the end and return the messages with the times at which they were sent."""
         return [(ns, bytes.fromhex(message)) for ns, message in self._answer()]
 
     def _answer(self) -> list[tuple[int, str]]:
@@ -134,7 +137,7 @@ class WindPlayer:
 
 @contextmanager
 def virtual_output(client: str, port: str) -> Iterator[Callable[[bytes], None]]:
-    """Make a port over JACK by the library that the program uses; what sends."""
+    """Open a virtual port of JACK with the program's library and return a function that sends."""
     library = load_library()
     if isinstance(library, PythonRtmidi):
         import rtmidi
@@ -154,7 +157,9 @@ def virtual_output(client: str, port: str) -> Iterator[Callable[[bytes], None]]:
 
 
 def main() -> None:
-    """Appear and say so; for every line, play what it lists and tell what was sent when; vanish at the end of input."""
+    """Open the port and print a line; for every line of input send its messages and print their times; close the port
+    at the end of input.
+    """
     with virtual_output(*sys.argv[1:]) as send:
         print("[]", flush=True)
         for line in sys.stdin:

@@ -1,4 +1,4 @@
-"""Table of the changes by clicks in the editor, by subject."""
+"""State of the editor by subject, for finding what a click changed."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def _popup() -> object:
 
 
 class Widgets:
-    """The widgets in a window, by kind, found in one pass: each pass over a window costs as much as a click.
+    """Widgets in a window by kind, collected in one pass, since each pass costs as much as a click.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ class Widgets:
 
 
 class Watcher:
-    """Takes the state of an editor.
+    """Reads the state of an editor.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class Watcher:
         self._told[name] += 1
 
     def state(self) -> State:
-        """The editor as it is; documents by their identity."""
+        """Current state of the editor; documents are represented by their identity."""
         program, session = self._program, self._program.session
         window, timeline = program.window, program.window.timeline
         widgets = Widgets(window)
@@ -180,7 +180,8 @@ def changed(before: State, after: State) -> frozenset[str]:
 
 
 def names_of(widgets: Sequence[QWidget]) -> dict[str, QWidget]:
-    """Give every widget a name: its object name, with those of named widgets above as far as several share it.
+    """Unique names of all widgets: the object name, preceded by those of named parents if several widgets share it.
+    Widgets without a name are numbered.
 
     Widgets without an own name are numbered.
     """

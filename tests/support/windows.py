@@ -1,4 +1,4 @@
-"""Windows of tests, shown: a window is neither drawn nor in front before the display says so."""
+"""Display of windows in tests; the display draws and activates windows with a delay."""
 
 from __future__ import annotations
 
@@ -15,39 +15,40 @@ from widgets.viewport.canvas import Canvas
 PATIENCE_MS = 180_000
 W = TypeVar("W", bound=QObject)
 LOOK_AGAIN_MS = 10
-"""Between two looks whether something has come to be: more often takes much of the processor that it needs itself."""
+"""Milliseconds between two checks of a condition; more frequent ones take too much of the processor."""
 
 
 def child(parent: QObject, kind: type[W], *name: str) -> W:
-    """The part of this kind, and of this object name if one is given, which must be there."""
+    """Child of a type, and of an object name if given, which must exist."""
     found = parent.findChild(kind, *name)
     assert found is not None, (kind, *name)
     return found
 
 
 def show(window: QWidget) -> None:
-    """Show a window and wait until it can be seen."""
+    """Show a window and wait until it is visible."""
     window.show()
     assert QTest.qWaitForWindowExposed(window, PATIENCE_MS)
 
 
 def show_in_front(window: QWidget) -> None:
-    """Show a window and wait until it has the keyboard."""
+    """Show a window and wait until it has the keyboard focus."""
     window.show()
     window.activateWindow()
     assert QTest.qWaitForWindowActive(window, PATIENCE_MS)
 
 
 def pause(milliseconds: int) -> None:
-    """Let the application work for some time; it sleeps where there is nothing to do, while vispy makes `QTest.qWait` a
-    loop that never does."""
+    """Process events for some time, sleeping while there are none; `QTest.qWait` would keep the processor busy because
+    of vispy.
+    """
     loop = QEventLoop()
     QTimer.singleShot(milliseconds, loop.quit)
     loop.exec()
 
 
 def wait_until(condition: Callable[[], bool]) -> bool:
-    """Let the application work until a condition holds; whether it came to hold."""
+    """Process events until a condition holds or the time is over; return whether it holds."""
     end_s = time.monotonic() + PATIENCE_MS / 1000
     while not (holds := condition()) and time.monotonic() < end_s:
         pause(LOOK_AGAIN_MS)
@@ -55,5 +56,5 @@ def wait_until(condition: Callable[[], bool]) -> bool:
 
 
 def draw_coarsely(canvas: Canvas, event: object) -> None:
-    """In place of `Canvas.on_draw`, where no one looks at the players: a quarter of the pixels."""
+    """Replacement for `Canvas.on_draw` with a quarter of the pixels, for tests that do not examine the players."""
     canvas._draw(*(int(size_px) // 2 for size_px in canvas.physical_size))

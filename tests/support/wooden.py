@@ -1,4 +1,4 @@
-"""The wooden mannequin of the package mannequin-x as a glTF file: a figure of another maker's skeleton."""
+"""Convert the wooden mannequin of the package mannequin-x, a figure with another maker's skeleton, to a glTF file."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 import pygltflib as gltf
 
 FOLDER = "SUISOU_FOREIGN_PACKAGES"
-"""Place where ``./test`` puts packages that are read, not run."""
+"""Environment variable with the folder of packages that are read but not run."""
 
 
 def source() -> Path | None:
-    """The package's arrays; None where it is not installed and need not be."""
+    """Arrays of the package; None if it is neither installed nor mandatory."""
     folder = os.environ.get(FOLDER, "")
     path = Path(folder) / "mannequin" / "assets" / "wooden.npz"
     if folder and path.is_file():
@@ -24,7 +24,9 @@ def source() -> Path | None:
 
 
 def write_wooden(arrays: Path, path: Path) -> None:
-    """Its mesh, joints and the four largest weights of each vertex, unchanged otherwise; the soles at 0."""
+    """Write the mesh, the joints and the four largest weights of each vertex, unchanged except that the soles are at
+    height 0.
+    """
     with np.load(arrays, allow_pickle=False) as held:
         names, parents = [str(name) for name in held["joint_names"]], held["parents"].astype(int)
         vertices, faces = held["vertices"].astype(float), held["faces"].astype(int)

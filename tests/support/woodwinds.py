@@ -1,4 +1,5 @@
-"""Small made-up maps with the places of woodwinds' keys that make players choose: nothing here reads a file.
+"""Small synthetic maps with the key positions of woodwinds that require choices, without files. Fingerings are those of
+method books, reduced to the notes that the tests need; written and sounding pitches are equal.
 
 Fingerings are those of method books, reduced to the notes that the tests need; pitches are written as they sound.
 """
@@ -12,13 +13,13 @@ from instrument_maps.model import Control, Fingering, InstrumentMap, InstrumentN
 from tests.support.plan import FRAME
 
 Row = tuple[int, str] | tuple[int, str, str]
-"""Pitch, labels of the controls, and tags; of one pitch the first is the first choice."""
+"""Pitch, labels of the controls, and optionally tags; the first row of a pitch is the first choice."""
 
 
 def made(
     id: str, keys: dict[str, str], rows: list[Row], *, levers: str = "", breaks: tuple[int, ...] = (), **more: Any
 ) -> InstrumentMap:
-    """A map of ``keys`` (label: finger) and ``rows``; ``levers`` are the labels that are levers."""
+    """Make a map from ``keys`` (finger by label) and ``rows``; ``levers`` are the labels of levers."""
     controls = tuple(
         Control(label, "lever" if label in levers.split() else "key", "pitch", finger, label=label)
         for label, finger in keys.items()
@@ -45,7 +46,7 @@ HOLES = {
 
 
 def clarinet() -> InstrumentMap:
-    """The little fingers' keys, which both hands have, throat notes and the break."""
+    """Clarinet with the keys that both little fingers have, throat notes and the break."""
     keys = HOLES | {
         "R": "left.thumb", "A": "left.index", "Gs": "left.index",
         "LE": "left.little", "LF": "left.little", "LFs": "left.little",
@@ -69,7 +70,7 @@ def clarinet() -> InstrumentMap:
 
 
 def oboe() -> InstrumentMap:
-    """C to B flat with the three F."""
+    """Oboe from C to B flat with three fingerings of F."""
     keys = HOLES | {
         "F": "right.ring", "Eb": "right.little", "C": "right.little", "Cs": "right.little", "LF": "left.little",
         "Gs": "left.little", "LEb": "left.little",
@@ -85,7 +86,7 @@ def oboe() -> InstrumentMap:
 
 
 def saxophone() -> InstrumentMap:
-    """The B flats (side, bis, one and one), the F sharps, and the high F with palm keys or front key."""
+    """Saxophone with the B flats (side, bis, one and one), the F sharps, and the high F with palm keys or front key."""
     keys = HOLES | {
         "8": "left.thumb", "bis": "left.index", "sB": "right.index", "sF": "right.ring", "f": "left.index",
         "pD": "left.index", "pE": "left.middle", "pF": "left.ring", "gs": "left.little", "Eb": "right.little",
@@ -105,7 +106,7 @@ def saxophone() -> InstrumentMap:
 
 
 def double_horn() -> InstrumentMap:
-    """The F side below written A flat, the B flat side from there up."""
+    """Double horn with the F side below written A flat and the B flat side from there on."""
     keys = {"T": "left.thumb", "1": "left.index", "2": "left.middle", "3": "left.ring"}
     sides = {
         60: ("", "T 1 3"), 61: ("1 2 3", "T 2 3"), 62: ("1 3", "T 1 2"), 63: ("2 3", "T 1"), 64: ("1 2", "T 2"),
@@ -120,7 +121,7 @@ def double_horn() -> InstrumentMap:
 
 
 def many_keys() -> InstrumentMap:
-    """Twenty-five keys and eight fingerings of every note, by chance: more than any woodwind asks for."""
+    """Instrument with twenty-five keys and eight random fingerings of every note, more than any real woodwind."""
     chance = random.Random(4)
     movers = ("left.little", "right.little", "left.index", "right.index", "left.thumb")
     keys = HOLES | {f"k{number}": chance.choice(movers) for number in range(18)}

@@ -133,7 +133,7 @@ STARTED = {
     "app/formats/reading_child.py": "ufbx.",
     "app/performance/motion_copies.py": "export",
 }
-"""Modules that start processes, and the rows of what they start."""
+"""Modules that start processes, with the rows of their limits."""
 
 STARTING = {"subprocess.Popen", "subprocess.run", "os.fork", "QProcess", "StartedChild", "ForkedChild"}
 

@@ -63,7 +63,7 @@ def test_what_is_wrong_is_said_in_japanese(tmp_path: Path, kind: str, wrong: str
 
 ROOT = Path(__file__).parents[2]
 NAMES = frozenset({"detail", "wrong"})
-"""Keywords and variables that hold details."""
+"""Keywords and variables that contain details."""
 FOR_MAKERS = frozenset(
     {
         "instrument_maps/check_model.py",
@@ -71,9 +71,9 @@ FOR_MAKERS = frozenset(
         *(f"instrument_maps/validate{part}.py" for part in ("", "_fingerings", "_hold")),
     }
 )
-"""Problems of a user's own instrument map: worded in English, for those who make one."""
+"""Modules whose errors about users' instrument maps are in English, for authors of maps."""
 MADE_OF_OTHERS = frozenset({"7: 7", "7 (7)"})
-"""An exception of ours by its name, and a detail with its place."""
+"""Details that consist of an exception's name, or of a detail and its place."""
 FOLDERS = ("app", "instrument_maps", "metadata")
 
 

@@ -24,9 +24,9 @@ INSTEAD = {
     **dict.fromkeys(("linkActivated", "anchorClicked", "setOpenExternalLinks", "setOpenLinks"), "a button"),
     **dict.fromkeys(("QtWebEngineWidgets", "QtWebEngineCore", "QtQuick", "QtQml"), "widgets"),
 }
-"""Classes that show HTML, or could, and those to use instead."""
+"""Classes that may display HTML, with the classes to use instead."""
 MENTIONED = re.compile("|".join(map(re.escape, INSTEAD)))
-"""In what is parsed: most modules are not."""
+"""Names that occur in the modules that are parsed; most modules contain none."""
 ALLOWED = {
     "widgets/common/plain.py": {"QLabel", "QMessageBox", "QComboBox", "setTextFormat"},
     # The program's own guides, as Markdown without HTML; of files only pictures beside them are read, and of links only

@@ -29,7 +29,9 @@ from tests.support.wind_player import WindPlayer, burst
 
 PERIOD_MS = QUICK_FRAMES / RATE_HZ * 1e3
 MOST_OURS_MS = 2.0
-"""Measure of how much later than a bare callback's our stamp may be, at the 99th percentile."""
+"""Greatest excess in milliseconds of the program's time stamps over those of a bare callback, at the 99th
+percentile.
+"""
 HEADER = JournalHeader("p", "player", "EWI", "ewi_usb", 0.0, "")
 
 pytestmark = pytest.mark.bench

@@ -14,7 +14,9 @@ from tests.support.dance_measures import PIECES, SHARED, Measured, learned, meas
 MOST_JUMP = 1.25
 MOST_SLIDING_M_S = 0.005
 REAL_TIME_RATIO = 100.0
-"""The issue asks for 200 on a quiet machine; half of it holds on one that runs other things too."""
+"""Ratio of a dance's duration to its computing time. The goal is 200 on an idle machine; half of it applies on a busy
+one.
+"""
 
 
 @pytest.mark.bench

@@ -20,9 +20,9 @@ from tests.fuzz.harness.seeds import hostile
 from tests.support.random_user import Journey, travel
 
 DEEDS, KILLS = 300, 6
-"""Numbers of one journey."""
+"""Numbers of deeds and kills in one run."""
 SHOWN: Final = ("midi", "project", "audio", "gltf", "foreign_fbx")
-"""Kinds that the user opens in the window."""
+"""Kinds of files that are opened in the window."""
 WINDOW: Final = "tests.bench.hostile.window"
 
 

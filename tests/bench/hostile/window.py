@@ -42,7 +42,7 @@ from widgets.common.actions import actions
 
 PATIENCE_S: Final = 60.0
 LOOK_S: Final = float(os.environ.get("SUISOU_LOOK_S", "1.5"))
-"""The window is looked at this long after everything that is done."""
+"""Seconds for which the window is observed after each deed."""
 
 
 AWAITED: Final = ("open", "save", "import", "reimport", "character", "plan")

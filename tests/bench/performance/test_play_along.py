@@ -18,7 +18,7 @@ from tests.support.live import QUARTER, playing_alone
 
 EVENTS = 120
 FRAMES_AFTER = 6
-"""Frames between two onsets, at 60 a second: notes of a tenth of a second."""
+"""Number of frames between two onsets at 60 per second: notes of a tenth of a second."""
 
 
 LONG_S, MINUTE_S = 1200, 60

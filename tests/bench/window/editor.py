@@ -36,7 +36,7 @@ from widgets.viewport.panel import ViewportPanel
 
 PATIENCE_S = 240.0
 QUIET_S = 45.0
-"""Sound and motion that are made beforehand get this long; then the editor is used while they are made."""
+"""Seconds allowed for sound and motion computed in advance; afterwards the editor is used during the computation."""
 
 
 @dataclass
@@ -46,9 +46,9 @@ class Turn:
     cpu_s: float = 0.0
     wall_s: float = 0.0
     drawing_s: float = 0.0
-    """Time of the CPU: drawing the players; while GL is still, Python's part of it."""
+    """Processor time in seconds for drawing the players, or Python's part of it while GL is idle."""
     drawing_wall_s: float = 0.0
-    """The same of the wall time."""
+    """Wall time in seconds for drawing the players."""
 
 
 @dataclass
@@ -71,7 +71,7 @@ class LargeEditor:
     folder: Path
     stalls: dict[str, Stall] = field(default_factory=dict)
     seen: Turn = field(default_factory=Turn)
-    """Time of the last awaited picture."""
+    """Times of the last awaited picture."""
     phase: str = "open"
 
     def __post_init__(self) -> None:

@@ -20,9 +20,9 @@ from tests.bench.window.editor import LargeEditor, Turn, calibration_s, memory_m
 
 FRAMES = 40
 LONG_S = 150.0
-"""Everything is made within this time, for the memory at rest."""
+"""Seconds within which everything is computed, for measuring memory at rest."""
 CORRECTIONS = 3
-"""Number of times that each is made; the median is reported."""
+"""Number of repetitions of each correction; the median is reported."""
 
 
 @pytest.fixture

@@ -17,7 +17,7 @@ from app.cli import main
 ROOT = Path(__file__).parents[3]
 _DUET = (ROOT / "tests" / "data" / "midi" / "ensemble" / "trumpet_duet_bach_minuet.mid").read_bytes()
 SEED_FILE = _DUET.replace(b"staffA:", b"Trumpet").replace(b"staffB:", b"Trumpet")
-"""A piece whose names say who plays."""
+"""A piece whose track names determine the instruments."""
 QUARTET = ROOT / "resources" / "examples" / "quartet.mid"
 
 

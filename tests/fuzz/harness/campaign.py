@@ -19,9 +19,11 @@ from tests.fuzz.harness.readers import KINDS, digest
 from tests.fuzz.harness.seeds import HOSTILE, ROOT, hostile
 
 MOST_CPU_S: Final = 20.0
-"""Four times the goal: seconds of CPU are longer where other processes share the caches."""
+"""Limit of processor seconds per file: four times the goal, since processor time is longer if other processes share the
+caches.
+"""
 MOST_MB: Final = 1024.0
-"""Bound of the whole process, for a file of at most 100 KB."""
+"""Limit in megabytes of the whole process for a file of at most 100 KB."""
 SIZES: Final = (1_000, 10_000, 100_000)
 _POOL: Final = 200
 _MINIMISE_S: Final = 20.0

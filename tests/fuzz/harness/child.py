@@ -25,12 +25,13 @@ from app.messages import text
 from tests.fuzz.harness.readers import KINDS, Broken, Refused
 
 HANG_CPU_S = 21
-"""After this much CPU for one file the process is ended, and says where it was: a little more than what
-`campaign.MOST_CPU_S` allows, or that bound would judge nothing."""
+"""Processor seconds per file after which the process ends and reports its place; slightly more than
+`campaign.MOST_CPU_S`, so that the limit there can be judged.
+"""
 HANG_S = 240.0
-"""After this long it is ended however little it worked: on a busy machine many times the CPU."""
+"""Seconds after which the process ends regardless of its processor time; much longer, since machines may be busy."""
 MOST_DATA_BYTES = 2 * 2**30
-"""Memory beyond what the process began with is refused it: a file that asks for more raises MemoryError."""
+"""Bytes that may be allocated in addition to those at the start; larger requests raise MemoryError."""
 
 
 def main() -> None:

@@ -15,7 +15,7 @@ from tests.fuzz.harness.own_files import COSTLY_OWN
 from tests.fuzz.harness.scores import COSTLY_SCORES
 
 Make = Callable[[int], bytes]
-"""Makes a file of about so many bytes."""
+"""Function from a size in bytes to a file of about this size."""
 
 
 def _named(ways: Mapping[str, tuple[Make, ...]]) -> dict[str, dict[str, Make]]:
@@ -34,7 +34,7 @@ ALL_COSTLY: Final[Mapping[str, Mapping[str, Make]]] = {
     **_named(COSTLY_MOTION),
     **_named(COSTLY_OWN),
 }
-"""By kind of file, as in `tests.fuzz.harness.readers.KINDS`, and by way."""
+"""Functions that make costly files, by kind of file (`tests.fuzz.harness.readers.KINDS`) and by cause of the cost."""
 
 
 def costly(kind: str, size: int = 10_000) -> dict[str, Callable[[], bytes]]:

@@ -31,7 +31,7 @@ PLACES: Final = {
        (("UpperArm", 0.15, 0.2), ("LowerArm", 0.25, 0.0), ("Hand", 0.25, 0.0),
         ("UpperLeg", 0.1, 0.0), ("LowerLeg", 0.0, -0.45), ("Foot", 0.0, -0.45))},
 }  # fmt: skip
-"""Files of a figure that can play, so that what is made of it costs too; from the joint above."""
+"""Joints of a figure that can play, relative to the joint above, so that the cost of using it counts too."""
 
 
 # glTF
@@ -331,4 +331,6 @@ COSTLY_FILES: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     "audio": (*COSTLY_SOUND, *COSTLY_RECORDINGS),
     "followed": (flac_steps, m4a_minutes),
 }
-"""By kind of file, as in `tests.fuzz.harness.readers.KINDS`: what makes a file of about so many bytes."""
+"""Functions that make costly files of about a given size in bytes, by kind of file
+(`tests.fuzz.harness.readers.KINDS`).
+"""

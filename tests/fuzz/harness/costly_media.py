@@ -10,7 +10,7 @@ from typing import Final
 from tests.support.media import ffmpeg
 
 _BYTES_PER_S: Final = 2000
-"""Rate of the sound and the pictures below, about."""
+"""Approximate rate of sound and pictures in bytes per second."""
 
 
 def _made(name: str, *arguments: str) -> bytes:
@@ -83,4 +83,4 @@ COSTLY_MEDIA: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
 }
 """The same as `tests.fuzz.harness.costly_files.COSTLY_FILES`."""
 COSTLY_RECORDINGS: Final = (m4a_gap, m4a_gaps, m4a_minutes, mkv_days, mkv_gap, mp4_late_sound, transport, mp3_slow)
-"""Those of the kind "audio"."""
+"""Costly files of the kind "audio"."""

@@ -8,7 +8,7 @@ from typing import Final
 
 END: Final = b"\0\xff\x2f\0"
 FASTEST: Final = b"\0\xff\x51\x03\0\x27\x10"
-"""10 ms a quarter, the shortest the reader takes."""
+"""Tempo event of 10 ms per quarter, the fastest that the reader accepts."""
 MOST_DELTA: Final = 0x0FFFFFFF
 
 
@@ -233,7 +233,7 @@ COSTLY: Final[dict[str, Callable[[int], bytes]]] = {
     ),
     "patterns": lambda size: midi(*[note() + END] * (size // 20), format_=2),
 }
-"""By what each does: from a size in bytes, which those that cannot grow pass over, to the file's bytes."""
+"""Functions from a size in bytes to a file, by cause of the cost; files of fixed size ignore the size."""
 
 _TRUMPET: Final = b"\0\xc0\x38"
 _TWELVE_HOURS: Final = 12 * 2 * 3600 * 480 - 4000
@@ -261,7 +261,7 @@ STUCK: Final[dict[str, Callable[[int], bytes]]] = {
     ),
     "instruments by turns": _turns,
 }
-"""Cost of a report of a file beyond reading it."""
+"""Functions that make files whose report costs more than reading them."""
 
 WORST: Final = {
     "everyone often for twelve hours": 40_000,
@@ -270,4 +270,4 @@ WORST: Final = {
     "tracks of sixteen channels": 100_000,
     "patterns": 100_000,
 }
-"""Bytes of those that are tried large in every run."""
+"""Sizes in bytes of files that are large in every run."""

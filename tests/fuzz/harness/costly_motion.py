@@ -12,7 +12,7 @@ from app.formats.fbx.encode import Element
 from tests.fuzz.harness.costly_files import ABOVE, PACKED_FBX, PLACES, fbx, figure, glb
 
 TICKS_PER_S: Final = 46_186_158_000
-"""Unit of FBX."""
+"""Time units of FBX per second."""
 
 
 def _body(channels: str) -> str:

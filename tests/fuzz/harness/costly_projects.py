@@ -49,10 +49,10 @@ from tests.fuzz.harness.costly_midi import END, midi, note
 QUARTER: Final = 480
 NOTES: Final = 8
 HOURS_QUARTERS: Final = 43_000
-"""At 60 quarters a minute nearly twelve hours."""
+"""Length in quarters: nearly twelve hours at 60 per minute."""
 
 Way = Callable[[int], Project]
-"""A project with so many of something."""
+"""Function from a number of items to a project with as many."""
 
 
 @cache
@@ -457,4 +457,4 @@ COSTLY_METADATA: Final[dict[str, Callable[[int], bytes]]] = {
     for way in ("curves far", "curves of many keys", "poses at once", "variations at once", "styles in turn")
 }
 COSTLY_DANCES: Final[dict[str, Callable[[int], bytes]]] = {name: partial(of_size, way) for name, way in DANCES.items()}
-"""By what each does: from a size in bytes, which those that cannot grow pass over, to the file's bytes."""
+"""Functions from a size in bytes to a file, by cause of the cost; files of fixed size ignore the size."""

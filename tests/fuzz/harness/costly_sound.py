@@ -11,7 +11,7 @@ _OPUS_HZ: Final = 48_000
 _OPUS_PACKET_S: Final = 0.12
 _MOST_IN_PAGE: Final = 255
 _NOTHING: Final = b"\x1b\x02"
-"""A packet of Opus: two frames of 60 ms, of which nothing was sent. Source: RFC 6716, section 3."""
+"""A packet of Opus with two silent frames of 60 ms (RFC 6716, section 3)."""
 
 
 # FLAC. Source: RFC 9639, sections 8.2 and 9.
@@ -125,4 +125,4 @@ COSTLY_SOUND: Final[tuple[Callable[[int], bytes], ...]] = (
     *(flac_silence, flac_slow_silence, flac_fast_silence, flac_wide_silence, flac_steps),
     *(opus_hours, opus_chain, wav_hours),
 )
-"""Those of the kind "audio"."""
+"""Costly files of the kind "audio"."""

@@ -18,7 +18,7 @@ from tests.fuzz.harness.values import FLOATS, INTEGERS, NUMBER_TEXTS, TEXTS
 from tests.support.encoded import encode_elements
 
 MOST_BYTES: Final = 100_000
-"""Mutants of small seeds are cut here: what larger files cost is another question."""
+"""Greatest size in bytes of mutants of small seeds; the cost of larger files is tested separately."""
 
 Mutator = Callable[[bytes, random.Random], bytes]
 

@@ -9,7 +9,7 @@ from typing import Any, Final
 from tests.fuzz.harness.costly_projects import base
 
 MOST_FREE_TURNS: Final = 2**20
-"""Frames times joints that a BVH file of any size may have."""
+"""Number of frames times joints that is allowed in a BVH file of any size."""
 
 
 @cache

@@ -31,7 +31,7 @@ ROOT: Final = Path(__file__).parents[3]
 DATA: Final = ROOT / "tests" / "data"
 HOSTILE: Final = DATA / "hostile"
 MOST_BYTES: Final = 20_000
-"""Size of a seed that need not be larger: damage to small files reaches more of what reads them."""
+"""Usual greatest size of a seed in bytes, since damage to small files reaches more of the readers' code."""
 
 
 def found_files(kind: str) -> tuple[Path, ...]:
@@ -396,7 +396,7 @@ MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
         "deep": lambda: b"[" * 100_000,
     },
 }
-"""By kind and name."""
+"""Functions that make seeds, by kind and name."""
 
 
 def hostile(kind: str) -> dict[str, Callable[[], bytes]]:

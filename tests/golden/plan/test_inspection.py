@@ -24,7 +24,7 @@ ASSIGNED = {
     "solo_trumpet_bach_bist_du_bei_mir.mid": ("*=trumpet_Bb",),
     "trumpet_duet_bach_minuet.mid": ("*=trumpet_Bb",),
 }
-"""Instruments of the files in which nothing says which they are."""
+"""Instruments of the files that do not name them."""
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)

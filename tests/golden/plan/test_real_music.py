@@ -29,7 +29,7 @@ PICKUPS = {
     "solo_flute_bach_partita_corrente.mid": 0.5,
     "solo_horn_mozart_k447_mv1.mid": 1.0,
 }
-"""Quarters before the first bar line in the scores that the files were made from; the files do not say it."""
+"""Length in quarters of the upbeat in the scores of the files, which do not contain it."""
 FILES = sorted(path.name for path in ENSEMBLE.glob("*.mid"))
 
 

@@ -250,7 +250,7 @@ WINDS = {
     "trumpet_duet_bach_minuet": ["trumpet_Bb"] * 2,
     "trumpet_organ_brown_wedding_CCBY4": ["trumpet_Bb"],
 }  # fmt: skip
-"""Players of the winds of each file, in its order, as its title and its score say."""
+"""Wind players of each file in order, according to its title and score."""
 
 
 @pytest.mark.parametrize(("name", "expected"), WINDS.items(), ids=WINDS)

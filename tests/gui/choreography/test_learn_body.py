@@ -26,7 +26,7 @@ from widgets.dialogs.bone_tree import BoneTree
 from widgets.dialogs.choreography.learn import LearnDialog
 
 SWORD = [(30.0, 0.0, 0.0)] * 4
-"""The arm that holds it is no arm by its lengths."""
+"""Bones of a sword, with which an arm's lengths are no longer those of an arm."""
 
 
 @pytest.fixture

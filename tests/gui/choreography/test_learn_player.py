@@ -26,7 +26,7 @@ from widgets.dialogs.choreography.learn import LearnDialog
 
 STEP_S = 0.01
 FIRST_HIT_S = 0.1
-"""Time of the first hit in `write_drums`."""
+"""Time in seconds of the first hit in `write_drums`."""
 Elapse = Callable[[float], None]
 
 

@@ -44,7 +44,7 @@ MAPS = {
     for id_, table in bundled_maps().items()
     if not any(tuba in name for name in table.plays for tuba in ("tuba", "sousaphone"))
 }
-"""No one plays the tuba here: what is left out must be reported."""
+"""Instrument maps without those for tuba, so that the import must report omitted parts."""
 
 
 @pytest.fixture

@@ -21,7 +21,7 @@ from widgets.common.text import sentence
 from widgets.players.panel import PlayersPanel
 
 SHOWN = {name: parameter for name, parameter in PARAMETERS.items() if name != "layers_off"}
-"""Layers that are off are boxes before the amounts: see test_acting."""
+"""Parameters with a control of their own; disabled layers are boxes beside the amounts (see test_acting)."""
 
 
 @pytest.fixture

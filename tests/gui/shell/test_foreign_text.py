@@ -50,7 +50,7 @@ SHOWN = {
     *("instrument", "map_file", "character", "wrong_character", "bone", "figure", "preset", "wrong_preset"),
     *("port", "host", "recent", "lost", "notice", "asked", "removed", "replaced"),
 }
-"""Fields that the walk must come across."""
+"""Kinds of names that must be displayed during the test."""
 DIALOGS = (
     *("application.about", "application.preferences", "application.shortcuts", "application.instruments"),
     *("application.characters", "export.files", "export.playblast", "file.evaluation"),

@@ -20,12 +20,14 @@ pytestmark = pytest.mark.drawn
 
 WARM_UP, ROUNDS, MOST_ROUNDS = 2, 2, 8
 DRAWN = ("widgets.viewport.renderer._Solid", "vispy.gloo.")
-"""One for each level of detail that was drawn of the figures that are there: which, the speed of drawing decides. They
-go with the figures."""
+"""Classes with one object per drawn level of detail; speed of drawing determines the levels, and the objects are freed
+with the figures.
+"""
 OF_A_PIECE = ("app.performance.chunks.Chunk", "app.performance.chunks.Pose", "widgets.viewport.cast.Member")
 MOST_MB = 48.0
-"""Rise and fall of the graphics driver's memory from round to round, while what Python holds stays the
-same to 0.1 MB: so only growth that no later round gives back is a leak."""
+"""Variation in megabytes of the graphics driver's memory between rounds, while Python's memory stays equal within 0.1
+MB; only growth that persists in all later rounds is a leak.
+"""
 
 
 @pytest.fixture

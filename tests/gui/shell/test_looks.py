@@ -20,9 +20,10 @@ from widgets.common.actions import actions
 
 ROOT = Path(__file__).parents[3]
 SCREENS = ("1:dark:1093:614", "1.25:light:1280:800:live")
-"""Scale, theme, and what is left of usual screens at it, in device-independent pixels: the least of them (1366 x 768 at
-125 %) at the scale whose letters are widest, and the one whose lengths fall between pixels. Larger scales leave more
-room. On the last one the language is switched in every state."""
+"""Scale, theme and available size of common screens in device-independent pixels: the smallest (1366 x 768 at 125 %) at
+the scale with the widest letters, and one at a scale with fractional lengths. Larger scales leave more space. On the
+last screen the language is switched in every state.
+"""
 
 
 @pytest.mark.usefixtures("qapp")

@@ -25,7 +25,7 @@ from widgets.timeline.zoom_and_scroll import TimeAxis
 pytestmark = pytest.mark.moved
 
 KINDS = {"character.instrument_size", "contact.out_of_reach", "contact.hand_off"}
-"""One of the body, one of notes, one that only the motion shows."""
+"""Kinds of problems: of the body, of notes, and of motion only."""
 
 
 def test_inspect_export_stream_and_editor_report_the_same(

@@ -10,7 +10,7 @@ from tests.fuzz.harness.costly_midi import COSTLY
 
 MOST_S = 0.5
 FILES = {"tracks of sixteen channels": 620, "lines of 40": 6_000}
-"""Bytes of each: many rows in the dialog; few notes, and many players of them."""
+"""Sizes in bytes of files that cause many rows in the dialog, and many players with few notes."""
 
 
 def test_the_costliest_files_do_not_stall_the_window(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -38,7 +38,7 @@ pytestmark = pytest.mark.moved
 
 ARM = "RightLowerArm"
 PORT = 21000 + 10 * int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
-"""The first of ten that no other worker streams to, nor the system gives away."""
+"""First of ten ports that neither other test workers nor the system use."""
 
 
 def ready(program: Program, qtbot: QtBot) -> None:

@@ -9,7 +9,7 @@ from app.editor.design_tokens import THEMES, Tokens
 from app.shell.theme import faint, palette
 
 READABLE, VISIBLE = 4.5, 3.0
-"""Least contrasts of text and of drawings: WCAG 2.2, success criteria 1.4.3 and 1.4.11."""
+"""Least contrast ratios of text and of graphics: WCAG 2.2, success criteria 1.4.3 and 1.4.11."""
 
 
 def luminance(colour: str) -> float:

@@ -41,7 +41,7 @@ PANELS = {
     "inspector": Qt.DockWidgetArea.RightDockWidgetArea,
     "timeline": Qt.DockWidgetArea.BottomDockWidgetArea,
 }
-"""Panels that are open at first, and their places."""
+"""Panels that are open by default, with their areas."""
 
 
 def edit(program: Program, title: str = "Another") -> None:

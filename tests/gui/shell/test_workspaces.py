@@ -29,7 +29,7 @@ SHOWN = {
     "record": {"recording", "players", "timeline"},
     "check": {"inspector", "timeline"},
 }
-"""The panels of each workspace as it comes."""
+"""Visible panels of each workspace by default."""
 LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 ALT, CTRL_ALT = Qt.KeyboardModifier.AltModifier, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier
 

@@ -26,7 +26,7 @@ Picture = npt.NDArray[np.uint8]
 
 
 _LIVE: dict[int, tuple[Project, LiveMotion]] = {}
-"""Kept with the project, so that its identity stays its own."""
+"""Poses by project; projects are kept, so that their identity is not reused."""
 
 
 def _live(project: Project) -> LiveMotion:

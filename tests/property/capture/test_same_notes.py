@@ -35,9 +35,9 @@ MESSAGES = st.one_of(
     st.just(bytes((0xB0, 123, 0))),
 )
 STREAMS = st.lists(st.tuples(st.integers(3, 400), MESSAGES), min_size=1, max_size=25)
-"""Milliseconds after the message before, and a message."""
+"""Lists of messages, each with the milliseconds after the previous one."""
 Note = tuple[float, float, int]
-"""Onset and end in seconds, pitch."""
+"""Onset and end in seconds, and pitch."""
 
 
 def recorded(path: Path, stream: list[tuple[int, bytes]]) -> Take | None:

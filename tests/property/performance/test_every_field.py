@@ -39,7 +39,7 @@ from tests.property.performance.edits import QUARTER, piece
 from tests.support.plan import make_plans, time_frame
 
 KEPT = frozenset({"id", "kind", "target", "ticks_per_quarter", "schema_version", "map_id", "part_id", "read_notes"})
-"""Ids, and what says which sort of thing it is: another one is another thing."""
+"""Fields that identify a thing or its kind; changing them would make a different thing."""
 OTHERS: dict[str, Any] = {
     "cue_leader": True,
     "felt_beat_quarters": 2.0,
@@ -56,11 +56,11 @@ OTHERS: dict[str, Any] = {
     "numerator": 3,
     "denominator": 8,
 }
-"""Fields whose type does not say what else is possible."""
+"""Other valid values of fields whose type does not determine them."""
 
 
 WHOLE = frozenset({"parts", "metres", "changes", "ticks", "values"})
-"""Sequences that something else counts on."""
+"""Sequences whose length is bound to another field."""
 
 
 def other(name: str, value: Any) -> Any:
@@ -179,7 +179,7 @@ def test_any_other_field_is_seen() -> None:
 
 
 MOTIF = (65, 65, 65, 63, 62, 65)
-"""After a rest the line begins so, and then again and again without one."""
+"""Pitches with which the line begins after a rest and which it later repeats without a rest."""
 
 
 @pytest.mark.parametrize(("index", "semitones"), [(9, 2), (37, -1)])

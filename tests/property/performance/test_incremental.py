@@ -19,7 +19,7 @@ from tests.property.performance.edits import edits, piece
 from tests.support.performed import player_motion
 
 FPS = Fraction(12)
-"""Fewer frames than are seen: chunks are as many, and each is compared."""
+"""Frame rate, lower than in use; the number of compared chunks is the same."""
 
 CALM = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 

@@ -19,7 +19,7 @@ from tests.support.plan import make_plans, piece_of, time_frame
 
 TRUMPET = bundled_maps()["trumpet_Bb"]
 LEFT_OUT = {"breath.catch_dropped": 1, "breath.catch_dropped_two": 2}
-"""Notes that are left out for such a breath."""
+"""Number of omitted notes by the kind of breath."""
 LEVELS = (0.0, 0.0, 0.01, 0.03, 0.4, 0.8, 1.0)
 
 
@@ -41,7 +41,9 @@ def parts(draw: st.DrawFn) -> Part:
 
 
 SHORT_NOTES = (*((tick, 1) for tick in range(6)), (6, 1355), (1361, 119), (1480, 985))
-"""Lungs too small for the last: a breath before the note before it, and one that leaves that note out."""
+"""Notes for whose last one the lungs are too small: one breath comes before the preceding note, and another one
+replaces that note.
+"""
 OVERLAPPING = Part(
     "1.1.1", "x", 0, 0, 0, 56, "trumpet", "trumpet_Bb",
     tuple(Note(f"1:{number + 1}", *note, 60 + number, 80) for number, note in enumerate(SHORT_NOTES)),

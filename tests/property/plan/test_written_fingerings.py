@@ -17,7 +17,7 @@ from tests.support.plan import PlainClock, PlainNote, make_plans, piece_of, time
 MAPS = bundled_maps()
 CLOCK = PlainClock(((0, 120.0),))
 BETWEEN = ("", "-", "+", ", ", " ")
-"""Signs that scores have between the valves of a fingering."""
+"""Separators between the valves of a fingering in scores."""
 
 
 def spelt(label: str, instrument: InstrumentMap, between: str) -> tuple[str, str]:

@@ -432,7 +432,7 @@ def edit_takes(data: st.DataObject, project: Project) -> Project:
 
 
 KEEPING: list[Edit] = [edit_players, edit_dancers, edit_piece, another_performance, read_again, edit_takes, edit_takes]
-"""Whatever these do, every correction is still there after it (it may have moved with the music)."""
+"""Edits after which every correction must still exist, possibly moved with the music."""
 OTHERS: list[Edit] = [
     correct_dances,
     add_correction,

@@ -64,7 +64,7 @@ def as_notes(rows: list[tuple[int, int, int, int]]) -> list[Note]:
 
 
 LEGATO_MOST_S = 0.2
-"""No two notes of one player sound together for longer."""
+"""Longest overlap in seconds of two notes of one player."""
 
 
 @given(NOTES, tempo_maps(), st.booleans())

@@ -24,7 +24,7 @@ from tests.unit.audio.pieces import quartet
 from tests.unit.audio.test_offset import as_samples, end_s
 
 EVERY = 120
-"""Ticks from one value of the true expression to the next."""
+"""Ticks between two values of the true expression."""
 
 
 def expressive(seeds: dict[str, int]) -> Project:

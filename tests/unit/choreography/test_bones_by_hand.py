@@ -22,9 +22,9 @@ from tests.unit.choreography.test_command import write_drums
 from tests.unit.choreography.test_hostile_rests import MOST_DEG, SALSA, off_deg
 
 TRUE: Final = {joint: bone for joint, bone in captured_body(SALSA, "a.bvh").body.joints.items() if joint in JOINTS}
-"""Bones of `SALSA`, which keep their numbers in what is made of it."""
+"""Correct bones of `SALSA`, which keep their numbers in its variants."""
 SWORD: Final = without_names(with_prop(SALSA, "lHand", [(30.0, 0.0, 0.0)] * 4))
-"""No name says where the arm ends, and the arm with the sword is no arm by its lengths."""
+"""Variant without names in which a sword makes an arm's lengths unlike an arm's."""
 
 
 def corrections(skeleton_bones: dict[str, int]) -> dict[str, str]:

@@ -36,7 +36,7 @@ from tests.support.rerigged import (
 )
 
 SALSA: Final = read_bvh(Path(__file__).parents[2] / "data" / "motion" / "salsa_step.bvh")
-"""19 poses of a dancer whose zero pose is a standing body."""
+"""Captured motion of 19 poses whose zero pose is a standing body."""
 MOST_DEG: Final = 3.0
 PARTS: Final = (
     *("hip", "abdomen", "chest", "neck", "head"),

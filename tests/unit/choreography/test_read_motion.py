@@ -32,7 +32,9 @@ POSER = ("Shldr", "ForeArm", "Hand", "Thigh", "Shin", "Foot")
 MIXAMO = ("Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot")
 ACCAD = ("Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle")
 LEAN = 0.06
-"""The way ahead of hips that lean as usual in the T-pose: the figures here have joints exactly above one another."""
+"""Forward distance of the hips of the usual lean in the T-pose; the joints of the figures in this module are exactly
+above one another.
+"""
 KNOWN = {
     # Names of the limbs' joints in the file, tolerance of arms in metres (a shrug is not among the 16 segments), up.
     "cmu_salsa_01": (POSER, "l", 1e-6, "+Y"),

@@ -26,7 +26,9 @@ from tests.unit.cli.test_main import ROOT, Run, named_piece, run
 run = run
 FORGED = "suisou: all is well"
 HOSTILE = f"\x1b]0;title\x07\x1b[2J\n{FORGED}\r\x9b31m\u202e\u2028\t曲 ガ\u3000é👩\u200d🎤"
-"""Sets a terminal's title, clears it, begins a line, colours it, turns the direction; and what is only text."""
+"""Text with codes that set a terminal's title, clear it, begin a line, change colour and direction, and with harmless
+text.
+"""
 KEPT = "曲 ガ\u3000é👩\u200d🎤"
 
 

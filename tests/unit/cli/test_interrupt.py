@@ -24,7 +24,7 @@ LOADING = {
     "app.export.run": ["export", str(QUARTET), "--to", "x"],
     "PySide6.QtWidgets": ["edit"],
 }
-"""By module: a command that is stopped when that has just been loaded."""
+"""Command that is stopped right after a module was loaded, by module."""
 
 
 def stopped_after(module: str, arguments: list[str], folder: Path) -> tuple[int, str]:

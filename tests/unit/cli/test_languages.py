@@ -39,7 +39,7 @@ FOR_PROGRAMMERS = {
     *("command '%(parser_name)s' is deprecated", "option '%(option)s' is deprecated"),
     "argument '%(argument_name)s' is deprecated",
 }
-"""Words of argparse that no user reads: of declarations, and of what we do not use."""
+"""Texts of argparse that users never see: about declarations, and about unused functions."""
 
 
 def commands() -> Iterator[CommandParser]:

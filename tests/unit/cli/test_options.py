@@ -60,7 +60,7 @@ NUMBERS = {
     for name, action in options(parser())
     if action.type not in (None, Path) and name != " stream --host"
 }
-"""Functions by which options read their texts that are more than a text or a path."""
+"""Functions that parse the texts of options that are neither texts nor paths."""
 
 
 @pytest.mark.parametrize(

@@ -36,7 +36,7 @@ RUN = (
     *("inspect", "instruments", "metadata", "midi", "characters make"),
     *("choreography generate", "evaluate measures", "export quartet.musicxml"),
 )
-"""Beginnings of commands that take a few seconds at most."""
+"""Beginnings of commands that take at most a few seconds."""
 NOT_RUN = {
     "align": "needs a recording, and following one takes long",
     "characters add": "needs a character's file, and the program bundles none but its own",
@@ -50,7 +50,7 @@ NOT_RUN = {
     "record": "needs a MIDI device",
     "stream": "plays in real time",
 }
-"""Commands that are only parsed here, with the reason."""
+"""Commands that are only parsed in this test, with the reason."""
 
 
 def test_there_are_examples_of_both_kinds() -> None:

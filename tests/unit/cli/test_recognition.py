@@ -84,13 +84,15 @@ PLAYED_BY_NOBODY = [
 # fmt: on
 NAMED = {name: map_id for map_id, names in PLAYED_ON.items() for name in names}
 PLAIN = [name for name in NAMED if name.isascii()]
-"""Files of many tracks have them; of the others each has a file of its own, where nothing else shows the encoding."""
+"""Names used in files of many tracks; each of the others has a file of its own, in which nothing else reveals the
+encoding.
+"""
 AT_ONCE = 40
 GUESSED = {
     *(f"score.{reason}" for reason in ("outside_ranges", "instrument_from_title", "chosen_by_ensemble")),
     *(f"score.chosen_by_range{how_far}" for how_far in ("", "_partly")),
 }
-"""Messages where neither name nor program decides."""
+"""Ids of messages about instruments that neither names nor programs determine."""
 
 
 def encodings(name: str) -> list[str]:

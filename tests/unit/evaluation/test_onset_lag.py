@@ -19,7 +19,7 @@ MAPS = bundled_maps()
 VALVES = [control for control in MAPS["trumpet_Bb"].controls if control.kind == "press"]
 [SLIDE] = [control for control in MAPS["trombone_tenor_F_attachment"].controls if control.kind == "slide"]
 WITHIN_MS = 5.0
-"""Frames are 17 ms apart: where a motion ends between two of them is not seen."""
+"""Tolerance in milliseconds: frames are 17 ms apart, and the end of a motion lies between two."""
 TIMES_S = np.arange(-2.0, 12.0, 1.0 / 60.0)
 
 

@@ -26,7 +26,9 @@ from tests.support.performed import player_motion
 
 FPS = Fraction(60)
 FREE_DEG = 70.0
-"""A middle angle up to here leaves the other two at most three times as fast as the bone itself."""
+"""Angle in degrees of the middle rotation up to which the other two rotate at most three times as fast as the bone
+itself.
+"""
 MOST_TIMES, ROUNDING_DEG = 3.0, 0.05
 
 Played = dict[tuple[str, SkeletonChoice], tuple[Scene, TargetSkeleton]]

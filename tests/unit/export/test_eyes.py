@@ -39,7 +39,7 @@ from tests.support.performed import player_motion
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 FPS = Fraction(30)
 SETTLED_S = 0.15
-"""After the beginning of a look, before its end: saccades last less."""
+"""Seconds after the beginning and before the end of a look in which the eyes may move; saccades are shorter."""
 
 
 class Eyes:

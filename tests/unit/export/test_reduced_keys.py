@@ -41,7 +41,7 @@ from tests.unit.formats import scenes
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 FPS = Fraction(60)
 FBX_STEADY_DEG = 0.001
-"""Error that the file itself may add: an axis that changes by less is written once."""
+"""Error in degrees that the file may add, since an axis that changes by less gets one key."""
 
 
 @pytest.fixture(scope="module")
@@ -273,7 +273,7 @@ def test_violent_rotations_stay_within_the_bounds(amplitude_rad: float, tmp_path
 
 
 CURVED_READERS = {".fbx": ("fbxsdk", "ufbx", "pufbx"), ".glb": ("gltfvalid", "three")}
-"""Readers that play cubic keys; Blender and assimp read their values only, and three.js does so in FBX."""
+"""Readers that interpolate cubic keys; Blender and assimp only read their values, and so does three.js in FBX."""
 
 
 @pytest.mark.readers

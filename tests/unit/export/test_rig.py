@@ -39,7 +39,7 @@ from tests.unit.export.test_skeletons import FPS, what_it_holds, without_morphs
 from tests.unit.export.unreal.conftest import quartet
 
 MM = 1e-4
-"""A tenth of a millimetre, in metres."""
+"""Tolerance in metres: a tenth of a millimetre."""
 DEGREE = np.pi / 180.0
 PLACE = StagePosition(1.5, -0.75, 0.6)
 PLAIN = RigOptions()

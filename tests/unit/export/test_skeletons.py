@@ -41,7 +41,7 @@ from tests.support.performed import player_motion
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 FPS = Fraction(30)
 MM = 0.005
-"""Measures may differ by as much from file to file."""
+"""Tolerance in millimetres between measures of different files."""
 
 
 class Piece:

@@ -36,7 +36,7 @@ OUR_OWN = {
 }
 READING = {"read_bytes", "read_text", "fromfile", "QSettings", "tomllib"}
 MENTIONED = re.compile("|".join((*READING, r"\bopen\s*\(")))
-"""In what is parsed: most modules are not."""
+"""Names that occur in the modules that are parsed; most modules contain none."""
 
 
 def readings(path: Path) -> Iterator[tuple[str, int]]:

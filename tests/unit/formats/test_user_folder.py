@@ -12,7 +12,7 @@ from app.errors import MapError
 from app.formats.user_folder import Named, Read, Shelf, UserFolder
 
 BUNDLED = {"a": ["ours"], "b": ["ours too"]}
-"""Lists: equal ones are still distinguished by identity."""
+"""Bundled tables as lists, so that equal ones can be distinguished by identity."""
 
 
 def read(path: Path) -> Read[list[str]]:

@@ -14,7 +14,7 @@ from resources.build.instrument_bassoon import INSTRUMENTS
 BASSOON = bundled_maps()["bassoon"]
 LOW_ROW = {"Lt_d", "Lt_c", "Lt_b", "Lt_bes"}
 THUMB_AT_ONCE = [LOW_ROW, LOW_ROW - {"Lt_bes"}, {"Lt_d", "Lt_c"}, {"Lt_cis", "Lt_w"}]
-"""Keys that the left thumb can lie on at the same time."""
+"""Sets of keys that the left thumb can press together."""
 FLICKED = {57: "Lt_a", 58: "Lt_a", 59: "Lt_c2", 60: "Lt_c2", 62: "Lt_d2"}
 
 

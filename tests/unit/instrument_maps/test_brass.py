@@ -16,7 +16,7 @@ from instrument_maps.model import InstrumentMap
 MAPS = bundled_maps()
 BRASS = [name for name, instrument in MAPS.items() if instrument.embouchure.kind == "cup"]
 CHARTS = Path(__file__).parents[2] / "data" / "fingerings" / "brass.csv"
-"""Facts of public charts by written pitch. Rank 1: given first; 0: without an order; above 1: an alternate."""
+"""Fingerings of public charts by written pitch. Rank 1: first choice; 0: without an order; above 1: an alternate."""
 
 CHART_OF = {
     "trumpet_Bb": ("trumpet_Bb", 0),
@@ -36,7 +36,7 @@ CHART_OF = {
     "tuba_F": ("tuba_BBb", 7),
     "sousaphone_BBb": ("tuba_BBb", 0),
 }
-"""Map -> the chart it follows, and how many semitones higher it is written."""
+"""Chart of each map, and the semitones by which the map's pitches are written higher."""
 
 EXCEPTIONS = {
     "trombone_tenor_F_attachment": {
@@ -59,10 +59,11 @@ FIFTH_VALVE = {
     name: {23 + shift: "1345", 24 + shift: "345", 25 + shift: "245", 26 + shift: "45", 27 + shift: "235"}
     for name, shift in (("tuba_CC", 2), ("tuba_F", 7))
 }
-"""Written pitches where tubas without a compensator take the fifth valve, which the chart of four does not know: its
-own first choices there are 48 cents too sharp and more."""
+"""Written pitches for which tubas without a compensator use the fifth valve, which the chart for four valves lacks: its
+first choices there are 48 cents and more too sharp.
+"""
 EXCEPTIONS["euphonium_baritone_Bb_treble"] = {w + 14: why for w, why in EXCEPTIONS["euphonium_Bb_bassclef"].items()}
-"""Written pitches where the first choice is not what the chart gives first, and why."""
+"""Written pitches at which the map's first choice differs from the chart's, with the reason."""
 
 UNCHARTED = {
     "cornet_Bb": "85-86",
@@ -80,10 +81,12 @@ UNCHARTED = {
     "tuba_F": "24-29 43-44",
     "sousaphone_BBb": "36-37",
 }
-"""Written pitches of which no chart speaks."""
+"""Written pitches without a chart."""
 
 HIGH_D = 86
-"""Written D 6 of trumpets and cornet: with 1 as the tenth harmonic, though the ninth is there with none."""
+"""Written D 6 of trumpets and cornet: fingered 1 as the tenth harmonic, although it is the ninth harmonic of the open
+instrument.
+"""
 
 OUT_OF_TUNE_CENTS = 35
 

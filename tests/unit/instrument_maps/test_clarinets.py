@@ -22,10 +22,12 @@ EXCEPTIONS = {
     95: "only one chart gives an order, and asks the left index for its hole and the G sharp key at once",
     96: "likewise",
 }
-"""Written pitch -> why the map does not follow the charts' majority, or follows one where there is none."""
+"""Reason by written pitch why the map differs from the charts' majority, or which charts it follows without a
+majority.
+"""
 
 HALF_FROM = 85
-"""From here the bass clarinet opens the small hole in the first plate instead of the whole hole."""
+"""Written pitch from which the bass clarinet opens the small hole in the first plate instead of the whole hole."""
 FINGER = {
     "T": "left thumb", "R": "left thumb", "A": "left index", "G#": "left index", "L1": "left index",
     "L2": "left middle", "L3": "left ring", "LEb": "left ring", "LE": "left little", "LF": "left little",

@@ -15,7 +15,7 @@ from resources.build import instrument_ewi as model
 EWI = bundled_maps()["ewi"]
 OCTAVES = 7
 LOWEST_C = 24
-"""The low C of the lowest octave; between the knurled rollers, the third and the fourth, it is C 3."""
+"""Lowest C in the lowest octave; between the third and fourth knurled rollers it is C 3."""
 
 
 def sounding(keys: set[str]) -> int:

@@ -87,7 +87,7 @@ PUBLISHED = {
     "sax_alto_Eb": ({"octave", "palm D", "palm E♭", "palm F", "front F", "bis", "side C", "side B♭"}, {"低音 C キー"}),
     "recorder_alto_F": ({"thumb hole", *(f"hole {number}" for number in range(1, 8))}, {"裏穴", "穴 7"}),
 }
-"""Names in published tables, and Japanese ones: parts of a key's name."""
+"""Names in published tables, and Japanese ones, of parts of a key's name."""
 
 
 @pytest.mark.parametrize("id", PUBLISHED)

@@ -25,7 +25,7 @@ EXCEPTIONS = {
     96: "every chart has its own, two of them for a foot that this flute has not; one's second",
     97: "two charts, each with its own",
 }
-"""Written pitch -> why the map cannot follow the charts' majority."""
+"""Reason by written pitch why the map cannot follow the charts' majority."""
 
 
 def twice(instrument: InstrumentMap, label: str) -> set[str]:

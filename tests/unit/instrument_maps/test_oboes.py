@@ -21,7 +21,7 @@ MAPS = bundled_maps()
 OBOE, ENGLISH_HORN = MAPS["oboe"], MAPS["english_horn"]
 CHART = Path(__file__).parents[2] / "data" / "fingerings" / "oboe.csv"
 SAME_CUP = {"Ri_gis": "Lp_gis", "Rp_ees": "Lp_ees"}
-"""The chart's key -> another that does the same: the G sharp and the E flat cup by either hand."""
+"""Key with the same effect as a chart's key: the G sharp and E flat cups by either hand."""
 FINGER = {"oct1": "left thumb", "oct2": "left index"} | {
     f"{hand}{number}": f"{side} {finger}"
     for hand, side in (("L", "left"), ("R", "right"))

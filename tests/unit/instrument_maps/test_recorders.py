@@ -16,7 +16,7 @@ EXCEPTIONS = {
     85: "the bell is closed on the knee, for which the instrument has no control",
 }
 HALVES = {"lth", "r3h", "r4h"}
-"""The pinched thumb and the double holes."""
+"""Controls that may be half closed: the pinched thumb and the double holes."""
 ALTO_ABOVE_SOPRANO = 5
 
 

@@ -18,11 +18,11 @@ CHARTS = Path(__file__).parents[2] / "data" / "fingerings" / "saxophone.csv"
 """First choices (rank 1) and alternates (2 and more) of three charts."""
 
 BY_MAKERS = {90: "makers print high F sharp; no chart goes so high", 57: "the chart's B and B flat key both: its error"}
-"""Written pitch -> why no chart has the map's first choice."""
+"""Reason by written pitch why no chart has the map's first choice."""
 ALTISSIMO = range(91, 95)
-"""Written pitches above what the charts have: Rascher's fingerings."""
+"""Written pitches above the charts' range, with Rascher's fingerings."""
 FRONT = {"2L 3L ff oct", "2L ff oct sbb"}
-"""Alternates that makers of instruments with front F print."""
+"""Alternates published by makers of instruments with front F."""
 
 FINGER = {
     "oct": "left thumb", "la": "left thumb", "1L": "left index", "bbb": "left index", "ff": "left index",

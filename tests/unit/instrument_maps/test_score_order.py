@@ -20,7 +20,7 @@ EXPECTED = (
     *("baritone_Bb", "euphonium_Bb_bassclef", "euphonium_baritone_Bb_treble"),
     *("tuba_F", "tuba_Eb", "tuba_CC", "tuba_BBb", "sousaphone_BBb", "recorder_soprano_C", "recorder_alto_F", "ewi"),
 )
-"""Order of a band's score: woodwinds, brass, the others; in a family from high to low."""
+"""Order of a band's score: woodwinds, brass, others; within a family from high to low."""
 
 
 def test_lists_are_in_score_order() -> None:

@@ -28,7 +28,9 @@ from tests.support.doubled import flutist
 
 FPS = Fraction(30)
 MOST_RAD_S = 7.0
-"""Speed of trunk and arms at a change; a musician throws an arm three times as fast."""
+"""Greatest speed in rad/s of trunk and arms in a change of instrument; musicians can move an arm three times
+as fast.
+"""
 
 
 @cache

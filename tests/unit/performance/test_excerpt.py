@@ -24,7 +24,7 @@ INSTRUMENTS = ("trumpet_Bb", "clarinet_Bb", "clarinet_Bb", "trombone_tenor_F_att
 LOW = (60, 60, 60, 48)
 END_S = 300.0
 CHANGED_S = (150.0, 250.0)
-"""Here the second musician plays the piccolo."""
+"""Range in seconds in which the second musician plays the piccolo."""
 
 
 def notes(track: int, low: int, seed: int, of: range = range(1, 600)) -> tuple[Note, ...]:

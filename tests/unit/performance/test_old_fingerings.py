@@ -11,7 +11,7 @@ from instrument_maps.load import bundled_maps
 
 SAMPLE = Path(__file__).parents[2] / "data" / "projects" / "version_5.suisou"
 RELEASED = Path(__file__).parents[2] / "data" / "fingerings" / "released.txt"
-"""Every label that a released version had: map, written pitch, labels with ``|`` between them. Lines are only added."""
+"""Every label of a released version: map, written pitch, labels separated by ``|``. Lines are only added."""
 
 
 def test_a_fingering_of_an_old_project_is_played_though_no_one_would_choose_it(tmp_path: Path) -> None:

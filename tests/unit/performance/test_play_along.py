@@ -32,8 +32,9 @@ from tests.support.live import FPS, LATE_S, QUARTER, Played, line, performance_o
 KINDS = ("trumpet_Bb", "trombone_tenor_F_attachment", "flute", "clarinet_Bb")
 NOTES = 10
 SLACK = 2.0
-"""Live motion starts with more of a jerk, within this of the bounds, or of what a performance of the
-same notes has."""
+"""Factor for the bounds of live motion, relative to those of a performance of the same notes, since it starts more
+abruptly.
+"""
 
 
 @cache

@@ -18,7 +18,7 @@ from tests.unit.performance.test_hands_away import QUARTER, _pitch
 
 SEEDS = range(24)
 REST_QUARTERS = 36
-"""Eighteen seconds."""
+"""Length in quarters of a rest of eighteen seconds."""
 
 
 def plans(instrument_id: str, rest: int = REST_QUARTERS, **parameters: object) -> list[PlayerPlan]:

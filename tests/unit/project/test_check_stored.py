@@ -17,7 +17,7 @@ from tests.unit.project.pieces import full_project
 
 PROJECT = full_project()
 PLAINLY_CHECKED = {"source", "fps"}
-"""Written as texts of a form of their own."""
+"""Fields that are stored as texts with a format of their own."""
 
 
 def test_every_field_of_a_project_is_written_and_read() -> None:

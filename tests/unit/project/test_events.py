@@ -34,7 +34,7 @@ from tests.support.blown import TEMPO, Blow, breath_curve, take, ticks
 
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 BARS = 12
-"""A piece this long has every kind of event and is planned in a moment."""
+"""Length of the piece in bars, enough for every kind of event and quickly planned."""
 
 
 @cache

@@ -19,7 +19,7 @@ FOLDER = Path(__file__).resolve().parents[3] / "resources" / "characters"
 OUTFITS = sorted((FOLDER / "wardrobe").glob("*.glb"))
 CLOTH = {"cloth_main", "cloth_second", "cloth_accent"}
 MOST_BYTES = 4_500_000
-"""Budget of all outfits; characters have 25 MB with them."""
+"""Greatest size in bytes of all outfits; characters and outfits together have 25 MB."""
 
 
 def about(path: Path) -> dict[str, Any]:

@@ -47,7 +47,7 @@ class Part:
     notes: list[tuple[int, int]]
     name: str
     heard: list[tuple[int, int]] = field(default_factory=list)
-    """Hits of a drum part: (tick, number of General MIDI 2)."""
+    """Hits of a drum part: (tick, sound number in General MIDI 2)."""
 
 
 @dataclass
@@ -124,7 +124,7 @@ def _exclusive(message: bytes) -> bytes:
 
 
 BLOCKS = (1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 10, 11, 12, 13, 14, 15)
-"""The block of GS's table that each part has."""
+"""Index in GS's table of blocks for each part."""
 
 
 def _mode(system: str, channel: int, value: int, random: Random) -> bytes:

@@ -11,7 +11,7 @@ from app.score.model import Score
 from tests.unit.score.midi_bytes import END, chunk, header, meta, note, one_track, score_of
 
 DOWN = bytes([0, 0xE0, 0, 0x20])
-"""Half of the range downwards."""
+"""Pitch bend message of half the range downwards."""
 
 
 def set_to(*controls: tuple[int, int], channel: int = 0) -> bytes:

@@ -76,13 +76,13 @@ META_DATA: Final = {
     0x00: bytes(2), 0x20: bytes(1), 0x21: bytes([3]), 0x51: bytes([7, 0, 0]), 0x54: bytes([0x41, 0, 0, 0, 0]),
     0x58: bytes([3, 2, 24, 8]), 0x59: bytes(2),
 }  # fmt: skip
-"""Lengths of events with a fixed one; all else gets a text."""
+"""Lengths of events with a fixed length; all others contain a text."""
 
 READ_STATUS: Final = {
     0x8: "channels", 0x9: "channels", 0xA: "controls aftertouch", 0xC: "programs setups", 0xD: "controls aftertouch",
     0xE: "controls pitch_bend",
 }  # fmt: skip
-"""Events by the upper half of a channel's status; controllers (0xB) have their own table."""
+"""Curves and events by the upper half of the status byte; controllers (0xB) have a table of their own."""
 SYSTEM: Final = {
     0xF0: "exclusive", 0xF1: "time code", 0xF2: "song position", 0xF3: "song select", 0xF4: "undefined",
     0xF5: "undefined", 0xF6: "tune request", 0xF7: "exclusive, more of it", 0xF8: "clock", 0xF9: "undefined",

@@ -15,7 +15,7 @@ from tests.unit.score.test_mpe import track
 
 Event = tuple[int, bytes]
 LEGATO_TICKS = 6
-"""30 ms."""
+"""Overlap of legato notes in ticks: 30 ms."""
 
 
 def on(tick: int, pitch: int = 60, channel: int = 0) -> Event:

@@ -85,7 +85,9 @@ def test_held_notes_end_with_the_take(tmp_path: Path) -> None:
 
 
 AGAIN = [(0.0, on(60)), (0.5, off(60)), (1.0, on(62)), (1.5, on(62)), (2.0, off(62)), (2.5, on(64)), (3.0, off(64))]
-"""A note is struck again before its end, and ended once more than it sounds: four notes of half a second."""
+"""Messages in which a note is struck again before its end, and ended once more than it sounds: four notes of half a
+second.
+"""
 
 
 def test_a_note_that_is_struck_again_ends_there(tmp_path: Path) -> None:

@@ -21,7 +21,7 @@ NO_BUTTON = frozenset(
         ("widgets/timeline/tool_bar.py", "modes.triggered"),
     )
 )
-"""Signals of the same name of lists and groups: they always pass an index or action."""
+"""Signals of lists and groups with the same name as buttons' signals, which always pass an index or action."""
 
 
 PICTURES = ("icon", "_spot")

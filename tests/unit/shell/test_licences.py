@@ -16,7 +16,7 @@ from app.shell.licences import Package, ThirdPartyWork, data, distributions, ins
 ROOT = Path(__file__).parents[3]
 LIBRARY = re.compile(r"\.(so|dylib|dll|exe)(\.|$)")
 OWN_MODULE = re.compile(r"\.(cpython|cp3|abi3|pypy)[^/]*\.so$")
-"""A package's own, compiled from its own source and what its parts without files are."""
+"""Compiled modules of a package itself, covered by its own licence."""
 SPDX_WORD = re.compile(r"[A-Za-z0-9.+-]+")
 DOCUMENTS = [(ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("licences.md", "licences_ja.md")]
 

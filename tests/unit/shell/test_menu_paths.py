@@ -17,7 +17,7 @@ from metadata.library import bundled_gestures, metadata_library
 
 ROOT = Path(__file__).parents[3]
 SHOWN = 40
-"""Characters of a wrong path that are shown."""
+"""Number of characters of a wrong path that are displayed."""
 GUIDES = (ROOT / "README.md", ROOT / "README_ja.md", *sorted((ROOT / "docs").glob("*.md")))
 
 

@@ -22,15 +22,17 @@ from metadata.load import load_expressions
 
 ROOT = Path(__file__).parents[3]
 FILES = [path for room in ("app", "widgets") for path in sorted((ROOT / room).rglob("*.toml"))]
-"""Tables of texts; Japanese details and the help of the command line have other forms, the guides' places are none."""
+"""Tables of texts; Japanese details and the command line's help have other formats, and the guides' places are no
+texts.
+"""
 OTHERS = ("japanese.toml", "places.toml", "help.toml", "argparse.toml")
 TABLES = {path: tomllib.loads(path.read_text("utf-8")) for path in FILES if path.name not in OTHERS}
 FUNCTIONS = frozenset(
     {"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "OkCancel", "PictureButton", "in_form"}
 )
-"""Functions that are given ids as positional arguments; `texted` has them by keyword."""
+"""Functions with text ids as positional arguments; `texted` has them by keyword."""
 KINDS = {*REMOVABLE, "embouchure", "pose", "additive", "vary", "style"}
-"""First parts of the ids of events that a person may select."""
+"""First parts of the ids of selectable events."""
 NAMES = {f"expression_name.{name}" for name in load_expressions()} | {
     f"pose_name.{target}" for target in get_args(PoseTarget)
 }
@@ -69,9 +71,9 @@ AVOIDED = {
     "〜": "～",
     **{f"付点{number}分": f"付点{kanji}分" for number, kanji in ((2, "二"), (4, "四"), (8, "八"))},
 }
-"""Japanese words for which the program has another one: one word for one thing."""
+"""Japanese words to avoid, with the word that the program uses instead."""
 ID = re.compile(r"[a-z_]+\.\w+")
-"""Names of objects have no dot."""
+"""Ids of texts; names of objects contain no dot."""
 
 
 def fields(text: str) -> set[tuple[str, str]]:

@@ -54,7 +54,7 @@ HUMAN_BODY_BONES = (
         )
     ),
 )
-"""Unity's documentation of the enumeration, without LastBone."""
+"""Members of Unity's enumeration HumanBodyBones, without LastBone."""
 PARENT = {
     "Spine": "Hips",
     "Chest": "Spine",
@@ -73,7 +73,7 @@ PARENT = {
     "Toes": "Foot",
     "Hips": "",
 }
-"""The same, as Unity hangs them together."""
+"""Parent of each of these bones in Unity."""
 
 
 @cache

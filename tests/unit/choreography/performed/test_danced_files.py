@@ -28,7 +28,7 @@ TRIO = "reed_trio_mozart_k229_mv1"
 FPS = Fraction(60)
 BARS = (3, 10)
 LOW_M = 0.0003
-"""A ball of a foot that is no higher than this over the floor stands."""
+"""Height in metres of the ball of a foot above the floor below which the foot stands."""
 
 
 class Played:

@@ -46,7 +46,7 @@ LIMITS = {
     "face.mouthSmileLeft": (-1.0, 1.0),
 }
 KEYS = ((2880, 1.0), (3840, 0.3), (4800, 1.0))
-"""From 3 s to 5 s, shares of the channel's limit."""
+"""Keys from 3 s to 5 s as shares of the channel's limit."""
 SPAN_S = (2.5, 5.5)
 CASES = [(channel, side) for channel in LIMITS for side in (0, 1)]
 

@@ -38,19 +38,19 @@ CASES = [
     for place, instrument in enumerate(bundled_maps().values())
     for turn, posture in enumerate(instrument.hold.postures)
 ]
-"""Every instrument in each posture; bodies take turns."""
+"""Every instrument in each posture, with alternating bodies."""
 FPS = Fraction(20)
 LOWERED_S, END_S = 0.5, 8.0
-"""The instrument goes down from here on."""
+"""Seconds at which the instrument begins to be lowered, and at which the test ends."""
 DEEPEST_M = 0.012
-"""Clothes and thighs give way by about this much."""
+"""Approximate depth in metres by which clothes and thighs yield."""
 BEYOND_DEG = 3.5
-"""Wrists may leave their usual range by this much."""
+"""Degrees by which wrists may exceed their usual range."""
 OUT_OF_SIGHT_M = 0.08
-"""Nothing is that deep in a body and nowhere nearer its skin."""
+"""Depth in metres beyond which a point is on the other side of a body and no longer inside."""
 SEEDS = 6
 POINT_M = 0.016
-"""Points of the instrument that are looked at are about so far apart."""
+"""Approximate distance in metres of the examined points of the instrument."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,7 +198,7 @@ def _shells(character: Character) -> tuple[Shell, ...]:
 
 
 Skin = list[tuple[np.ndarray, np.ndarray, np.ndarray]]
-"""Vertices and normals of each shell, and which are at an open edge."""
+"""Vertices and normals of each shell, and mask of those at an open edge."""
 
 
 def _skins(character: Character, joints: JointTransforms) -> Iterator[Skin]:

@@ -35,7 +35,7 @@ from tests.unit.motion.events import cue, fingerings, plan_of
 FPS = Fraction(30)
 END_S = 16.0
 BEYOND_DEG = 2.0
-"""Out of range by no more, where the hold itself is within."""
+"""Degrees by which a wrist may exceed its range if the grip itself is within."""
 
 
 def _shown(instrument_id: str, character_id: str, posture: Posture) -> tuple[PerformanceCurves, Motion]:

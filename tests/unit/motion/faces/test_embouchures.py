@@ -46,7 +46,7 @@ KINDS = {
 FPS = Fraction(60)
 BODY = load_body()
 LIPS_M = 0.002
-"""The bound of the contact of lips and mouthpiece."""
+"""Greatest distance in metres between lips and mouthpiece."""
 
 
 @dataclass(frozen=True)

@@ -164,7 +164,7 @@ def test_a_song_for_horn_is_breathed_in_near_its_engraved_marks() -> None:
 
 SONG = ((5, 1), (4, 1), (3, 1), (4, 1), (5, 1), (5, 1), (5, 2), (4, 1), (4, 1), (4, 2), (5, 1), (7, 1), (7, 2),
         (5, 1), (4, 1), (3, 1), (4, 1), *[(5, 1)] * 4, (4, 1), (4, 1), (5, 1), (4, 1), (3, 4))  # fmt: skip
-"""Mary had a little lamb: four bars, and four bars that begin likewise, each in quarters."""
+""""Mary had a little lamb" as steps and quarters: four bars, and four bars with the same beginning."""
 
 
 def sung(times: int) -> tuple[PlainNote, ...]:

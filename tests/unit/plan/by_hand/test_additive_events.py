@@ -20,7 +20,7 @@ from metadata.load import load_body
 from tests.support.plan import PlainClock
 
 CLOCK = PlainClock(((0, 120.0),))
-"""960 ticks a second."""
+"""Clock with 960 ticks per second."""
 TRUMPET = next(instrument for id, instrument in bundled_maps().items() if id.startswith("trumpet"))
 CELLO_LIKE = [instrument for instrument in bundled_maps().values() if instrument.endpin is not None]
 STANDING = PlayerParameters()

@@ -19,7 +19,7 @@ from tests.support.plan import make_plans, piece_of, time_frame
 Q = 480
 MAPS = bundled_maps()
 Notes = list[tuple[float, float, int]]
-"""Onset and length in quarters from the beginning, and the pitch."""
+"""Onset and length in quarters from the beginning, and pitch."""
 
 
 def run(start: float, beats: int, pitch: int, step: float = 1.0) -> Notes:
@@ -35,7 +35,7 @@ class Row:
     name: str
     players: tuple[tuple[str, str, Notes], ...]
     expected: tuple[tuple[float, str, float], ...]
-    """Every cue: the quarter of the entry, who gives it, and how long before the entry it peaks, s."""
+    """Expected cues: quarter of the entry, giver, and seconds from the cue's peak to the entry."""
     tempi: tuple[tuple[float, float], ...] = ((0, 120),)
     unplayed: Notes = ()
     metre: tuple[int, int] = (4, 4)

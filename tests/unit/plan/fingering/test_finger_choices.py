@@ -13,7 +13,7 @@ from tests.support.plan import PlainClock, line_of
 from tests.support.woodwinds import clarinet, double_horn, oboe, saxophone
 
 SLOW, EASY, FAST = 960, 240, 120
-"""Ticks of a note; at 120 a second, a quarter and an eighth of one."""
+"""Length of a note in ticks: a second, a quarter and an eighth of a second."""
 
 
 def keys(

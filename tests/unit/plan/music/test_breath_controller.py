@@ -98,7 +98,9 @@ def test_breaths_are_where_they_were_taken() -> None:
 
 HELD = [(0.5, 1.5, 65), (1.5, 6.5, 67), (7.2, 8.0, 69), (8.0, 12.0, 70)]
 HELD_BLOWS = [Blow(0.5, 3.0), Blow(3.45, 4.9), Blow(5.05, 6.5), Blow(7.2, 9.0), Blow(9.5, 12.0)]
-"""Within the second note a breath of 0.45 s and the tongue's 0.15; a rest; within the last one a breath of 0.5 s."""
+"""Blows with a breath of 0.45 s and tonguing of 0.15 s within the second note, a rest, and a breath of 0.5 s within the
+last note.
+"""
 
 
 def test_who_stops_blowing_within_a_note_breathes_there() -> None:

@@ -20,9 +20,9 @@ from tests.unit.resources.unreal.test_import import bindings, description, trans
 FREE, SOCKET, IK = RigOptions(), RigOptions("socket"), RigOptions("ik")
 PLAYER, HELD = "Trumpet 1", "Trumpet 1 (trumpet_Bb)"
 TURNED = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
-"""Rotation by which importers turn the root of a file with Y up: Z is up then, the right hand still the right one."""
+"""Rotation of the root by which importers convert a file from Y up to Z up, without mirroring."""
 MIRRORED = np.diag([1.0, -1.0, 1.0, 1.0])
-"""Unreal's left-handed space of a right-handed one."""
+"""Conversion from a right-handed space to Unreal's left-handed one."""
 
 
 def hung(binding: Any) -> list[tuple[str, int | None]]:

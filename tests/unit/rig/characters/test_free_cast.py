@@ -13,7 +13,7 @@ from app.rig.figure import Figure
 from metadata.model import REQUIRED_JOINTS
 
 Bones = Mapping[str, tuple[str, float, float, float]]
-"""Parent and place of each bone; those of the left side stand for both."""
+"""Parent and position of each bone; bones of the left side represent both sides."""
 
 WOMAN: Final[Bones] = {
     "Root": ("", 0.0, 0.0, 0.072),
@@ -31,7 +31,9 @@ WOMAN: Final[Bones] = {
     "LowerLeg.L": ("UpperLeg.L", 0.097, 0.557, 0.087),
     "Foot.L": ("LowerLeg.L", 0.097, 0.023, 0.062),
 }
-"""Legs hang from a root on the floor, not from the hips (proportions of Quaternius' modular women)."""
+"""Figure whose legs are attached to a root on the floor instead of the hips (proportions of Quaternius'
+modular women).
+"""
 KNIGHT: Final[Bones] = {
     "Bone": ("", 0.0, 0.0, -0.195),
     "Foot.L": ("Bone", 0.535, 0.025, -0.138),
@@ -52,7 +54,9 @@ KNIGHT: Final[Bones] = {
     "UpperLeg.L": ("Body", 0.528, 1.741, -0.07),
     "LowerLeg.L": ("UpperLeg.L", 0.528, 0.802, 0.054),
 }
-"""Long arms, a hand called a palm, a thumb at the forearm, feet at the root (Quaternius' knight)."""
+"""Figure with long arms, a hand named palm, a thumb attached to the forearm, and feet attached to the root (Quaternius'
+knight).
+"""
 
 
 CROSSED: Final[Bones] = {

@@ -209,7 +209,7 @@ SPELLINGS = {
         LowerLeg=Character1_LeftLeg Foot=Character1_LeftFoot Toes=Character1_LeftToeBase
         ThumbMetacarpal=Character1_LeftHandThumb1 RingProximal=Character1_LeftHandRing1"""),
 }  # fmt: skip
-"""Joints and names as other makers write them, put together by hand; of both sides the left."""
+"""Names of joints in the style of various makers, those of the left side for both."""
 OTHER_SIDE = (("Left", "Right"), ("左", "右"), ("_L_", "_R_"), (".L", ".R"), ("_L", "_R"))
 
 

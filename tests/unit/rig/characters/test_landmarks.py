@@ -46,7 +46,9 @@ def test_what_is_found_lies_on_what_is_named(id: str) -> None:
 
 
 NOSE = ((0.20, 0.07), (0.11, 0.10), (0.09, 0.095), (0.06, 0.12), (0.05, 0.122), (0.018, 0.095), (-0.012, 0.09))
-"""Profile of a head of few vertices, above and before its joint: forehead, brow, nose, its base, chin."""
+"""Profile of a head with few vertices, as height and distance in front of its joint: forehead, brow, nose, its base,
+chin.
+"""
 BALL = tuple((0.22 * float(np.cos(turn)) + 0.1, 0.22 * float(np.sin(turn))) for turn in np.linspace(0.1, 3.0, 20))
 COLLAR = ((0.03, -0.04), (-0.09, 0.11), (-0.10, 0.11))
 

@@ -28,12 +28,13 @@ from tests.support.deformed import deform
 from tests.support.models import bundled_instrument
 
 WAITS_MM, WAY_MM = 3.0, 4.0
-"""A finger that waits keeps out of the instrument as all of the hand does; on its way it goes by in some hundredths
-of a second."""
+"""Greatest depth in millimetres in the instrument of a waiting finger, as for the whole hand, and of a moving one,
+which passes in a few hundredths of a second.
+"""
 THROWN_DEG = 40.0
-"""In a hundredth of its way no joint turns so far."""
+"""Greatest rotation in degrees of a joint in a hundredth of its move."""
 STILL_DEEPER_MM = {("woman_adult", "clarinet_A"): 5.5}
-"""Ways that no height brings clear yet: to the side keys."""
+"""Moves to side keys that intersect the instrument at any tried height, with their depth in millimetres."""
 
 PAIRS = [(character, instrument) for character in bundled_characters() for instrument in bundled_maps()]
 

@@ -25,7 +25,7 @@ from instrument_maps.load import bundled_maps
 from tests.support.deformed import deform
 
 ANNY = Path(__file__).parents[3] / "data" / "anny_bodies.json"
-"""Answers of anny 0.6.2 for three people: some vertices and joints, metres, soles on the floor."""
+"""Results of anny 0.6.2 for three people: some vertices and joints in metres, soles on the floor."""
 
 PARTS = ("UpperArm", "LowerArm", "Hand")
 

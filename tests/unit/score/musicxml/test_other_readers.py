@@ -19,7 +19,7 @@ SUITE = (
     ),
     *("46d-PickupMeasure-ImplicitMeasures", "72b-TransposingInstruments-Full"),
 )
-"""Files of the test suite for MusicXML of the LilyPond project, which music21 brings: one of each subject."""
+"""Files of the LilyPond project's MusicXML test suite, one for each subject, as included in music21."""
 
 
 @pytest.mark.readers

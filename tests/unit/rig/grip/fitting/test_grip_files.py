@@ -30,7 +30,7 @@ MADE = [
     for instrument in bundled_maps()
     if character not in bundled_characters() and bundled_path(character, instrument).is_file()
 ]
-"""Pairs of bodies that are made of another one."""
+"""Pairs of character and instrument for the bodies that are made from another one."""
 
 
 def inputs(character_id: str, instrument_id: str) -> tuple[Any, ...]:
