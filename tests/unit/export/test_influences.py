@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from scipy.optimize import nnls
 
 from app.export.character import character_scene
 from app.export.influences import FEW_MM, MOST_INFLUENCES, with_few_influences
@@ -69,6 +71,34 @@ def test_vertices_are_near_where_all_their_bones_took_them_or_keep_them() -> Non
         assert (counts[changed] <= MOST_INFLUENCES).all()
         fewer += int(changed.sum())
     assert fewer > 10
+
+
+def test_a_vertex_that_keeps_more_than_four_bones_moves_too_far_with_any_four() -> None:
+    """Judged by nonnegative least squares over the vertex's own positions at every frame, with the morphs."""
+    given = scenes.character(Fraction(30), amplitude_rad=0.05)
+    shares = np.array([1.0, 0.3, 0.2, 0.0, 0.02, 0.01])
+    meshes = tuple(
+        replace(mesh, weights=mesh.weights * shares / (mesh.weights @ shares)[:, None], morphs=mesh.morphs[:1])
+        for mesh in given.meshes
+    )
+    found = with_few_influences(replace(given, meshes=meshes))
+    kept = 0
+    for number, mesh in enumerate(found.meshes):
+        for vertex in np.flatnonzero(np.count_nonzero(mesh.weights, axis=1) > MOST_INFLUENCES)[:12].tolist():
+            alone = []
+            for slot in np.flatnonzero(mesh.weights[vertex]).tolist():
+                weights = np.zeros(mesh.weights.shape)
+                weights[:, slot] = 1.0
+                one = replace(found, meshes=(*found.meshes[:number], replace(mesh, weights=weights)))
+                alone.append(_places_m(one, number, np.array([vertex])).reshape(-1, 3))
+            asked = _places_m(found, number, np.array([vertex])).reshape(-1, 3)
+            for four in itertools.combinations(alone, MOST_INFLUENCES):
+                ways = np.stack(four, axis=-1).reshape(-1, MOST_INFLUENCES)
+                share = nnls(np.r_[ways, np.full((1, MOST_INFLUENCES), 1e3)], np.r_[asked.ravel(), 1e3])[0]
+                off_mm = 1000.0 * np.linalg.norm((ways @ share - asked.ravel()).reshape(-1, 3), axis=1)
+                assert off_mm.max() > FEW_MM
+            kept += 1
+    assert kept > 2
 
 
 @pytest.mark.parametrize("make", [scenes.instrument])
