@@ -1,4 +1,4 @@
-"""Small scores and sounds that the tests of sound share."""
+"""Small scores and sounds for tests of audio."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def quartet() -> Project:
 
 
 def melody(*notes: tuple[int, int, int], program: int | None = 56, **more: object) -> Part:
-    """A part of (onset, duration, pitch) in ticks of 480 a quarter."""
+    """Part of notes (onset, duration, pitch) in ticks, 480 per quarter."""
     made = tuple(Note(f"1:{i}", on, length, pitch, 90) for i, (on, length, pitch) in enumerate(notes, 1))
     part = Part("1.1.1", "Trumpet", 0, 0, 0, program, "trumpet", "trumpet_Bb", made)
     return msgspec.structs.replace(part, **more)
@@ -42,14 +42,14 @@ def piece(*parts: Part, metres: tuple[Metre, ...] = (Metre(0, 4, 4),), pickup_ti
 
 
 def steady_run(seed: int, ticks: int = 240, count: int = 80) -> Project:
-    """Notes of one length without a rest, in which a place is known by its pitches alone; at 120 quarters a minute."""
+    """Equally long notes without rests at 120 quarters a minute, which differ only in pitch."""
     pitches = np.random.default_rng(seed).choice([60, 62, 64, 65, 67, 69, 71, 72, 74], count)
     notes = [(number * ticks, ticks - 20, int(pitch)) for number, pitch in enumerate(pitches)]
     return piece(melody(*notes))
 
 
 def with_players(project: Project, **changes: dict[str, object]) -> Project:
-    """Players by their number (``p0=...``) with other fields."""
+    """Change fields of players by their number (``p0=...``)."""
     players = list(project.players)
     for key, fields in changes.items():
         players[int(key[1:])] = msgspec.structs.replace(players[int(key[1:])], **fields)
@@ -57,11 +57,11 @@ def with_players(project: Project, **changes: dict[str, object]) -> Project:
 
 
 def ramp_track(seconds: float = 20.0, start_s: float = 0.0) -> MixTrack:
-    """Every sample says its own time: amplitude rises by 1000 a second."""
+    """Track whose samples encode their own time: the amplitude rises by 1000 a second."""
     samples: Samples = np.round(np.arange(round(seconds * RATE_HZ)) / RATE_HZ * 1000).astype(np.int16)
     return MixTrack([AudioSegment(round(start_s * RATE_HZ), samples)])
 
 
 def times_s(block: np.ndarray) -> np.ndarray:
-    """Return the times (s) that are written into such samples."""
+    """Times in seconds encoded in such samples."""
     return block[:, 0] * 32768 / 1000

@@ -1,4 +1,4 @@
-"""The test beep: heard, short, without a click at its ends."""
+"""The test beep is audible, short, and has no click at its ends."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The metronome's clicks stand on the beats."""
+"""The metronome's clicks are on the beats."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tests.unit.audio.pieces import melody, piece
 
 
 def beats(track: object) -> list[tuple[float, bool]]:
-    """(second, whether it is the higher click of a bar)."""
+    """Times in seconds of the clicks, and whether each is the higher click of a bar."""
     found = sorted((p.start / RATE_HZ, p.samples) for p in track.pieces)  # type: ignore[attr-defined]
     high = {id(samples): (samples[:400].astype(int)[1:] * samples[:399] < 0).sum() for _, samples in found}
     most = max(high.values())

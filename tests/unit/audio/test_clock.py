@@ -1,4 +1,4 @@
-"""The smooth clock against a device that counts in steps, late by a random amount."""
+"""The smoothed clock of a device that counts in steps and reports them with random delays."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from app.audio.clock import DeviceClock
 
 
 class Device:
-    """Counts in steps; each is reported late by up to some jitter; may stand still, and runs at another rate."""
+    """A device that counts in steps at a slightly different rate, reports each with a random delay, and may pause."""
 
     def __init__(
         self, seed: int, step_s: float, jitter_s: float, drift: float, stands: tuple[float, float] | None
@@ -28,7 +28,7 @@ class Device:
 
 
 def sampled(device: Device, poll_s: float, end_s: float, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
-    """(times, what the clock says) at polls that are uneven too."""
+    """Times of irregular polls, and the clock's values."""
     rng = np.random.default_rng(seed)
     times = np.cumsum(rng.uniform(0.5 * poll_s, 1.5 * poll_s, int(end_s / poll_s)))
     now = [0.0]

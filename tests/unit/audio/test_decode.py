@@ -1,4 +1,4 @@
-"""Recordings that are fine, and those that are not."""
+"""Decoding of valid and invalid recordings."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def test_the_content_decides_and_no_codec_delays_the_sound(tmp_path: Path, named
 
 @pytest.mark.parametrize("options", [("-b:a", "128k"), ("-q:a", "2")])
 def test_an_mp3_without_a_header_that_breaks_off_is_reported(tmp_path: Path, options: tuple[str, str]) -> None:
-    """Loud and then soft, so that the first frames say nothing of the length; and the other way."""
+    """Loud sound followed by soft sound, so that the first frames do not reveal the length, and the reverse."""
     rng = np.random.default_rng(1)
     for name, levels in (("falls", (0.5, 0.0)), ("rises", (0.0, 0.5))):
         sound = np.concatenate([level * rng.normal(size=(4 * 44100, 2)).clip(-1.0, 1.0) for level in levels])
@@ -99,7 +99,7 @@ def test_time_stamps_that_would_lose_the_sound_are_refused(tmp_path: Path) -> No
 
 @pytest.mark.parametrize("suffix", ["mkv", "webm", "flv"])
 def test_a_gap_of_days_is_refused_too(tmp_path: Path, suffix: str) -> None:
-    """ffmpeg takes more than thirty hours for a mistake, and would leave them out without a word."""
+    """ffmpeg considers gaps of more than thirty hours an error and would omit them silently."""
     codec = "libopus" if suffix == "webm" else "aac"
     for seconds in (200_000.0, 1_000_000.0):
         path = with_gap(tmp_path / f"gap.{suffix}", seconds, codec=codec)

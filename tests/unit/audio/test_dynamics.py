@@ -1,4 +1,4 @@
-"""Dynamics of recordings whose expression is known: it is found again, and players breathe and swell with it."""
+"""Dynamics of recordings with known expression: they are recovered, and players breathe and swell accordingly."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ EVERY = 120
 
 
 def expressive(seeds: dict[str, int]) -> Project:
-    """The quartet with velocities all alike, and smooth curves of expression by part."""
+    """The quartet with equal velocities, and smooth curves of expression by part."""
     project = quartet()
     ticks = np.arange(0, project.score.end_tick, EVERY)
     parts = []
@@ -78,7 +78,7 @@ def values_at(curve: ControllerCurve, ticks: np.ndarray) -> np.ndarray:
 
 
 def correlation(project: Project, curves: dict[str, ControllerCurve], part_id: str) -> float:
-    """Correlation of ranks, while the part sounds."""
+    """Correlation of ranks while the part sounds."""
     part = next(part for part in project.score.parts if part.id == part_id)
     ticks = np.concatenate([np.arange(note.onset_tick, note.end_tick, 60) for note in part.notes])
     return float(spearmanr(values_at(curves[part_id], ticks), values_at(part.curves[0], ticks)).statistic)
@@ -138,7 +138,7 @@ def test_silence_says_nothing() -> None:
 
 
 def test_listening_takes_little_more_memory_than_the_recording() -> None:
-    """All of an hour in double precision would take gigabytes."""
+    """An hour in double precision would take gigabytes."""
     samples = np.random.default_rng(1).integers(-9000, 9000, (60 * RATE_HZ, 2)).astype(np.int16)
     loudness(samples[:RATE_HZ], RATE_HZ)  # Libraries are loaded.
     for listen in (loudness, analysis_sound):

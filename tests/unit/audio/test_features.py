@@ -1,4 +1,4 @@
-"""Pitch classes, onsets and tuning of sounds whose truth is known."""
+"""Pitch classes, onsets and tuning of sounds with known values."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ RATE_HZ = 22050
 
 
 def tone(pitch: float, seconds: float = 2.0, start_s: float = 0.0, harmonics: int = 4) -> np.ndarray:
-    """A tone with overtones that fade, silent before it starts."""
+    """A tone with fading overtones after a silence."""
     times_s = np.arange(round(seconds * RATE_HZ)) / RATE_HZ
     hz = 440.0 * 2.0 ** ((pitch - 69.0) / 12.0)
     sound = sum(np.sin(2 * np.pi * hz * k * times_s) / k**2 for k in range(1, harmonics + 1))

@@ -1,4 +1,4 @@
-"""A recording that keeps its own time: renders whose tempo bends, spoiled in the ways recordings are."""
+"""Following recordings with a varying tempo: renders with a bent tempo and typical recording flaws."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ MEDIAN_S, NINETEEN_OF_TWENTY_S = 0.015, 0.05
 
 
 def bent(project: Project, depth: float = 0.1, period_s: float = 8.0, seed: int = 3) -> Project:
-    """Played faster and slower in waves, and a little otherwise at every quarter."""
+    """Score whose tempo varies in waves, and a little at every quarter."""
     before = project.score.tempo_map
     ticks = np.arange(0, project.score.end_tick + before.ticks_per_quarter, before.ticks_per_quarter)
     seconds = before.seconds(ticks.astype(np.float64))
@@ -58,7 +58,7 @@ def followed(sound: np.ndarray, project: Project | None = None, pinned: dict[int
 
 
 def onset_errors_s(found: Following, earlier_s: float = 0.0, from_s: float = 0.0) -> np.ndarray:
-    """Errors of every note that is in the recording, which begins this much earlier than the music."""
+    """Errors in seconds of every note contained in the recording, which begins by a given time before the music."""
     notes = np.array([note.onset_tick for part in quartet().score.parts for note in part.notes], np.float64)
     true_s = truth().score.tempo_map.seconds(notes) + earlier_s
     there = true_s > from_s
@@ -75,7 +75,9 @@ def check(name: str, found: Following, earlier_s: float = 0.0, from_s: float = 0
 
 
 def spoiled(sound: np.ndarray) -> np.ndarray:
-    """In a hall (1.2 s, as loud as the direct sound), with noise at 20 dB, 30 cents higher."""
+    """Recording with reverberation (1.2 s, as loud as the direct sound), noise at 20 dB, and a tuning 30
+    cents higher.
+    """
     rng = np.random.default_rng(8)
     times_s = np.arange(round(1.2 * RATE_HZ)) / RATE_HZ
     response = rng.normal(size=len(times_s)) * np.exp(-6.9 * times_s / 1.2)
@@ -109,7 +111,7 @@ def test_a_constant_tempo_comes_back_constant_after_any_silence(ratio: float) ->
 
 
 def test_a_clarinet_alone_is_not_taken_for_a_twelfth_higher() -> None:
-    """A stopped pipe, whose third harmonic is as strong as its own pitch."""
+    """A clarinet is a stopped pipe, whose third harmonic is as strong as the fundamental."""
     project = steady_run(4, count=48)
     score = project.score
     rng = np.random.default_rng(4)
@@ -225,7 +227,9 @@ def test_bars_left_out_in_the_middle_are_reported_and_nothing_is_changed() -> No
 
 
 def test_confidence_is_low_where_it_is_wrong() -> None:
-    """Over three recordings with a cut and one with a repeat: the area under the curve of who is wrong by 0.1 s."""
+    """Over three recordings with a cut and one with a repeat, confidence predicts errors of 0.1 s: area under the
+    curve.
+    """
     wrong, confidence = list[np.ndarray](), list[np.ndarray]()
     sound = recorded()
     for first_s, end_s_ in ((40, 62), (30, 50), (50, 60), (50, 28)):
@@ -274,7 +278,7 @@ def test_a_pinned_beat_stays_and_beats_far_away_do_not_feel_it() -> None:
 
 
 def test_a_pin_says_where_it_goes_on_after_a_repeat() -> None:
-    """Take the pinned one of two places that sound alike."""
+    """A pin selects one of two places that sound alike."""
     sound = recorded()
     twice = np.concatenate([sound[: 50 * RATE_HZ], sound[28 * RATE_HZ :]])
     bar = quartet().metre_map.bar_of_tick(int(truth().score.tempo_map.ticks(40.0)))

@@ -1,4 +1,4 @@
-"""Test the sound of a project: tracks, mutes, places, and films' sound."""
+"""Sound of a project: tracks, mutes, panning, and sound of films."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Single notes that begin beside their beats: those that are clear are found, and written into the piece."""
+"""Single notes off their beats: clear ones are found and written into the piece."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Offset and tempo of recordings whose truth is known: renders of scores, spoiled in every way we could think of."""
+"""Offset and tempo of recordings with known values: renders of scores with many kinds of flaws."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MOST_ERROR_S = 0.02
 
 @cache
 def render(ratio: float = 1.0) -> np.ndarray:
-    """The quartet played this much faster, from its first bar to two seconds after the end."""
+    """Render the quartet at a tempo factor, from its first bar to two seconds after the end."""
     project = scale_tempo(quartet(), ratio)
     return mixdown(project, 0.0, end_s(project) + 2.0)
 
@@ -88,7 +88,7 @@ def test_another_tuning() -> None:
 
 
 def test_another_sound() -> None:
-    """Low-passed and through one channel, as a telephone hears it."""
+    """The recording is low-passed and mixed to one channel, as through a telephone."""
     sound = render()[:, :1]
     kernel = np.sinc(np.arange(-200, 201) * 2 * 3000 / RATE_HZ) * np.hanning(401)
     low = fftconvolve(sound, kernel[:, None] / kernel.sum(), mode="same", axes=0)
@@ -97,7 +97,7 @@ def test_another_sound() -> None:
 
 @pytest.mark.parametrize("ticks", [120, 240])
 def test_the_silence_before_a_run_of_equal_notes_changes_nothing(ticks: int) -> None:
-    """A whole number of notes earlier or later fits the onsets as well; and frames begin anywhere in a note."""
+    """A shift by whole notes fits the onsets equally well, and frames begin anywhere within a note."""
     for seed in (1, 2):
         project = steady_run(seed, ticks, 19200 // ticks)
         sound = mixdown(project, 0.0, end_s(project) + 1.0)

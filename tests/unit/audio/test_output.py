@@ -1,4 +1,4 @@
-"""The system's output: what its device fetches, when that is heard, and how it ends."""
+"""Output to the system's audio device: samples fetched, times reported, and ending."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[3]
 
 
 class Clock:
-    """A clock that the test turns."""
+    """A clock controlled by the test."""
 
     now_s = 50.0
 

@@ -1,4 +1,4 @@
-"""Reading a mix: in order, in loops, stretched; and the moments that are said beside it."""
+"""Reading a mix: in order, in loops, stretched, with the performance times reported with the samples."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def read_all(reader: Reader, seconds: float, chunk: int = 1000) -> tuple[np.ndar
 
 
 def said_s(marks: list[Mark], sample: int) -> float:
-    """The moment of a sample by the marks."""
+    """Performance time of a sample according to the marks."""
     at, position_s, speed = [mark for mark in marks if mark[0] <= sample][-1]
     return position_s + (sample - at) / RATE_HZ * speed
 

@@ -1,4 +1,4 @@
-"""Rendering in a process of its own: the same sound, the other threads go on, and nothing is left behind."""
+"""Rendering in a separate process: equal sound, running threads are not blocked, and nothing remains afterwards."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sound that is kept in files."""
+"""Rendered sound stored in files."""
 
 from __future__ import annotations
 

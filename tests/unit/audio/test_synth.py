@@ -1,4 +1,4 @@
-"""The synthesiser: phrases, programs, what is rendered and what is remembered."""
+"""The synthesiser: phrases, programs, rendering and cache."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def test_an_edit_changes_the_phrase_it_is_in_and_no_other() -> None:
 
 
 def test_a_note_sounds_once_however_the_part_is_cut() -> None:
-    """Phrases overlap by their tails; their sum has no gap and no doubled note where one ends and the next begins."""
+    """Phrases overlap by their tails; their sum has neither gaps nor doubled notes at the boundaries."""
     synthesiser = Synthesiser()
     part = melody(*((480 * i, 480, 67) for i in range(24)))
     pieces = [synthesiser.render(phrase) for phrase in phrases(part, TEMPO, 56)]

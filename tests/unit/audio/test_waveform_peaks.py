@@ -1,4 +1,4 @@
-"""The picture of a recording against the obvious slow way."""
+"""The waveform display compared with a slow direct calculation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Nothing is lost in bursts of messages, however busy the editor is."""
+"""Recording loses no messages in bursts, however busy the editor is."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ BURST_S = 4.0
 
 
 def test_nothing_is_lost_in_bursts_while_the_editor_is_busy(tmp_path: Path) -> None:
-    """1,000 messages a second; a thread that keeps Python's lock redraws, so to speak."""
+    """1,000 messages a second, while a thread holds Python's lock like a redrawing window."""
     path = tmp_path / "take"
     done = threading.Event()
 

@@ -1,4 +1,4 @@
-"""Test that the breath controller is found by blowing."""
+"""The breath controller is recognised from blowing."""
 
 from __future__ import annotations
 

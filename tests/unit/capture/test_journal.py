@@ -1,4 +1,6 @@
-"""Journals: what was written is read, a torn one loses its last line, a hostile one raises our own errors."""
+"""Journals are read as written, an incomplete one loses only its last line, and a hostile one raises the program's
+errors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Journals become takes."""
+"""Conversion of journals to takes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The latency of players whose latency is known: who they are is made here, independently of how it is found."""
+"""Measurement of latency from synthetic players with known latency."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ CLICKS_S = tuple(0.6 * index for index in range(12))
 def player(
     latency_s: float, jitter_s: float, seed: int, missed: int = 0, doubled: int = 0, stray: int = 0
 ) -> list[float]:
-    """Someone who blows on the clicks."""
+    """Times of a synthetic player's hits on the clicks."""
     chance = random.Random(seed)
     struck = sorted(chance.sample(range(len(CLICKS_S)), len(CLICKS_S) - missed))
     times = [CLICKS_S[index] + latency_s + chance.gauss(0.0, jitter_s) for index in struck]
@@ -25,8 +25,9 @@ def player(
 
 
 def most_wrong_s(jitter_s: float, count: int) -> float:
-    """Greatest error of a median of normal hits, exceeded once in a hundred thousand: its standard error times that
-    quantile."""
+    """Error in seconds of a median of normally distributed hits that is exceeded once in a hundred thousand: its
+    standard error times the quantile.
+    """
     return NormalDist().inv_cdf(1.0 - 5e-6) * 1.2533 * jitter_s / count**0.5
 
 

@@ -1,5 +1,6 @@
-"""The recorder over real MIDI transport (JACK's dummy server), in its own process: devices that come and go, processes
-that are killed."""
+"""The recorder process with real MIDI transport (JACK's dummy server): devices connected and disconnected, processes
+killed.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +67,9 @@ def started(ear: Ear, path: Path) -> Ear:
 
 
 def receive_one(ear: Ear, player: WindPlayer, message: bytes) -> int:
-    """Play a message until one arrives, for JACK may lose some on a busy machine; how many have arrived."""
+    """Play a message until one arrives, since JACK may lose some on a busy machine; return the number of
+    arrived ones.
+    """
     before = len(ear.messages)
     end_s = time.monotonic() + PATIENCE_S
     while len(ear.messages) == before and time.monotonic() < end_s:
@@ -391,7 +394,7 @@ def test_where_no_process_can_be_started(monkeypatch: pytest.MonkeyPatch, tmp_pa
 
 
 def test_a_journal_that_is_there_is_not_gone_on_with(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Started in the moment in which there is no recorder."""
+    """Recording is started at a moment without a recorder."""
     path = tmp_path / "take"
     path.write_text("precious")
     with RecorderLink() as link:

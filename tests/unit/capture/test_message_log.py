@@ -1,4 +1,4 @@
-"""The last messages in as few lines as tell them."""
+"""The last messages summarised in few lines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The two MIDI libraries behind one interface, and what becomes of one that ends its process."""
+"""The two MIDI libraries behind one interface, and a library that ends its process."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def without(monkeypatch: pytest.MonkeyPatch, *names: str) -> None:
 
 
 def fake_rtmidi2() -> Any:
-    """The module rtmidi2: two ports, one of them without a name; the driver's messages are played by hand."""
+    """Fake module rtmidi2 with two ports, one without a name; the test calls the driver's callback."""
     module: Any = ModuleType("rtmidi2")
     module.API_LINUX_ALSA, module.API_UNIX_JACK, module.API_MACOSX_CORE, module.API_WINDOWS_MM = 2, 3, 1, 4
     module.made = []
@@ -112,7 +112,9 @@ def test_what_rtmidi2_is_asked(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_port_whose_opening_ends_the_process_is_refused_and_opened_later(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """The library rtmidi2 ends the process when the driver refuses, for instance when another program has the port."""
+    """The library rtmidi2 ends the process if the driver refuses a port, for instance because another
+    program uses it.
+    """
     in_use = tmp_path / "in use"
     in_use.touch()
     (tmp_path / "rtmidi.py").write_text(ABORTING.format(marker=str(in_use)))

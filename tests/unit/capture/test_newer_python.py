@@ -1,4 +1,4 @@
-"""Ports, takes and a burst by the library rtmidi2, in an environment of a newer Python that `./test` sets up."""
+"""Ports, takes and a burst with the library rtmidi2, in an environment of a newer Python installed by `./test`."""
 
 from __future__ import annotations
 

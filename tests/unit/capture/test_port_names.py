@@ -1,4 +1,4 @@
-"""Names of ports: the same whatever numbers the system puts around them, and no two alike."""
+"""Names of ports are independent of numbers added by the system, and unique."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def names(found: list[str], system: str) -> list[str]:
 
 
 def listed(devices: list[tuple[str, int]], system: str) -> list[str]:
-    """Devices as a system lists them, each with the number that it has now."""
+    """Devices as listed by a system, each with its current number."""
     return [
         {
             "alsa": f"{name}:{name} MIDI 1 {number}:0",

@@ -1,4 +1,4 @@
-"""Test recording without a MIDI system."""
+"""Recording without a MIDI system."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test what the recorder does with a system that is made up here: no transport, no process."""
+"""The recorder with a fake MIDI system, without transport and processes."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from app.child import MessageChannel
 
 
 class Device:
-    """An opened port."""
+    """An open port."""
 
     def __init__(self) -> None:
         self.is_closed = False
@@ -48,7 +48,7 @@ class Device:
 
 
 class System:
-    """A system whose devices come and go as a test says."""
+    """A system with devices that the test connects and disconnects."""
 
     def __init__(self, *names: str) -> None:
         self.name = "alsa"
@@ -246,7 +246,7 @@ def test_events_that_gathered_are_sent_together_and_in_order() -> None:
 
 
 class SmallDisk(FileIO):
-    """Files on a disk that takes so many bytes, in folders of its name."""
+    """Files on a disk of limited size, in folders with a given name."""
 
     room: ClassVar[int] = 0
 

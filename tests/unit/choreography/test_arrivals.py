@@ -1,4 +1,4 @@
-"""Measures of how well arrivals and footfalls of a dance meet the beats, by which its time map is chosen."""
+"""Measures of how well arrivals and footfalls of a dance meet the beats, which determine its time map."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ BEATS_S = 0.5 * np.arange(60)
 
 
 def steps_s(spread_s: float, late_s: float = 0.0) -> np.ndarray:
-    """Times of steps on most beats, some of them a little early or late."""
+    """Times of steps on most beats, some slightly early or late."""
     random = np.random.default_rng(4)
     chosen = BEATS_S[1:-1][random.uniform(size=58) < 0.8]
     return np.asarray(chosen + late_s + random.uniform(-spread_s, spread_s, len(chosen)))

@@ -1,4 +1,4 @@
-"""Classes that are there are found, the same ones each time."""
+"""Existing classes of motions are found, identically in every run."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.choreography.basic_motions import SPREAD, classify
 def groups(
     spread: float, sizes: tuple[int, ...] = (9, 5, 12, 7), dimensions: int = 189
 ) -> tuple[FloatArray, list[int]]:
-    """Features about centres that are far apart, in mixed order; a point strays by `spread` (root mean square)."""
+    """Features around distant centres in mixed order; points deviate by `spread` (root mean square)."""
     generator = np.random.default_rng(3)
     centres = generator.standard_normal((4, 189))
     truth = generator.permutation(np.repeat(np.arange(4), (9, 5, 12, 7)))

@@ -1,4 +1,6 @@
-"""Test what of a dance a player takes over: about the place, seen from where the dancer faces, within its bounds."""
+"""The part of a dance that a player adopts: relative to the place and the dancer's facing, and within the player's
+bounds.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,7 @@ CHARACTER = character_named("man_adult")
 
 
 def clip(hips_m: np.ndarray | None = None, **turned: np.ndarray) -> MotionClip:
-    """A body that stands, whose segments are turned by rotation vectors (F, 3) and whose hips go (F, 3)."""
+    """Standing body with segments rotated by rotation vectors (F, 3) and hips moved by (F, 3)."""
     standing = still(len(TIMES_S), FPS)
     rotations = standing.rotations.copy()
     for name, vectors in turned.items():
@@ -46,7 +48,7 @@ def about(axis: int, values: np.ndarray) -> np.ndarray:
 
 
 def moved(motion: MotionClip, turn_rad: float, to_m: tuple[float, float]) -> MotionClip:
-    """The same dance elsewhere on the stage, facing another way."""
+    """The same dance at another place on the stage, facing another way."""
     turn = Rotation.from_rotvec([0.0, turn_rad, 0.0])
     rotations = motion.rotations.copy()
     rotations[:, 0] = (turn * Rotation.from_quat(rotations[:, 0])).as_quat()
@@ -54,7 +56,7 @@ def moved(motion: MotionClip, turn_rad: float, to_m: tuple[float, float]) -> Mot
 
 
 def groove() -> MotionClip:
-    """To both sides once a second, with hips, chest and head."""
+    """Sideways motion of hips, chest and head once a second."""
     wave = np.sin(2.0 * np.pi * TIMES_S)
     hips_m = np.zeros((len(wave), 3))
     hips_m[:, 0], hips_m[:, 2] = 0.05 * wave, 0.02 * np.cos(2.0 * np.pi * TIMES_S)

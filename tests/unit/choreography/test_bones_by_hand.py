@@ -1,4 +1,4 @@
-"""Bones of a motion that a user corrects, where no body is found or a wrong one."""
+"""Corrections of a motion's bones by the user, where no body or a wrong one is found."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SWORD: Final = without_names(with_prop(SALSA, "lHand", [(30.0, 0.0, 0.0)] * 4))
 
 
 def corrections(skeleton_bones: dict[str, int]) -> dict[str, str]:
-    """Corrections by a user of bones that are not the true ones."""
+    """Corrections of bones that do not match the true ones."""
     return {joint: SWORD.names[bone] for joint, bone in TRUE.items() if skeleton_bones.get(joint) != bone}
 
 
@@ -111,7 +111,7 @@ def test_a_correction_of_nothing_is_named_with_what_there_is(
 @pytest.mark.parametrize("still", [False, True])
 @pytest.mark.parametrize("part", ["Foot", "Hand"])
 def test_crossed_limbs_are_named(part: str, still: bool) -> None:
-    """A lower leg that ends in the other foot is no leg, in a pose alone too."""
+    """A lower leg that ends in the other foot is reported, also in a single pose."""
     bvh = replace(SALSA, rotations_xyzw=SALSA.rotations_xyzw[:1], root_translation_cm=SALSA.root_translation_cm[:1])
     crossed = {f"left{part}": f"r{part}", f"right{part}": f"l{part}"}
     with pytest.raises(BodyError) as caught:
@@ -122,7 +122,7 @@ def test_crossed_limbs_are_named(part: str, still: bool) -> None:
 
 @pytest.mark.parametrize("joint", ["neck", "leftIndexProximal"])
 def test_sides_are_exchanged_though_another_bone_was_corrected(joint: str) -> None:
-    """The names of a mirrored motion are wrong about both sides: the legs' even where a finger was corrected."""
+    """Names of a mirrored motion have both sides exchanged: the legs' too if only a finger was corrected."""
     bvh = mirrored(SALSA)
     read, expected = motion_of(bvh, "a.bvh", joints={joint: ""}), motion_of(bvh, "b.bvh")
     kept = "Arm" if joint.startswith("left") else ""

@@ -1,4 +1,6 @@
-"""Rest poses at the ends of a clip, idle ends and held frames are recognised, and the motion is not taken for them."""
+"""Rest poses and idle time at the ends of a clip and repeated frames are recognised, and motion is not mistaken for
+them.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,7 @@ def backwards(clip: MotionClip) -> MotionClip:
 
 
 def behind(pose: MotionClip, clip: MotionClip, fade_s: float = 0.0) -> MotionClip:
-    """A pose before a clip, and the way from the one to the other."""
+    """Put a pose before a clip, with a transition."""
     fade = round(fade_s * float(clip.fps))
     shares = (np.arange(1, fade + 1) / (fade + 1))[:, None]
     shares = shares**2 * (3.0 - 2.0 * shares)
@@ -62,7 +64,7 @@ def test_a_t_pose_of_any_length_is_no_part_of_the_motion(frames: int, fps: int, 
 @pytest.mark.parametrize("length_s", [0.02, 0.1, 0.3, 1.0, 10.0])
 @pytest.mark.parametrize(("at_end", "rolled"), [(False, 0.0), (True, 0.0), (False, 0.9)])
 def test_arms_lowered_from_a_t_pose_are_no_dance(length_s: float, at_end: bool, rolled: float) -> None:
-    """Also where a straight arm does not show how it is turned about itself in that pose."""
+    """The arms are removed from the motion also if a straight arm does not reveal its twist in the T-pose."""
     clip = dancing(60)
     lowered = clip.rotations.copy()
     for at, turn in ((4, -1.3), (7, 1.3)):
@@ -79,7 +81,7 @@ def test_arms_lowered_from_a_t_pose_are_no_dance(length_s: float, at_end: bool, 
 
 
 def test_a_t_pose_with_an_arm_a_little_low_is_no_dance() -> None:
-    """An actor holds it as well as they can."""
+    """Actors cannot hold the pose exactly."""
     clip, pose = dancing(60), still(120)
     lowered, low = clip.rotations.copy(), pose.rotations.copy()
     for at, turn in ((4, -1.0), (7, 1.0)):
@@ -119,7 +121,7 @@ def test_a_clip_that_only_stands_stays() -> None:
 
 @pytest.mark.parametrize(("count", "phase"), [(2, 0), (4, 0), (4, 3), (5, 2)])
 def test_held_frames_are_one(count: int, phase: int) -> None:
-    """A capture at 60 frames a second in a file of 240."""
+    """A capture at 60 frames a second is stored in a file of 240."""
     clip = dancing(60)
     every = np.repeat(np.arange(len(clip)), count)[phase:]
     held = MotionClip(clip.shape, Fraction(60 * count), clip.hips_m[every], clip.rotations[every])

@@ -1,4 +1,4 @@
-"""``suisou choreography``: what is typed of each pair, and what is learned and printed."""
+"""``suisou choreography``: arguments for pairs, learning and output."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ pytestmark = pytest.mark.slow
 
 
 def write_clip(path: Path, clip: MotionClip) -> Path:
-    """The clip as a BVH file, with the segments' names."""
+    """Write the clip as a BVH file with the segments' names."""
     names = tuple(SEGMENTS)
     written = BvhClip(
         names,
@@ -46,13 +46,13 @@ def write_clip(path: Path, clip: MotionClip) -> Path:
 
 
 def write_silence(path: Path) -> Path:
-    """A MIDI file without a note."""
+    """Write a MIDI file without notes."""
     mido.MidiFile(tracks=[mido.MidiTrack([mido.MetaMessage("track_name", name="x", time=480)])]).save(path)
     return path
 
 
 def write_drums(path: Path, channel: int = 9) -> Path:
-    """A bass drum at 0.1 s and a snare drum at 0.4 s of every 1.5 s."""
+    """Write a bass drum at 0.1 s and a snare drum at 0.4 s of every 1.5 s."""
     track = mido.MidiTrack([mido.MetaMessage("set_tempo", tempo=1_000_000)])
     now = 0
     for swing in range(6):
@@ -229,7 +229,7 @@ def test_what_cannot_be_learned_from_is_named(
 def test_a_bad_pair_is_left_out_and_named_and_the_others_are_learned(
     swings: Path, drums: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """One that cannot be read, one whose music sounds elsewhere, and one that is sound."""
+    """One unreadable pair, one whose music is at another time, and one valid pair."""
     target, missing = tmp_path / "x.choreography", tmp_path / "none.bvh"
     later = write_clip(tmp_path / "later.bvh", arm_swings(60))
     command = ["choreography", "learn", "--pair", str(missing), str(drums)]

@@ -1,4 +1,4 @@
-"""Cuts are minima and maxima of the curve, and stay where they are under noise and at other frame rates."""
+"""Cuts are minima and maxima of the acceleration curve, stable under noise and changes of the frame rate."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ CLIPS = SHARED / "mocap"
 
 
 def arm_swings(fps: int, swings_s: tuple[float, ...] = (1.0, 2.5, 4.0, 5.5, 7.0), length_s: float = 8.5) -> MotionClip:
-    """Both arms turn by 1.6 rad at these times, in 0.5 s (minimum jerk), out and back, and rest between."""
+    """Motion in which both arms rotate by 1.6 rad at given times, within 0.5 s (minimum jerk), out and back, and rest
+    between.
+    """
     times = np.arange(round(length_s * fps) + 1) / fps
     angle = np.zeros(len(times))
     for number, start_s in enumerate(swings_s):

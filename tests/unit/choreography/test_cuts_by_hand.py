@@ -1,4 +1,4 @@
-"""Cuts that are set by hand stay a segmentation whatever is done to them, and are learned from as they are."""
+"""Cuts set by the user remain a valid segmentation after any edits, and are learned unchanged."""
 
 from __future__ import annotations
 

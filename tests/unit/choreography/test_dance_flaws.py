@@ -1,4 +1,4 @@
-"""Joins that jerk and feet that slide are found, and no others."""
+"""Jerking joins and sliding feet are found, and nothing else."""
 
 from __future__ import annotations
 

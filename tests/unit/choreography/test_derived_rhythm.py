@@ -1,4 +1,4 @@
-"""Test what a dancer hears of a piece without percussion; every symbol can be followed by hand."""
+"""The rhythm that dancers hear in a piece without percussion, with symbols verified by hand."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ENSEMBLE = Path(__file__).parents[4] / "shared" / "data" / "midi" / "ensemble"
 
 
 def piece(tmp_path: Path, *voices: list[tuple[float, float, int, int]], drums: tuple[float, ...] = ()) -> Score:
-    """Notes (onset and length in quarters, pitch, velocity) of voices; 4/4, 120 quarters a minute."""
+    """Piece of voices with notes (onset and length in quarters, pitch, velocity) in 4/4 at 120 quarters a minute."""
     tracks = []
     for channel, notes in enumerate([*voices, [(onset, 0.1, 38, 90) for onset in drums]]):
         place = 9 if channel == len(voices) else channel

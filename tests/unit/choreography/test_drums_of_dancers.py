@@ -1,4 +1,4 @@
-"""Dancers chosen by drums like their own, and all of them where drums are like those of none."""
+"""Dancers are chosen by the similarity of drums to their own, and all dancers if the drums are similar to none."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ BEATS = 32
 
 
 def struck(between: Sequence[int]) -> Rhythm:
-    """A drum on every beat, and a sound after each in turn."""
+    """Drum on every beat, and sounds in turn after each."""
     plain = beaten(BEATS)
     after = np.resize(between, BEATS - 1)
     hits = np.concatenate([plain.beats_s, plain.beats_s[:-1] + 0.25])

@@ -1,4 +1,4 @@
-"""Motions that look alike have like features, wherever and however large they are danced."""
+"""Similar motions have similar features, regardless of place and size."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ CUTS = (Cut(0, 12, 30), Cut(30, 41, 60))
 
 
 def shape(size: float = 1.0) -> BodyShape:
-    """A plain body of 1.7 m."""
+    """Ordinary body of 1.7 m."""
     offsets = {"hips": (0.0, 0.9, 0.0), "spine": (0.0, 0.1, 0.0), "chest": (0.0, 0.2, 0.0), "head": (0.0, 0.3, 0.0)}
     for side, sign in SIDE.items():
         offsets |= {
@@ -35,7 +35,7 @@ def shape(size: float = 1.0) -> BodyShape:
 
 
 def random_clip(seed: int, frames: int = 61, size: float = 1.0) -> MotionClip:
-    """Smooth turns of all segments."""
+    """Smooth rotations of all segments."""
     generator = np.random.default_rng(seed)
     times = np.arange(frames)[:, None, None] / 60.0
     phases, rates = generator.uniform(0.0, 6.0, (2, 1, len(SEGMENTS), 3))
@@ -83,7 +83,9 @@ def test_a_pose_in_numbers() -> None:
 
 
 def test_turned_hands_and_heads_do_not_matter() -> None:
-    """Nothing in a file without eyes and fingers shows how they are turned; the dance must not depend on it."""
+    """Files without eyes and fingers do not define the rotation of heads and hands, so that dances must not depend on
+    it.
+    """
     clip = random_clip(1)
     turned, ends = clip.rotations.copy(), clip.shape.ends_m.copy()
     for end, name in enumerate(("head", "leftHand", "rightHand")):

@@ -1,4 +1,4 @@
-"""Soles on or above the floor, and feet turned as people's are."""
+"""Soles stay on or above the floor, and feet within the range of human ankles."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ X = np.array([1.0, 0.0, 0.0])
 
 
 def swinging(deep_m: float) -> MotionClip:
-    """A left foot that is swung through the floor within half a second, and a right one that stands."""
+    """A left foot that swings through the floor within half a second, and a standing right foot."""
     clip = still(90)
     dip = np.exp(-np.square((np.arange(90) - 45) / 8.0))
     bend = np.arccos(1.0 - (0.06 - (deep_m + 0.06) * dip + deep_m * dip.min()).clip(0.0) / 0.83)

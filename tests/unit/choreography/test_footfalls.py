@@ -1,4 +1,4 @@
-"""Feet come down on the beats, and take their time for a step."""
+"""Feet land on the beats, with sufficient time for each step."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FPS = 60.0
 
 
 def walking(late_s: float, swing_s: float = 0.3, steps: int = 12) -> list[FootPlant]:
-    """Left and right in turn, a step a beat of half a second, all a little late."""
+    """Left and right steps in turn, one per beat of half a second, all slightly late."""
     found = []
     for step in range(steps):
         start = round((0.5 * step + late_s) * FPS) if step > 1 else 0

@@ -1,4 +1,4 @@
-"""Dancers of a formation have in common what it says, and do not meet."""
+"""Dancers of a formation share what the formation defines, and do not collide."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def danced(formation: Formation) -> tuple[Dance, ...]:
 
 
 def placed_m(formation: Formation) -> list[np.ndarray]:
-    """Ways of the hips, each from the dancer's place."""
+    """Path of the hips of each dancer relative to the dancer's place."""
     return [
         dance.clip.hips_m - (role.x_m, 0.0, 0.0)
         for dance, role in zip(danced(formation), roles(formation, 3, Manner(seed=4), 2), strict=True)

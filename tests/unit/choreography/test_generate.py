@@ -1,4 +1,6 @@
-"""Dances as an animator would look at them: on the beat, without a seam, on feet that stand, at their place."""
+"""Generated dances as an animator would judge them: on the beat, without visible seams, with standing feet, and in
+place.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +40,7 @@ def dance(seed: int = 0, beats: int = 64, beat_s: float = 0.55) -> Dance:
 
 
 def spins(clip: MotionClip) -> FloatArray:
-    """(F - 1, 16, 3) angular velocities, rad/s, by scipy."""
+    """Angular velocities (F - 1, 16, 3) in rad/s, calculated with scipy."""
     turns = Rotation.from_quat(clip.rotations.reshape(-1, 4))
     frames, joints = clip.rotations.shape[:2]
     steps = turns[: (frames - 1) * joints].inv() * turns[joints:]
@@ -146,7 +148,7 @@ def test_a_source_can_be_preferred() -> None:
 
 
 def test_a_preferred_source_dances_to_the_drums_of_another() -> None:
-    """Two dancers, each learned with drums of their own: whoever is preferred dances to the drums of either."""
+    """Two dancers learned with different drums: the preferred one dances to the drums of either."""
     plain = model()
     segments = tuple(replace(one, sounds=(1 + 20 * one.clip,) * 4) for one in plain.segments)
     emission = np.full((plain.states, len(SYMBOLS)), 1e-3)
@@ -198,7 +200,7 @@ def test_what_fades_begins_as_it_was_and_ends_at_rest() -> None:
 
 
 def test_a_fast_difference_of_speeds_turns_no_joint_far_before_it_has_faded_out() -> None:
-    """A knee that is kicked into another motion would be carried a quarter of a turn beyond it."""
+    """The speed of a kicking knee would otherwise carry it a quarter of a turn beyond the next motion."""
     times = np.linspace(0.0, FADE_S, 451)
     spins = np.array([[12.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
     turns = fading_turn(np.zeros((2, 3)), spins, times)[..., 0]
@@ -209,7 +211,7 @@ def test_a_fast_difference_of_speeds_turns_no_joint_far_before_it_has_faded_out(
 
 
 def test_what_idles_in_the_capture_is_hardly_danced(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Six motions of the first source are held still: those in the midst of them are seen."""
+    """Six motions of the first source are motionless."""
     own = model()
     held = [at for at, one in enumerate(own.segments) if one.clip == 0][6:12]
     rotations = own.clips[0].rotations.copy()
@@ -229,7 +231,7 @@ def test_what_idles_in_the_capture_is_hardly_danced(monkeypatch: pytest.MonkeyPa
 
 
 def test_a_dancer_who_was_captured_in_turning_faces_the_audience() -> None:
-    """The capture goes round once in 12 s; each motion of it is danced to the front."""
+    """The capture rotates once in 12 s; each of its motions is danced facing the front."""
     own = model()
     turned = []
     for clip in own.clips:

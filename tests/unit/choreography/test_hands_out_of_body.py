@@ -1,4 +1,4 @@
-"""Hands that would be in the body go round it, and others stay where they are."""
+"""Hands that would penetrate the body move around it, and other hands stay where they are."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.support.dances import stepping, still
 
 
 def inwards(angle_rad: float) -> MotionClip:
-    """A left arm that hangs a little bent beside the body, and swings inwards and back."""
+    """A slightly bent left arm that hangs beside the body and swings inwards and back."""
     clip = still(120)
     share = 0.5 - 0.5 * np.cos(np.arange(120) / 119.0 * 2.0 * np.pi)
     rotations = clip.rotations.copy()

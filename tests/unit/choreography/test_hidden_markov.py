@@ -1,4 +1,4 @@
-"""Counting, against a slow count."""
+"""Counts of states and transitions compared with a slow count."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A captured motion is the same on any rig: whatever its zero pose, its names and its axes are."""
+"""A captured motion is read identically on any rig, regardless of zero pose, names and axes."""
 
 from __future__ import annotations
 
@@ -101,8 +101,9 @@ LOST: Final = {
 @pytest.mark.parametrize("rest", ["random", "rolled"])
 @pytest.mark.parametrize("lost", LOST)
 def test_no_decision_depends_on_the_zero_pose_or_the_unit(rest: str, lost: str) -> None:
-    """Dances are put together by choices, which last digits would turn: the bodies are the same but for rounding, also
-    where nothing shows how a head or a palm is turned in the T-pose."""
+    """Dances consist of discrete choices, which last digits could change: the bodies are equal except for rounding,
+    even if the rotation of a head or palm in the T-pose is undefined.
+    """
     bvh = without_joints(SALSA, lambda name: re.search(LOST[lost], name) is not None)
     other = rerigged(bvh, REST_POSES[rest])
     other = replace(
@@ -118,7 +119,7 @@ def test_no_decision_depends_on_the_zero_pose_or_the_unit(rest: str, lost: str) 
 
 
 def test_limbs_that_never_bend_are_the_same_on_any_rig() -> None:
-    """Nothing shows how they are rolled: feet and hands, hips and shoulders say how they usually are."""
+    """The roll of such limbs is undefined by motion; feet, hands, hips and shoulders determine the usual one."""
     straight = {
         f"{side}{part}": np.tile(quaternion.IDENTITY, (len(SALSA.rotations_xyzw), 1))
         for side in "lr"
@@ -135,7 +136,7 @@ def test_limbs_that_never_bend_are_the_same_on_any_rig() -> None:
 
 
 def _smooth(bvh: BvhClip) -> BvhClip:
-    """The clip with poses between its poses, as of a motion."""
+    """Clip with poses between its poses, as in continuous motion."""
     parts = np.linspace(0.0, 1.0, 12, endpoint=False)[:, None]
     rotations = np.array(bvh.rotations_xyzw)
     between = [quaternion.slerp(a, b, np.tile(parts, (1, len(a)))) for a, b in pairwise(rotations)]
@@ -144,7 +145,7 @@ def _smooth(bvh: BvhClip) -> BvhClip:
 
 
 def test_a_t_pose_before_the_motion_shows_the_head_and_the_palms() -> None:
-    """Many files begin with one that no motion leads to; a posture of a dancer counts only in the mean."""
+    """Many files begin with a T-pose followed by a jump; a dancer's posture counts only on average."""
     bvh = _smooth(without_joints(SALSA, lambda name: re.search(LOST["eyes and fingers"], name) is not None))
     rotations = np.array(bvh.rotations_xyzw)
     rotations[0] = quaternion.IDENTITY
@@ -175,7 +176,7 @@ def test_the_dance_is_the_same_for_any_zero_pose(seed: int) -> None:
     [("Eye", "head"), ("Index|Ring|Pinky", ""), ("Thumb|Index|Mid|Ring|Pinky", "leftHand, rightHand")],
 )
 def test_parts_that_only_their_mean_turns_are_named(lost: str, joints: str) -> None:
-    """Eyes show where a face looks; knuckles, or one and a thumb, where a palm is."""
+    """Eyes determine the direction of a face; knuckles, or one knuckle and a thumb, that of a palm."""
     bvh = without_joints(SALSA, lambda name: re.search(lost, name) is not None)
     read = motion_of(rerigged(bvh, REST_POSES["x"]), "a.bvh")
     named = {guess.id: guess.arguments for guess in guesses(read)}
@@ -186,7 +187,7 @@ def test_parts_that_only_their_mean_turns_are_named(lost: str, joints: str) -> N
 
 
 def test_a_head_at_which_the_file_ends_is_no_crown() -> None:
-    """Neither eyes nor an end nor names: it turns, as the top of a head does not."""
+    """A head without eyes, end and names is recognised by its rotation, which the top of a head does not have."""
     bvh = without_names(without_joints(SALSA, lambda name: re.search("Eye", name) is not None))
     head = SALSA.names.index("head")
     ended = replace(bvh, end_sites_cm={**bvh.end_sites_cm, head: np.zeros(3)})
@@ -215,7 +216,7 @@ def test_any_axis_may_be_up(axis: tuple[float, float, float], names: str) -> Non
 
 
 def _local_deg(clip: MotionClip, other: MotionClip) -> list[float]:
-    """Compare as `off_deg` does, but relative to the hips, which face elsewhere in another world."""
+    """Angles like those of `off_deg`, but relative to the hips, whose facing differs between worlds."""
     found = []
     for at in range(1, len(SEGMENTS)):
         turns = [
@@ -230,7 +231,7 @@ def _local_deg(clip: MotionClip, other: MotionClip) -> list[float]:
 @pytest.mark.parametrize("rest", [None, "x", "random"])
 @pytest.mark.parametrize("names", NAMES)
 def test_the_left_is_where_the_knees_and_toes_say(rest: str | None, names: str) -> None:
-    """A mirrored motion is danced with the other arm, though the names of its bones do not know."""
+    """A mirrored motion is danced mirrored, although the names of its bones are not exchanged."""
     mirror = mirrored(SALSA if rest is None else rerigged(SALSA, REST_POSES[rest]))
     read, expected = motion_of(NAMES[names](mirror), "a.bvh"), motion_of(SALSA, "b.bvh")
     said = [guess for guess in guesses(read) if guess.id == "motion.sides"]
@@ -254,7 +255,7 @@ def test_joints_are_where_they_were_though_bones_lack(lost: str, names: str) -> 
 
 
 def test_feet_that_point_back_are_named() -> None:
-    """Nothing like that is danced: what is wrong is said, with the joint and the angle."""
+    """Such a motion is refused, with the joint and the angle in the message."""
     back = {
         joint: end * ((1.0, 1.0, -1.0) if "Foot" in SALSA.names[joint] else (1.0, 1.0, 1.0))
         for joint, end in SALSA.end_sites_cm.items()
@@ -268,7 +269,7 @@ def test_feet_that_point_back_are_named() -> None:
 
 
 def _turned(bvh: BvhClip, turns: dict[str, FloatArray]) -> BvhClip:
-    """The clip with turns (F, 4) of some bones, each in its own axes, after its own."""
+    """Clip with additional rotations (F, 4) of some bones in their own axes."""
     rotations = np.array(bvh.rotations_xyzw)
     for name, turn in turns.items():
         joint = bvh.names.index(name)
@@ -278,8 +279,9 @@ def _turned(bvh: BvhClip, turns: dict[str, FloatArray]) -> BvhClip:
 
 @pytest.mark.parametrize("palm_deg", [-60.0, 70.0])
 def test_a_palm_that_is_turned_all_the_time_is_danced_so(palm_deg: float) -> None:
-    """A thumb shows where the palm is, also where the bone of the forearm turns it: what is danced is not taken for the
-    T-pose."""
+    """A thumb reveals the palm's direction, also if the forearm's bone rotates it: the constant rotation is not
+    mistaken for the T-pose.
+    """
     frames = len(SALSA.rotations_xyzw)
     angles = np.radians(palm_deg + 8.0 * np.sin(np.arange(frames)))
     palm = quaternion.from_axis_angle((1.0, 0.0, 0.0), angles)
@@ -300,7 +302,7 @@ def test_a_palm_that_is_turned_all_the_time_is_danced_so(palm_deg: float) -> Non
 
 
 def test_who_leans_ahead_all_the_time_is_danced_so() -> None:
-    """Runners lean ahead: a lean is no T-pose."""
+    """A runner's constant lean is not mistaken for the T-pose."""
     plain = rerigged(SALSA, REST_POSES["x"])
     lean = np.tile(quaternion.from_axis_angle((1.0, 0.0, 0.0), 0.45), (len(SALSA.rotations_xyzw), 1))
     leaning = rerigged(_turned(SALSA, {"abdomen": lean}), REST_POSES["x"])

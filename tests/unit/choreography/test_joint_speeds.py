@@ -1,4 +1,4 @@
-"""Joints of dances that turn no faster than those of people, also in a larger dance."""
+"""Joints of dances do not rotate faster than human ones, also in enlarged dances."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from tests.support.dances import beaten, model, moving, still
 
 
 def flipping(name: str) -> MotionClip:
-    """A joint that is turned by 160 degrees from one frame to the next."""
+    """A joint that rotates by 160 degrees between two frames."""
     clip = still(60)
     turns = np.where(np.arange(60) < 30, -1.4, 1.4)[:, None] * (1.0, 0.0, 0.0)
     clip.rotations[:, SEGMENTS.index(name)] = quaternion.from_rotation_vector(turns)

@@ -1,4 +1,4 @@
-"""A choreography is learned from constructed pairs; every count can be followed by hand."""
+"""Learning a choreography from constructed pairs, with counts verified by hand."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_an_offset_shifts_what_sounds() -> None:
 
 
 def test_a_dancer_hears_the_sounds_of_the_own_drums_most() -> None:
-    """Two dancers who dance alike to sounds of their own share their basic motions, and are told apart by them."""
+    """Two dancers with similar motions and different sounds share basic motions and are distinguished by the sounds."""
     other = replace(SWINGS.rhythm, symbols=SWINGS.rhythm.symbols + 10)
     model = learn([SWINGS, replace(SWINGS, rhythm=other)], states=4, seed=0, name="")
     clips = np.array([one.clip for one in model.segments])

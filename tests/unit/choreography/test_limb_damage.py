@@ -1,4 +1,4 @@
-"""Limbs that freeze, feet that twitch and bodies that sink are named from their start to their end; rests stay."""
+"""Frozen limbs, twitching feet and sinking bodies are reported from start to end; genuine rests are kept."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ LEG = ("leftUpperLeg", "leftLowerLeg", "leftFoot")
 
 
 def rounded(clip: MotionClip) -> MotionClip:
-    """The clip with the rounding errors of one that was read, others in every frame."""
+    """Clip with rounding errors like those of a file, different in every frame."""
     random = np.random.default_rng(5)
     noise = random.normal(0.0, 1e-13, clip.rotations.shape)
     return replace(clip, rotations=quaternion.normalize(clip.rotations + noise))
 
 
 def frozen(clip: MotionClip, parts: tuple[str, ...], start: int, stop: int) -> MotionClip:
-    """The clip with a limb that stays as it is in a frame."""
+    """Clip with a limb that does not move after a frame."""
     rotations = clip.rotations.copy()
     for part in parts:
         rotations[start:stop, SEGMENTS.index(part)] = rotations[start, SEGMENTS.index(part)]
@@ -37,7 +37,7 @@ def frozen(clip: MotionClip, parts: tuple[str, ...], start: int, stop: int) -> M
 
 
 def delayed(clip: MotionClip, parts: tuple[str, ...], start: int, frames: int) -> MotionClip:
-    """The clip with a limb that stops and goes on later where it was."""
+    """Clip with a limb that stops and later continues from the same pose."""
     rotations = clip.rotations.copy()
     for at in map(SEGMENTS.index, parts):
         rotations[start + frames :, at] = clip.rotations[start:-frames, at]
@@ -58,7 +58,7 @@ def test_a_limb_that_is_frozen_is_left_out_from_its_freeze_to_its_release(parts:
 
 @pytest.mark.parametrize("parts", [ARM, LEG], ids="-".join)
 def test_a_limb_that_stops_and_goes_on_later_is_left_out(parts: tuple[str, ...]) -> None:
-    """Nothing jumps at either end: the limb is only slower than any rest begins."""
+    """There is no jump at either end; the limb only stops faster than in any rest."""
     clip = dancing(60)
     (one,) = mended(rounded(delayed(clip, parts, 200, 90))).left_out
     assert one.start <= 200 < 289 <= one.stop
@@ -66,7 +66,7 @@ def test_a_limb_that_stops_and_goes_on_later_is_left_out(parts: tuple[str, ...])
 
 @pytest.mark.parametrize("parts", [ARM, LEG], ids="-".join)
 def test_a_limb_that_comes_to_rest_stays(parts: tuple[str, ...]) -> None:
-    """An arm that is lowered, held for a second and lifted, as whoever animates by keys has it: at rest to the bit."""
+    """An arm that is lowered, held exactly still for a second and lifted, as in keyframe animation."""
     clip = dancing(60)
     share = np.clip(np.arange(len(clip)) / 60.0 - 2.0, 0.0, 1.0) - np.clip(np.arange(len(clip)) / 60.0 - 4.0, 0.0, 1.0)
     share = (share * share * (3.0 - 2.0 * share))[:, None]
@@ -78,7 +78,7 @@ def test_a_limb_that_comes_to_rest_stays(parts: tuple[str, ...]) -> None:
 
 
 def test_an_elbow_that_is_stretched_as_far_as_it_goes_stays() -> None:
-    """Rigs stop there within a frame; few decimals make it nearly constant."""
+    """Rigs stop there within a frame, and few decimals make the elbow nearly constant."""
     clip = dancing(60)
     bend = 0.6 - 0.9 * np.sin(np.arange(len(clip)) / 25.0)
     at = SEGMENTS.index("leftLowerArm")
@@ -90,14 +90,14 @@ def test_an_elbow_that_is_stretched_as_far_as_it_goes_stays() -> None:
 
 
 def accelerations(clip: MotionClip) -> FloatArray:
-    """(F - 2, 2) of the ends of the feet, m/s^2."""
+    """Accelerations (F - 2, 2) of the ends of the feet in m/s^2."""
     ends = points_m(clip)[:, [len(SEGMENTS) + ENDS.index(name) for name in ("leftFoot", "rightFoot")]]
     return np.asarray(np.linalg.norm(np.diff(ends, 2, axis=0), axis=-1) * float(clip.fps) ** 2)
 
 
 @pytest.mark.parametrize("parts", [("hips",), ("leftUpperLeg", "leftLowerLeg")], ids="-".join)
 def test_a_twitch_that_only_the_feet_show_is_mended_and_named(parts: tuple[str, ...]) -> None:
-    """Turns of a frame by less than the joints' own bounds take feet aside by 6 cm: 200 m/s^2 and more."""
+    """Rotations for one frame below the joints' own bounds move feet by 6 cm: 200 m/s^2 and more."""
     clip = dancing(60)
     spoilt, turned = clip, np.zeros(len(clip))
     turned[240] = np.radians(4.0 if parts == ("hips",) else 5.0)
@@ -113,7 +113,7 @@ def test_a_twitch_that_only_the_feet_show_is_mended_and_named(parts: tuple[str, 
 
 @pytest.mark.parametrize("frames", [12, 20, 30])
 def test_a_body_that_sinks_into_the_floor_is_left_out(frames: int) -> None:
-    """Dips of 20 cm, four of them: the floor is where the feet stand, not where they sink to."""
+    """Four dips of 20 cm: the floor is where the feet stand and not where they sink to."""
     clip = stepping(16)
     hips = clip.hips_m.copy()
     for start in (60, 160, 260, 360):

@@ -1,4 +1,4 @@
-"""Damage of captures is mended or left out, and true motion stays to the bit."""
+"""Damage in captures is repaired or excluded, and genuine motion is unchanged to the bit."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ MOVED = ("hips", "spine", "head", "leftUpperArm", "rightUpperArm", "leftUpperLeg
 
 @cache
 def dancing(fps: int = 60, length_s: int = 8) -> MotionClip:
-    """A body that steps, sways, turns a little and moves everything all the time."""
+    """A body that steps, sways, turns a little and moves all parts continuously."""
     clip = stepping(2 * length_s, fps=fps)
     times = np.arange(len(clip)) / fps
     rotations = clip.rotations.copy()
@@ -40,14 +40,14 @@ def dancing(fps: int = 60, length_s: int = 8) -> MotionClip:
 
 
 def turning(clip: MotionClip, part: str, angles: FloatArray, axis: tuple[float, float, float]) -> MotionClip:
-    """The clip with a segment turned by more."""
+    """Clip with an additional rotation of a segment."""
     rotations, at = clip.rotations.copy(), SEGMENTS.index(part)
     rotations[:, at] = quaternion.multiply(quaternion.from_axis_angle(axis, angles), rotations[:, at])
     return replace(clip, rotations=quaternion.continuous(rotations))
 
 
 def outside(clip: MotionClip, left_out: tuple[Damage, ...]) -> BoolArray:
-    """(F,) frames that are not left out."""
+    """Mask (F,) of the frames that are not excluded."""
     kept = np.ones(len(clip), bool)
     for one in left_out:
         kept[one.start : one.stop + 1] = False
@@ -109,7 +109,7 @@ def test_a_spin_of_even_speed_stays() -> None:
 
 
 def test_a_punch_and_a_waving_hand_stay() -> None:
-    """An elbow stretched at 30 rad/s, and a hand that waves five times a second by 45 degrees to each side."""
+    """An elbow extended at 30 rad/s, and a hand that waves five times a second by 45 degrees to each side."""
     clip, times = dancing(60), np.arange(480) / 60.0
     share = np.clip((times - 2.0) / 0.18, 0.0, 1.0) - np.clip((times - 3.0) / 0.5, 0.0, 1.0)
     elbow = 2.2 * share**2 * (3.0 - 2.0 * share)
@@ -121,7 +121,7 @@ def test_a_punch_and_a_waving_hand_stay() -> None:
 
 @pytest.mark.parametrize("part", ["rightLowerLeg", "leftUpperLeg"])
 def test_a_marker_lost_where_the_limb_is_near_its_rest_is_left_out(part: str) -> None:
-    """A segment that moves stops within one frame, without a jump, and does not move for a second."""
+    """A moving segment stops within one frame, without a jump, and is motionless for a second."""
     clip, at = dancing(60), SEGMENTS.index(part)
     near = angle(clip.rotations[:, at], quaternion.IDENTITY)
     first = 60 + int(near[60:300].argmin())
@@ -148,7 +148,7 @@ def test_short_damage_is_mended_and_nothing_else_changes(length: int) -> None:
 @pytest.mark.parametrize("fps", [30, 60, 120])
 @pytest.mark.parametrize("part", ["hips", "chest"])
 def test_a_trunk_that_goes_far_and_back_in_six_frames_is_damage(part: str, fps: int) -> None:
-    """Filtered captures have such damage: no jump from any frame to the next."""
+    """Filtered captures contain such damage without a jump between frames."""
     clip, at = dancing(fps), SEGMENTS.index(part)
     way = np.zeros(len(clip))
     way[3 * fps : 3 * fps + 8] = np.radians(40.0) * np.sin(np.linspace(0.0, np.pi, 8))
@@ -163,7 +163,7 @@ def test_a_trunk_that_goes_far_and_back_in_six_frames_is_damage(part: str, fps: 
 
 
 def test_long_damage_is_left_out_with_both_its_ends() -> None:
-    """A flip of a second, arms exchanged for two, and a lost marker for three: each from its start to its end."""
+    """A flip of a second, exchanged arms for two, and a lost marker for three are excluded from start to end."""
     clip = dancing(60, 16)
     spoilt = damaged(clip, "flip", "rightUpperLeg", 120, 60, np.array(AXES[3]))
     spoilt = damaged(spoilt, "zero", "head", 660, 180, np.array(AXES[0]))
@@ -201,7 +201,7 @@ def test_a_body_goes_on_where_frames_are_missing(fps: int) -> None:
 
 
 def test_a_root_that_is_elsewhere_for_good_is_taken_back() -> None:
-    """The place alone jumps, and nothing turns."""
+    """Only the place jumps, without any rotation."""
     clip = dancing(60)
     hips = clip.hips_m.copy()
     hips[200:] += (1.0, 0.0, -2.0)
@@ -211,7 +211,7 @@ def test_a_root_that_is_elsewhere_for_good_is_taken_back() -> None:
 
 
 def test_many_jumps_cost_what_they_change() -> None:
-    """A body that walks on, cut by turns again and again, goes on ahead; each jump is turned back once."""
+    """A walking body with repeated jumps of its direction keeps walking forward; each jump is undone once."""
     clip = stepping(24)
     way = np.arange(len(clip))[:, None] / 60 * (0.0, 0.0, 0.3)
     clip = replace(clip, hips_m=clip.hips_m + way)
@@ -227,7 +227,7 @@ def test_many_jumps_cost_what_they_change() -> None:
 
 
 def test_nothing_faster_than_a_body_is_left() -> None:
-    """Noise of all kinds at once: whatever is kept is below the bounds that are stated."""
+    """Under noise of all kinds, everything kept is within the stated bounds."""
     clip, random = dancing(60, 16), np.random.default_rng(4)
     spoilt = clip
     for start in range(40, 900, 43):
@@ -252,7 +252,7 @@ def test_a_clip_of_no_length_has_no_damage() -> None:
 
 @pytest.mark.parametrize("axis", AXES[:3])
 def test_a_head_that_slowly_goes_upside_down_is_left_out(axis: tuple[float, float, float]) -> None:
-    """Two seconds to hang down, two there, two back: nothing is sudden, yet no neck does so."""
+    """Two seconds down, two hanging, two back: nothing is sudden, but no neck bends that far."""
     clip = dancing()
     share = np.interp(np.arange(len(clip)) / 60.0, [1.0, 3.0, 5.0, 7.0], [0.0, 1.0, 1.0, 0.0])
     for most_deg, wrong in ((160.0, True), (70.0, False)):

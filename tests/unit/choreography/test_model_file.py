@@ -1,4 +1,4 @@
-"""Test that a written file is read back to the bit, and a damaged one is refused with file and place."""
+"""A written model is read back to the bit, and a damaged one is refused with file and place."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def refused(content: bytes) -> FileError:
 
 
 def changed(*path: str | int, to: Any) -> bytes:
-    """The file with one value replaced."""
+    """File with one value replaced."""
     document = json.loads(CONTENT)
     place = document
     for key in path[:-1]:

@@ -1,4 +1,4 @@
-"""Music that tells of the motion is found to do so, and any other is not."""
+"""Music that predicts the motion is distinguished from unrelated music."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tests.support.dances import model
 
 
 def sounding(seed: int, certain: float, states: int = 4) -> ChoreographyModel:
-    """A model each of whose motions has the sound of its state as often as that is certain, else one by chance."""
+    """Model in which each motion has the sound of its state with a given probability, otherwise a random one."""
     random = np.random.default_rng(seed)
     made = model(beats=60, states=states, seed=seed)
     sounds = ((one.state if random.uniform() < certain else int(random.integers(states)), 40) for one in made.segments)
@@ -75,7 +75,7 @@ def test_a_dance_follows_sounds_as_far_as_they_tell() -> None:
 
 
 def copied(made: ChoreographyModel, late: int) -> ChoreographyModel:
-    """A model with every take again, with its first motions left out and its sounds kept."""
+    """Model in which every take occurs again, without its first motions and with the same sounds."""
     segments = list(made.segments)
     for clip in range(len(made.clips)):
         own = [one for one in made.segments if one.clip == clip][late:]
@@ -84,7 +84,7 @@ def copied(made: ChoreographyModel, late: int) -> ChoreographyModel:
 
 
 def test_takes_that_are_added_again_tell_no_more() -> None:
-    """Motions that were learned from are not asked for, though a copy of them begins later."""
+    """Copies of learned motions that begin later do not count as new evidence."""
     for seed in (100, 101, 102):
         once = judged(sounding(seed, 0.0))
         again = judged(copied(sounding(seed, 0.0), 30))
@@ -93,7 +93,7 @@ def test_takes_that_are_added_again_tell_no_more() -> None:
 
 
 def test_the_verdict_and_its_bits_agree() -> None:
-    """Fewer bits than are shown are none, however few other orders of the music predict more."""
+    """Fewer bits than are displayed count as none, however few other orders of the music predict more."""
     for bits, chance, id_ in (
         (-0.2, 0.03, "learn.pairing_predicts_nothing"),
         (0.04, 0.01, "learn.pairing_predicts_nothing"),
@@ -113,7 +113,7 @@ def test_the_same_model_is_judged_the_same() -> None:
 
 
 def drummed(alike: bool) -> ChoreographyModel:
-    """Two dancers whose motions have no sounds of their own, to drums of their own or to the same."""
+    """Two dancers whose motions have no sounds of their own, to different drums or to the same."""
     made = sounding(3, 0.0)
     sounds = ((20, 21) if alike or not one.clip else (30, 21) for one in made.segments)
     return replace(
@@ -122,7 +122,7 @@ def drummed(alike: bool) -> ChoreographyModel:
 
 
 def test_drums_that_name_the_dancer_are_said_to_do_so() -> None:
-    """Drums may say who dances and nothing about what; both are said, in both languages."""
+    """Drums may reveal the dancer but not the motion; both facts are reported, in both languages."""
     assert share_told_apart(drummed(alike=False)) == 1.0
     said = reports(drummed(alike=False))
     assert [one.id for one in said] == ["learn.pairing_predicts_nothing", "learn.dancers_told_apart"]

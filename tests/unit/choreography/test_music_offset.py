@@ -1,4 +1,4 @@
-"""Test that the begin of music is found where it was put, and certain only where it can be."""
+"""The offset of music is found, and reported as certain only if it is determined."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from tests.unit.choreography.test_features import random_clip
 
 
 def rhythm(hits_s: FloatArray) -> Rhythm:
-    """These hits over steady beats, which the dancer does not mind."""
+    """Hits over steady beats that are independent of the motion."""
     beats_s = np.arange(0.0, hits_s.max(initial=0.0), 0.5)
     strengths = np.random.default_rng(0).uniform(0.4, 1.0, len(hits_s))
     return Rhythm(beats_s, np.arange(len(beats_s)) % 4, hits_s, np.zeros(len(hits_s), np.int64), strengths, False)
 
 
 def danced(clip: MotionClip, offset_s: float, seed: int) -> Rhythm:
-    """Music of which most beats of the motion meet a hit, within some hundredths, and some hits meet no beat."""
+    """Music in which most beats of the motion meet a hit within a few hundredths, and some hits meet no beat."""
     generator = np.random.default_rng(seed)
     beats_s = motion_beats(clip)[0] / float(clip.fps)
     met = generator.permutation(beats_s)[: round(0.8 * len(beats_s))] + 0.02 * generator.standard_normal(

@@ -18,7 +18,7 @@ BEATS, BEAT_S = 64, 0.55
 
 
 def with_one_drum_per_motion(model: ChoreographyModel) -> ChoreographyModel:
-    """The model as if learned from two strokes of one drum during each motion."""
+    """Model as if learned from two strokes of one drum during each motion."""
     segments = tuple(replace(one, sounds=(3 * one.state,) * 2, melody=()) for one in model.segments)
     counts = np.ones((model.states, len(SYMBOLS))) / len(SYMBOLS)
     for one in segments:
@@ -35,7 +35,7 @@ def struck(states: np.ndarray) -> Rhythm:
 
 
 def test_three_of_four_strokes_of_a_drum_sound_during_its_motion() -> None:
-    """A drum is struck for two beats each time; motions must also fit on one another, so not every stroke is met."""
+    """Each drum is struck for two beats at a time; motions must also fit together, so that not every stroke is met."""
     model = with_one_drum_per_motion(read_model(SALSA))
     choreographer = Choreographer(model)
     shares = []

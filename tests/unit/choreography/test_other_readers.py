@@ -1,4 +1,4 @@
-"""Every joint of the captured clips is where bvhio and Blender have it, whoever wrote the file."""
+"""Joints of captured clips of various makers have the same positions as in bvhio and Blender."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def shortened(clip: Path, folder: Path) -> Path:
 
 
 def places(path: Path) -> list[dict[str, FloatArray]]:
-    """Places of every joint in each frame as our reader has it, by scipy's rotations."""
+    """Positions of every joint in each frame as read by the program, calculated with scipy's rotations."""
     clip = read_bvh(path)
     found = []
     for frame in range(FRAMES):

@@ -1,4 +1,4 @@
-"""Test what a choreography says of its basic motions, against slow counts."""
+"""Statistics of a choreography's basic motions compared with slow counts."""
 
 from __future__ import annotations
 

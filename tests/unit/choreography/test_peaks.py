@@ -1,4 +1,4 @@
-"""Peaks without `scipy.signal`: the same places and the same bits as its own."""
+"""Peaks found without `scipy.signal` equal scipy's to the bit."""
 
 from __future__ import annotations
 

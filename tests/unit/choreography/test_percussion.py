@@ -1,4 +1,4 @@
-"""Test what a dancer hears of a piece: beats, and the hits of its percussion."""
+"""The rhythm that dancers hear in a piece: beats and percussion."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def rhythm_of(
     name: str = "",
     program: int | None = None,
 ) -> Rhythm:
-    """The rhythm of hits (tick, note, velocity), each 10 ticks long."""
+    """Rhythm of hits (tick, note, velocity), each 10 ticks long."""
     events = [(tick, mido.MetaMessage("time_signature", numerator=n, denominator=d)) for tick, n, d in metres]
     events.append((0, mido.MetaMessage("set_tempo", tempo=mido.bpm2tempo(bpm))))
     if name:

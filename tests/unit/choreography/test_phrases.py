@@ -1,4 +1,4 @@
-"""Bars that return, and dances that take up again what they danced to them."""
+"""Recurring bars, and dances that repeat the motion danced to them before."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ BEAT_S = 0.55
 
 
 def played(form: str, beat_s: float = BEAT_S, beats: int = 4) -> Rhythm:
-    """Sections of four bars, each letter with strokes of its own."""
+    """Sections of four bars; each letter has strokes of its own."""
     hits = []
     for section, letter in enumerate(form):
         random = np.random.default_rng(ord(letter))

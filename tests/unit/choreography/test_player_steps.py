@@ -1,4 +1,4 @@
-"""Steps of players who dance: on the beat at every tempo, one foot after the other, near to where each foot stands."""
+"""Steps of players who dance: on the beat at every tempo, with alternating feet, near each foot's place."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TEMPI = [184.0, 118.0, 63.0]
 
 
 def rhythm_of(tempo: float, silent: tuple[int, int] = (0, 0)) -> Rhythm:
-    """Something is struck on every beat but those of a silence."""
+    """Rhythm with a stroke on every beat except during a silence."""
     beats_s = 60.0 / tempo * np.arange(BEATS)
     sounds = (np.arange(BEATS) < silent[0]) | (np.arange(BEATS) >= silent[1])
     hits_s = beats_s[sounds]

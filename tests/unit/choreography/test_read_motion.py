@@ -1,4 +1,4 @@
-"""Motion of others on the 16 segments: where the joints are, against bvhio; units, axes, what is refused."""
+"""Motion of other makers on the 16 segments: positions compared with bvhio, units, axes, refused files."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def test_limbs_are_where_another_reader_has_them(name: str) -> None:
 
 
 def bvh(turn: FloatArray, unit_m: float, frames: int = 20, toes: bool = True) -> str:
-    """A small figure of 1.7 m, turned and in a unit of its own, that stands and lifts nothing."""
+    """A small figure of 1.7 m with given axes and unit that stands still."""
     joints = {
         "Hips": ("", (0, 0, 0)),
         "Spine": ("Hips", (0, 0.1, 0)),
@@ -227,7 +227,7 @@ def test_a_frame_time_in_milliseconds_is_reported(tmp_path: Path) -> None:
 @pytest.mark.parametrize("bones", PLACE_UNITS_M)
 @pytest.mark.parametrize("places", PLACE_UNITS_M)
 def test_positions_in_another_unit_than_the_bones_are_understood(bones: str, places: str) -> None:
-    """Steps of a body on the floor; some programs write its way in one unit and its bones in another."""
+    """Steps on the floor; some programs write the body's path and its bones in different units."""
     clip = stepping(8)
     sway_m = 0.08 * np.sin(np.arange(len(clip)) / 20.0)[:, None] * np.array((1.0, 0.0, 0.5))
     swaying = replace(clip, hips_m=clip.hips_m + sway_m - np.array((0.0, 0.03, 0.0)))
@@ -272,7 +272,9 @@ OFFSET 0 90 0
 
 
 def test_a_prop_before_the_body_is_not_taken_for_it(tmp_path: Path) -> None:
-    """The first figure that is a body is read, and said; where none is, the error names them and how to choose."""
+    """The first figure that is a body is read and reported; without one, the error names the figures and
+    how to choose.
+    """
     path, body = tmp_path / "a.bvh", bvh(np.eye(3), 0.01)
     sword = f"{SWORD}MOTION\nFrames: 20\nFrame Time: 0.025\n" + "0 0 0\n" * 20
     path.write_text(together(sword, body), encoding="utf-8")
@@ -297,7 +299,7 @@ def test_content_decides_what_a_file_is(tmp_path: Path, suffix: str) -> None:
 
 
 def test_frames_of_seconds_are_counted_as_they_are_learned_from(tmp_path: Path) -> None:
-    """A quarter of an hour of slow frames is sixty times as many when a model is learned from it."""
+    """A quarter of an hour at one frame per second has sixty times as many frames when a model is learned from it."""
     path = tmp_path / "long.bvh"
     head, _, rows = bvh(np.eye(3), 0.01).partition("Frames: ")
     row = rows.splitlines()[2]

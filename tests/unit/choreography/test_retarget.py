@@ -1,4 +1,4 @@
-"""A motion of the 16 segments on our characters, worked out again joint by joint with scipy."""
+"""Motion of the 16 segments on bundled characters, compared with a calculation joint by joint with scipy."""
 
 from __future__ import annotations
 
@@ -35,7 +35,9 @@ def still(frames: int = FRAMES) -> MotionClip:
 
 
 def moving(seed: int = 3) -> MotionClip:
-    """Smooth turns of everything, up to about 60 degrees, on a path, knees bent so that no leg is stretched."""
+    """Smooth rotations of all segments up to about 60 degrees on a path, with knees bent so that no leg is fully
+    extended.
+    """
     random = np.random.default_rng(seed)
     keys = np.linspace(0, FRAMES - 1, 9)
     clip = still()
@@ -53,7 +55,7 @@ def moving(seed: int = 3) -> MotionClip:
 
 
 def joints(character: Character, motion: Motion, frame: int) -> dict[str, tuple[FloatArray, Rotation]]:
-    """Return the place and rotation of every joint, computed in a loop."""
+    """Position and rotation of every joint, calculated in a loop."""
     skeleton, found = character.skeleton, dict[str, tuple[FloatArray, Rotation]]()
     for at, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
         turn = Rotation.from_quat(motion.rotations[frame, at].astype(np.float64))

@@ -1,4 +1,4 @@
-"""Moments of captured segments that come on the beats: where the body arrives and a foot comes down."""
+"""Moments of captured segments that should be on beats: arrivals of the body and footfalls."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SEGMENTS = [MotionSegment(clip=0, start=0, end=60, accent=5, state=0), MotionSeg
 
 
 def slow_at(*frames: int) -> tuple[np.ndarray, np.ndarray]:
-    """Speed of a body, slowest first, and the frames in which it arrives."""
+    """Speed of a body and the frames in which it arrives, slowest first."""
     speed = np.ones(121)
     for number, frame in enumerate(frames):
         speed[frame] = 0.1 * (number + 1)
@@ -26,7 +26,7 @@ def slow_at(*frames: int) -> tuple[np.ndarray, np.ndarray]:
     ids=["slowest", "with the footfall", "the slowest has one", "both have one", "far from both"],
 )
 def test_an_arrival_with_a_footfall_comes_on_the_beat(falls_s: list[float], expected: int) -> None:
-    """A leg in mid-swing is slow too: where a foot comes down the dancer steps."""
+    """A leg is slow in mid-swing too; the footfall decides."""
     speed, arrivals = slow_at(20, 40, 90)
     found = accents_s(SEGMENTS, [FPS], [speed], [arrivals], [np.array(falls_s)])
     assert found[0] * FPS == pytest.approx(expected)

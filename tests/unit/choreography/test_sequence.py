@@ -1,4 +1,4 @@
-"""The search over segments: against the Viterbi algorithm where it is one, against all ways where they are few."""
+"""Search for the sequence of segments, compared with the Viterbi algorithm and with all sequences if there are few."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tests.support.dances import beaten
 
 
 class Scored(BaseHMM):
-    """A model of hmmlearn whose observations are the states' scores themselves."""
+    """Model of hmmlearn whose observations are the states' scores."""
 
     def _compute_log_likelihood(self, scores: np.ndarray) -> np.ndarray:
         return scores
@@ -46,13 +46,13 @@ def emission(count: int, seed: int) -> np.ndarray:
 
 
 def heard_by(log_odds: np.ndarray) -> Hearing:
-    """Segments that hear by log odds (S, 47) of symbols."""
+    """Segments with given log odds (S, 47) of symbols."""
     odds = SoundOdds(np.zeros(log_odds.shape), log_odds, DancersDrums(np.zeros((1, len(SYMBOLS)))))
     return Hearing(odds, odds)
 
 
 def struck(times_s: np.ndarray, scores: np.ndarray) -> HeardHits:
-    """Hits of given log odds (H, S)."""
+    """Hits with given log odds (H, S)."""
     return HeardHits(times_s, np.concatenate([np.zeros((1, scores.shape[1])), np.cumsum(scores, axis=0)]))
 
 
@@ -86,8 +86,9 @@ def scored(
     own: SegmentCandidates,
     weights: Weights,
 ) -> float:
-    """Return the score of a path through the grid, added up step by step; negative infinity if a step is too fast or
-    too slow or repeats a segment."""
+    """Score of a path through the grid, calculated step by step; negative infinity if a step is too fast or too slow or
+    repeats a segment.
+    """
     total, starts = 0.0, [float(grid.times_s[way[0][0]] - own.before_s[way[0][1]])]
     for place, _ in way:
         total -= 0.0 if grid.on_beat[place] else weights.off_beat
@@ -118,7 +119,7 @@ def scored(
 
 
 def events(own: SegmentCandidates, segment: int) -> list[tuple[float, float]]:
-    """Arrivals of a segment and what they are worth."""
+    """Arrivals of a segment with their values."""
     assert own.meets is not None
     pairs = zip(own.meets.times_s[segment], own.meets.worths[segment], strict=True)
     return [(float(at), float(worth)) for at, worth in pairs if np.isfinite(at)]
@@ -172,7 +173,7 @@ def test_a_start_that_fits_badly_is_danced_where_it_is_pinned() -> None:
 
 
 def test_arrivals_within_motions_are_danced_to_beats() -> None:
-    """Every other motion arrives once more a beat after its accent, the others between two beats."""
+    """Every other motion has another arrival a beat after its accent, the others between two beats."""
     count = 12
     between = np.where(np.arange(count) % 2, 0.25, 0.5)
     own = SegmentCandidates(
@@ -186,7 +187,7 @@ def test_arrivals_within_motions_are_danced_to_beats() -> None:
 
 @pytest.mark.parametrize("where", [0.0, 0.2, 0.4, 0.6, 0.8])
 def test_a_sound_is_heard_wherever_it_is_in_a_beat(where: float) -> None:
-    """Two kinds of motions, each with a sound of its own: each is danced while its sound is struck."""
+    """Two kinds of motions with one sound each: each is danced while its sound is struck."""
     random = np.random.default_rng(1)
     own = SegmentCandidates(
         np.arange(12) % 2, np.full(12, 0.25), np.full(12, 0.25), random.uniform(0.0, 0.05, (12, 12)), np.zeros((12, 12))

@@ -1,4 +1,4 @@
-"""Spins that are danced too fast slow down, arrive when they did, and nothing else changes."""
+"""Spins danced too fast are slowed down and arrive at the same time, without other changes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.support.dances import stepping
 
 
 def spinning(fps: int, peak_rad_s: float, turn_rad: float, tilt_rad: float = 0.1) -> MotionClip:
-    """A body that turns by so much in its middle, at up to this speed, a little tilted."""
+    """Slightly tilted body that turns by an angle in the middle, at up to a given speed."""
     clip = stepping(8, fps=fps)
     lasts_s = 2.0 * turn_rad / peak_rad_s
     share = np.clip((np.arange(len(clip)) / fps - 2.0) / lasts_s + 0.5, 0.0, 1.0)

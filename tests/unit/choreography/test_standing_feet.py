@@ -1,4 +1,4 @@
-"""A foot takes time to go from one place to the next."""
+"""Feet take time to move between places."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tests.support.dances import SHANK_M, THIGH_M, stepping, still
 
 
 def carried(way_m: float) -> tuple[MotionClip, BoolArray]:
-    """A body that stands, and is carried sideways within a moment in which its feet leave the floor, as by a join."""
+    """Standing body that is carried sideways during a short absence of its feet from the floor, as by a join."""
     clip = still(120)
     share = np.clip((np.arange(120) - 57) / 6.0, 0.0, 1.0)
     hips = clip.hips_m + way_m * share[:, None] * (1.0, 0.0, 0.0) - np.array((0.0, 0.03, 0.0))
@@ -111,7 +111,7 @@ def test_the_heavy_bend_their_knees_and_step_where_they_stepped(weight: float) -
 
 
 def test_the_hips_move_towards_a_lunging_foot_that_is_out_of_reach() -> None:
-    """A foot farther from the hips than their lowest height allows stays in place, and they move slowly towards it."""
+    """A foot beyond the reach of the lowest hips stays in place, and the hips move slowly towards it."""
     leg_m = THIGH_M + SHANK_M
     place_m = (0.1, 0.0, 0.2 + 0.88 * leg_m)
     found = planted(still(120), (FootPlant(0, 20, 50, place_m),))
@@ -123,7 +123,7 @@ def test_the_hips_move_towards_a_lunging_foot_that_is_out_of_reach() -> None:
 
 
 def test_knees_do_not_bend_backwards() -> None:
-    """A knee that goes through straight to behind comes to rest a little behind it; one that bends ahead is kept."""
+    """A knee that moves through straight to backwards is limited; one that bends forwards is unchanged."""
     clip = still(60)
     bends_rad = np.linspace(1.0, -1.0, 60)
     turns = quaternion.from_rotation_vector(bends_rad[:, None] * np.array((1.0, 0.0, 0.0)))
@@ -141,7 +141,9 @@ def test_knees_do_not_bend_backwards() -> None:
 
 
 def test_a_knee_that_would_fold_through_the_thigh_stays_folded() -> None:
-    """A bend by more than half a turn, as of a kick that fades into another motion, is not one backwards."""
+    """A bend by more than half a turn, as of a kick that fades into another motion, is not mistaken for a backward
+    bend.
+    """
     clip = still(61)
     bends_rad = 2.2 + 1.6 * np.sin(np.linspace(0.0, np.pi, 61))
     turns = quaternion.from_rotation_vector(bends_rad[:, None] * np.array((1.0, 0.0, 0.0)))

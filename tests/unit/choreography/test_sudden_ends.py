@@ -1,4 +1,4 @@
-"""Feet and hands of dances that are no more sudden than captured ones."""
+"""Feet and hands of dances move no more suddenly than captured ones."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ CLIP = stepping(16)
 
 
 def accelerations(clip: MotionClip, name: str) -> np.ndarray:
-    """(F - 2, 2) of a joint and its end, m/s^2."""
+    """Accelerations (F - 2, 2) of a joint and its end in m/s^2."""
     at = [SEGMENTS.index(name), len(SEGMENTS) + ENDS.index(name)]
     change = np.diff(points_m(clip)[:, at], 2, axis=0)
     return np.linalg.norm(change, axis=-1) * float(clip.fps) ** 2
 
 
 def twitching(name: str, frame: int) -> MotionClip:
-    """Steps in which a limb is bent by 15 degrees more in one frame."""
+    """Steps in which a limb bends by 15 degrees more in one frame."""
     rotations = CLIP.rotations.copy()
     part = SEGMENTS.index(name)
     twitch = Rotation.from_rotvec(np.radians(15.0) * np.array((0.0, 1.0, 0.0) if "Arm" in name else (1.0, 0.0, 0.0)))
@@ -66,7 +66,7 @@ def test_a_wrist_that_darts_along_its_hand_is_calmed_too() -> None:
 
 
 def test_a_straight_leg_is_calmed_within_its_reach() -> None:
-    """The calm path of a kick with a straight leg is cut short by the leg's reach and bent again."""
+    """The smoothed path of a kick with a straight leg exceeds the leg's reach and must be corrected again."""
     clip = still(90, int(FPS))
     kick_rad = 0.3 * np.exp(-np.square((np.arange(90) - 45) / 3.0))
     turns = Rotation.from_rotvec(-kick_rad[:, None] * np.array((1.0, 0.0, 0.0)))

@@ -1,4 +1,4 @@
-"""Arrivals are put on beats, within the limits of speed."""
+"""Arrivals are moved to beats within the limits of speed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tests.support.dances import beaten
 
 
 def even(length_s: float, every_s: float) -> TimeMap:
-    """Warp that changes nothing, with knots at equal distances."""
+    """Warp without changes, with equally distant knots."""
     times_s = np.arange(0.0, length_s + 1e-9, every_s)
     return TimeMap(times_s, times_s.copy())
 

@@ -1,4 +1,4 @@
-"""Players who dance while they play: contacts judged as the program judges them, with the bundled choreography."""
+"""Players who dance while playing: contacts with the bundled choreography, checked by the program's own judge."""
 
 from __future__ import annotations
 
@@ -177,7 +177,7 @@ def test_what_is_shown_follows_an_edit_and_undo() -> None:
 
 
 def test_the_exported_file_keeps_fingers_lips_feet_and_bones(tmp_path: Path) -> None:
-    """Two bars at full amount and none, read back from FBX: within the bounds of every player's report."""
+    """Two bars at full amount and two without dance, read from FBX, are within the bounds of every player's report."""
     base = piece(LUTKIN)
     player = player_of(base, "trumpet")
     measures = []
@@ -209,8 +209,9 @@ def test_the_exported_file_keeps_fingers_lips_feet_and_bones(tmp_path: Path) -> 
 
 
 def test_nothing_long_is_done_at_once_in_the_window(tmp_path: Path) -> None:
-    """Neither reading a choreography nor generating a dance: the plan is left to the thread that works, and what was
-    seen before is shown meanwhile."""
+    """The window's thread neither reads a choreography nor generates a dance: a worker plans, and the previous motion
+    is shown meanwhile.
+    """
     copy = tmp_path / "copy.choreography"
     copy.write_bytes(choreography_path("salsa").read_bytes())
     project = played()

@@ -1,4 +1,4 @@
-"""Players who dance, as their exported files have them: joints placed by forward kinematics over a BVH read back."""
+"""Exported files of players who dance: joint positions by forward kinematics over the BVH."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ LOW_M = 0.0003
 
 
 class Played:
-    """World places (F, 3) of joints, and the times of the frames."""
+    """World positions (F, 3) of joints, and times of the frames."""
 
     def __init__(self, path: Path, first_s: float) -> None:
         clip = read_bvh(path)
@@ -59,7 +59,7 @@ class Played:
         return np.rad2deg(turned.magnitude())
 
     def tip_m(self, side: str) -> FloatArray:
-        """(F, 3) tip of a foot: ahead of the ball by a third of the way there from the ankle."""
+        """Position (F, 3) of the tip of a foot: beyond the ball by a third of the distance from the ankle."""
         toes = self._joint[f"{side}Toes"]
         stands = int(self.at_m(f"{side}Toes")[:, 1].argmin())
         ahead_m = (self.at_m(f"{side}Toes") - self.at_m(f"{side}Foot"))[stands] / 3.0
@@ -69,7 +69,7 @@ class Played:
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, PlayerReport], FloatArray, float]:
-    """A clarinet that stands and a bassoon on a chair, at the amount that new dances have."""
+    """Export of a standing clarinettist and a seated bassoonist with the default amount of new dances."""
     project = piece(TRIO)
     clarinet, bassoon = player_of(project, "clarinet"), player_of(project, "bassoon")
     project = set_body_dance(project, (clarinet.id, bassoon.id), "salsa")

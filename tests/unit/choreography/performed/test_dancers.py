@@ -1,4 +1,4 @@
-"""Dancers of a project: their motion over the piece, beside the players, and what is shown where one cannot dance."""
+"""Dancers of a project: their motion over the piece next to the players, and the display if one cannot dance."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def choreography(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 @cache
 def played() -> Project:
-    """A piece of some bars."""
+    """A performance of some bars."""
     project = small_project()
     part = project.score.parts[0]
     notes = tuple(
@@ -70,7 +70,7 @@ def frames(project: Project) -> tuple[Performance, np.ndarray]:
 
 
 def test_hours_are_not_danced_to(choreography: str) -> None:
-    """A dance is made as a whole: one of twelve hours would take 27 GB."""
+    """Dances are generated as a whole; one of twelve hours would take 27 GB."""
     project = played()
     part = project.score.parts[0]
     last = msgspec.structs.replace(part.notes[-1], id="9:999", onset_tick=480 * 3600 * 2)
