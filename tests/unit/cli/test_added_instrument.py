@@ -1,4 +1,4 @@
-"""An instrument no one knew: a map and a model in the user's folder, through the command line to files on the disk."""
+"""An instrument added as map and model in the user's folder, used through the command line to exported files."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def test_the_guides_whistle_plays_without_a_line_of_code(
 
 
 def test_a_child_holds_the_whistle_as_it_is(piece: Path) -> None:
-    """No hold of it comes with the program: one is fitted to the child's hands."""
+    """No grip for this pair is bundled; one is fitted to the child's hands."""
     player = Player("p", "P", "p", "tin_whistle_D", "child_hina", PlayerParameters(), StagePosition(0.0, 0.0, 0.0))
     whistle = library.find_map("tin_whistle_D")
     assert suited_to(player, whistle) == FittedInstrument(whistle, ())

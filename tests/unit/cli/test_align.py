@@ -1,4 +1,4 @@
-"""``suisou align``: a piece at the tempo of a recording."""
+"""``suisou align``: a piece with the tempo of a recording."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def quartet() -> Path:
 
 @pytest.fixture(scope="module")
 def concert(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The quartet with a tempo that bends, beginning at 3 s, in a file with something else before and after."""
+    """Recording of the quartet with a varying tempo, beginning at 3 s, with other sound before and after."""
     path = tmp_path_factory.mktemp("sound") / "concert.flac"
     silence = np.zeros((3 * RATE_HZ, 2))
     soundfile.write(path, np.concatenate([silence, np.clip(recorded(), -1.0, 1.0)]), RATE_HZ)
@@ -37,7 +37,7 @@ def concert(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def errors_s(path: Path, begins_s: float) -> np.ndarray:
-    """Errors of the notes of an aligned file, whose tick 0 is at this second of the recording."""
+    """Errors in seconds of the notes of an aligned file whose tick 0 is at a given time of the recording."""
     score = load(path).score if path.suffix == ".suisou" else read_midi(path, maps=map_choices(bundled_maps().values()))
     notes = np.array([note.onset_tick for part in score.parts for note in part.notes], np.float64)
     true_s = truth().score.tempo_map.seconds(notes * truth().score.ticks_per_quarter / score.ticks_per_quarter)

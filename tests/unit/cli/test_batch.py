@@ -1,4 +1,4 @@
-"""`suisou export FOLDER`: every piece, whatever is wrong with another; a run that was stopped goes on."""
+"""`suisou export FOLDER`: every piece is exported regardless of errors in others, and a stopped run is resumed."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def pieces(tmp_path: Path) -> Path:
 
 
 def results(printed: str) -> dict[str, str]:
-    """The last cell of every piece's line."""
+    """Last cell of every piece's line in the table."""
     lines = [line.split("  ") for line in printed.splitlines() if line.strip()]
     return {line[0].strip(): line[-1].strip() for line in lines[1:-1]}
 
@@ -79,7 +79,7 @@ def test_one_bad_file_stops_nothing_and_is_tried_again(
 
 @pytest.fixture(autouse=True)
 def _own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The user has a folder for each kind of own files, for the processes of the pieces too."""
+    """Set folders of the user's own files, for the pieces' processes too."""
     for kind in OWN_FOLDERS:
         monkeypatch.setenv(kind.variable, str(tmp_path / "own" / kind.name))
 
@@ -125,7 +125,7 @@ def test_what_a_project_names_changes_its_digest(tmp_path: Path) -> None:
 
 @pytest.fixture
 def writes_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Pieces are exported as soon as they are asked for, without a process."""
+    """Export pieces immediately in this process."""
 
     def write(given: list[str], piece: str, folder: str) -> BatchOutcome:
         Path(folder).mkdir(parents=True, exist_ok=True)
@@ -158,7 +158,7 @@ def test_own_rules_and_other_options_export_every_piece_again(
 
 
 def cut_off(where: str) -> bytes:
-    """The quartet's file as far as somewhere in its last track."""
+    """The quartet's file, cut within its last track."""
     whole = QUARTET.read_bytes()
     last = whole.rindex(b"MTrk")
     event = whole.index(b"\x93", last + 100)

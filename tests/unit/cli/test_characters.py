@@ -1,4 +1,4 @@
-"""`suisou characters`: what is printed of a figure, corrections by hand, adding."""
+"""`suisou characters`: printed reports of figures, corrections, adding."""
 
 import json
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""Test whether there is a display."""
+"""Detection of a display."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An export on the command line says what it replaces before anything is written, as the dialog does."""
+"""An export on the command line reports before writing which files it replaces, like the dialog."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.errors import FileError
 
 
 def piece(path: Path) -> str:
-    """Four bars of a trumpet."""
+    """Four bars for a trumpet."""
     track = mido.MidiTrack([mido.MetaMessage("track_name", name="Trumpet")])
     for pitch in (67, 69, 71, 72):
         track += [mido.Message("note_on", note=pitch), mido.Message("note_off", note=pitch, time=1920)]

@@ -1,4 +1,4 @@
-"""Test what `suisou film` refuses before anything is drawn; what it draws is in tests/gui/viewport/test_film.py."""
+"""Errors of `suisou film` before anything is drawn; tests/gui/viewport/test_film.py tests the drawing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The search for how instruments are held, which may take minutes: it shows how far it is, and Ctrl-C ends it."""
+"""Fitting of grips, which may take minutes: it shows its progress, and Ctrl-C ends it."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from tests.unit.cli.test_main import QUARTET
 
 
 class Terminal(io.StringIO):
-    """Keeps what is written to it."""
+    """A terminal that records its output."""
 
     def isatty(self) -> bool:
         return True
@@ -110,7 +110,7 @@ def test_without_a_terminal_a_line_names_each_grip_that_is_computed_and_none_tha
 
 
 def off_by_20_mm(character: Any, model: Any, instrument: Any, body: Any, progress: Any) -> GripPose:
-    """A stored hold of the instrument, with a first firm touch that misses."""
+    """Stored grip of the instrument whose first mandatory touch is off by 20 mm."""
     ours = bundled_maps()[instrument.id]
     hold = hold_for(character_named("man_adult"), load_instrument(model_path(ours), ours), ours, load_body())
     hand = hold.hands[0]
@@ -123,7 +123,7 @@ def off_by_20_mm(character: Any, model: Any, instrument: Any, body: Any, progres
 
 @pytest.fixture
 def _missing(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No hold is known yet, and all that are found out miss a touch."""
+    """Make all grips unknown, and each fitted one miss a touch."""
     monkeypatch.setattr(bodies, "hold_for", off_by_20_mm)
     monkeypatch.setattr(bodies, "_HOLDS", IdentityCache(8))
     monkeypatch.setattr(bodies, "_HELD", set())
@@ -133,7 +133,7 @@ def _missing(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_what_the_hold_of_a_users_own_character_misses_is_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """By every command that does not write files: it is found out first."""
+    """Every command that writes no files reports it, fitting the grip first."""
     track = mido.MidiTrack([mido.MetaMessage("track_name", name="x")])
     track += [mido.Message("note_on", note=64, velocity=80), mido.Message("note_off", note=64, time=240)]
     path = tmp_path / "x.mid"

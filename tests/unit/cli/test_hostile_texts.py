@@ -1,4 +1,4 @@
-"""No text from a file, and no name of one, is obeyed by the terminal or passes for a line of the program's own."""
+"""Texts from files and file names cannot control the terminal or imitate the program's own lines."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ KEPT = "曲 ガ\u3000é👩\u200d🎤"
 
 
 def harmless(printed: str) -> str:
-    """Return a printed text, after checking that it has no control characters and no line of its own made by a name."""
+    """Check that a printed text has no control characters and no forged line, and return it."""
     assert not [c for c in printed if c != "\n" and unicodedata.category(c) in ("Cc", "Zl", "Zp", "Cs")]
     assert "\u202e" not in printed
     assert f"\n{FORGED}" not in printed
@@ -41,14 +41,14 @@ def harmless(printed: str) -> str:
 
 
 def inside(printed: str) -> str:
-    """The same, which also holds the text as far as it is only text."""
+    """Check the same, and that the harmless part of the text is contained."""
     assert KEPT in printed
     return harmless(printed)
 
 
 @pytest.fixture
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The user's own folder of instruments and characters, whose name is such a text too."""
+    """Folder of the user's own instruments and characters with a hostile name."""
     folder = tmp_path / HOSTILE
     folder.mkdir()
     monkeypatch.setenv("SUISOU_INSTRUMENTS", str(folder))
@@ -146,7 +146,7 @@ def test_figures(run: Run, own: Path) -> None:
 
 
 def rename(file: Path) -> None:
-    """Give the mesh and a bone of a glTF binary such a name."""
+    """Give the mesh and a bone of a glTF binary a hostile name."""
     content = file.read_bytes()
     (length,) = struct.unpack_from("<I", content, 12)
     table: dict[str, Any] = json.loads(content[20 : 20 + length])

@@ -1,4 +1,4 @@
-"""Test what `suisou inspect` prints for people."""
+"""Text output of `suisou inspect`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ctrl-C, at any moment: exit status 130 and no traceback."""
+"""Ctrl-C at any moment ends a command with exit status 130 and without a traceback."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ LOADING = {
 
 
 def stopped_after(module: str, arguments: list[str], folder: Path) -> tuple[int, str]:
-    """Exit status and what was printed (besides Python's list of modules) of a command stopped while it loads."""
+    """Exit status and output (except for Python's list of modules) of a command that is stopped while loading."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "QT_QPA_PLATFORM": "offscreen"}
     command = [sys.executable, "-X", "importtime", "-m", "app", *arguments]
     with subprocess.Popen(command, cwd=folder, env=environment, stderr=subprocess.PIPE, text=True) as process:

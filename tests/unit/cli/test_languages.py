@@ -1,4 +1,4 @@
-"""The command line in both languages: nothing is left in the other one, and what scripts read stays."""
+"""The command line in both languages: texts are completely translated, and output for scripts stays the same."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ FOR_PROGRAMMERS = {
 
 
 def commands() -> Iterator[CommandParser]:
-    """Every sub-command, and theirs."""
+    """Every sub-command, including nested ones."""
     pending: list[argparse.ArgumentParser] = [parser()]
     while pending:
         command = pending.pop()

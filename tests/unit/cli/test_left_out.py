@@ -1,4 +1,4 @@
-"""A player who cannot play is named with the reason; the others are exported, streamed and inspected."""
+"""A player who cannot play is reported with the reason; the others are exported, streamed and inspected."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def saved(project: Project, tmp_path: Path) -> str:
 
 
 def bad_project(own: OwnFolders, what: str, kind: str) -> tuple[Project, str]:
-    """The trumpet cannot play, the trombone can; and what has to be said."""
+    """Project whose trumpet cannot play and whose trombone can, with the expected message."""
     make, reason = (BAD_CHARACTERS if what == "character" else BAD_INSTRUMENTS)[kind]
     return (with_character if what == "character" else with_instrument)(small_project(), 0, make(own)), reason
 

@@ -1,4 +1,4 @@
-"""The commands as the user meets them: what they print, how they end, and that no traceback is ever shown."""
+"""The commands as users experience them: output, exit status, and no traceback in any case."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def suisou(*arguments: str | Path, **options: Any) -> subprocess.CompletedProces
 
 
 def named_piece(path: Path, *names: str) -> Path:
-    """Two bars of trumpet for every name."""
+    """Piece with two bars of trumpet for every name."""
     file = mido.MidiFile(type=1, ticks_per_beat=480, charset="utf-8")
     for number, name in enumerate(names):
         track = mido.MidiTrack()
@@ -318,7 +318,7 @@ def test_what_is_no_midi_file(run: Run, what: str, tmp_path: Path) -> None:
 
 
 def test_a_piece_of_months_is_refused(run: Run, tmp_path: Path) -> None:
-    """Four wrong bytes in a delta time are enough to make one."""
+    """Four wrong bytes in a delta time suffice for such a length."""
     file = mido.MidiFile(ticks_per_beat=24)
     track = mido.MidiTrack([mido.Message("program_change", program=56)])
     for wait in (0, 0xFFFFFFF):

@@ -1,4 +1,4 @@
-"""``suisou metadata``: what there is, and what was said of a piece."""
+"""``suisou metadata``: lists of tables, and a piece's acting metadata."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Run = Callable[..., tuple[int, str, str]]
 
 @pytest.fixture
 def run(capsys: pytest.CaptureFixture[str]) -> Run:
-    """Runs the program; status, stdout and stderr."""
+    """Run the program and return status, stdout and stderr."""
 
     def call(*arguments: object) -> tuple[int, str, str]:
         status = main([str(argument) for argument in arguments])

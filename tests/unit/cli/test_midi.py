@@ -37,8 +37,9 @@ def test_the_file_holds_what_was_read(quartet: Path, tmp_path: Path, capsys: pyt
 
 
 def test_percussion_and_a_melody_on_channel_10_are_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Channel 10 is a trumpet's and channel 11 a drum kit by XG: the drums come back on channel 10, the trumpet off it,
-    for any program to understand."""
+    """In the input, channel 10 is a trumpet and channel 11 a drum kit by XG; the output has the drums on channel 10 and
+    the trumpet elsewhere, so that any program understands it.
+    """
     melody = bytes([0, 0xB9, 0, 0, 0, 0xC9, 56]) + b"".join(note(pitch, channel=9) for pitch in (60, 62, 64))
     drums = bytes([0, 0xBA, 0, 127, 0, 0xCA, 0]) + b"".join(note(pitch, 12, 10) for pitch in (36, 33, 42, 42, 25))
     drums += note(42, 12, 10) + bytes([0, 0x9A, 36, 90, 0, 0x9A, 36, 80, 9, 0x8A, 36, 0, 0, 0x8A, 36, 0])

@@ -1,4 +1,4 @@
-"""The commands of ``docs/from-your-notation-program.md`` do what the guide says, on the bundled score."""
+"""The commands of ``docs/from-your-notation-program.md`` work as described with the bundled score."""
 
 from __future__ import annotations
 

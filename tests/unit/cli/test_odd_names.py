@@ -1,4 +1,4 @@
-"""Names of files that are not UTF-8, and locales that are not: every command takes them."""
+"""All commands accept file names that are not UTF-8, and locales that are not."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ CHARACTERS = ROOT / "tests" / "data" / "characters"
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Iterator[Path]:
-    """A folder of such a name with such a piece in it; the user's own files are in such folders too."""
+    """Folder with such a name that contains a piece with such a name; the user's own files are in such folders too."""
     result = odd(tmp_path)
     result.mkdir()
     shutil.copy(QUARTET, odd(result, ".mid"))
@@ -43,7 +43,7 @@ def _reload() -> None:
 
 
 def readable(printed: str) -> str:
-    """Return a printed text, after checking that it can be encoded and that no name is escaped."""
+    """Check that a printed text can be encoded and that no name is escaped, and return it."""
     printed.encode()
     assert "\\udc" not in printed
     return printed
@@ -141,7 +141,7 @@ def test_names_longer_than_the_system_takes(run: Run, tmp_path: Path, arguments:
 
 
 def test_a_locale_that_is_not_utf8(tmp_path: Path) -> None:
-    """Names are on the disk as they are meant, though Python makes nothing better of the locale."""
+    """Names are stored correctly on the disk although Python misinterprets the locale."""
     environment = {**os.environ, "LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
     named_piece(tmp_path / f"{NAME}.mid", "ホルン")
     shutil.copy(tmp_path / f"{NAME}.mid", odd(tmp_path, ".mid"))

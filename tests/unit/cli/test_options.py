@@ -1,4 +1,4 @@
-"""Test options and their values, as users type them."""
+"""Options and their values as users type them."""
 
 from __future__ import annotations
 

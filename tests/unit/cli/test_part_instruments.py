@@ -1,4 +1,4 @@
-"""Parts without an instrument: which they are, and the command that gives them one, as it is printed."""
+"""Parts without an instrument, and the printed command that assigns one."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def piece(path: Path, names: tuple[str, ...]) -> Path:
 
 
 def command_in(said: str) -> list[str]:
-    """The words of the command that a message names, as a shell reads them."""
+    """Words of the command in a message, as parsed by a shell."""
     command = said.partition("for example: ")[2].rpartition(" (`suisou instruments`")[0]
     return shlex.split(command)
 

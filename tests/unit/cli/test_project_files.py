@@ -1,4 +1,4 @@
-"""Sub-commands take a project where they take a MIDI file."""
+"""Sub-commands accept a project instead of a MIDI file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Commands and labels of the README and the guides: what stands there can be typed, and is in the window."""
+"""Commands in README and guides can be run, and their labels exist in the window."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ TEXTS_OF_GUIDES = [guide.read_text(encoding="utf-8") for guide in GUIDES]
 
 
 def commands(pattern: str) -> list[tuple[str, ...]]:
-    """Commands in the guides' texts, as words; what the shell does with the output is left out."""
+    """Commands in the guides' texts as words, without redirection of the output."""
     found = {command for text in TEXTS_OF_GUIDES for command in re.findall(pattern, text, re.MULTILINE)}
     split = [shlex.split(command, comments=True) for command in sorted(found)]
     return sorted({tuple(words[: words.index(">")] if ">" in words else words) for words in split if len(words) > 1})
@@ -111,7 +111,7 @@ def test_commands_of_guides_run_where_they_are_quick(
 
 
 def lay_out_files(folder: Path) -> None:
-    """Put files under the names that guides use into a folder: the bundled quartet, projects of it, and tables."""
+    """Put files with the names used in guides into a folder: the bundled quartet, projects of it, and tables."""
     for suffix in (".mid", ".musicxml"):
         shutil.copy(ROOT / f"resources/examples/quartet{suffix}", folder)
     arguments = parser().parse_args(["inspect", str(folder / "quartet.mid")], argparse.Namespace(given=()))

@@ -1,4 +1,4 @@
-"""Test who plays a track, by its name, its number or its notes: whole files through ``suisou inspect``."""
+"""Recognition of a track's instrument by its name, program or notes, with whole files through ``suisou inspect``."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ GUESSED = {
 
 
 def encodings(name: str) -> list[str]:
-    """Those that sequencers write such a name in."""
+    """Encodings in which sequencers write such a name."""
     if any("\u3040" <= character <= "\u9fff" or character > "\uff00" for character in name):
         return ["utf-8", "cp932"]
     return ["utf-8", *(["latin-1"] if not name.isascii() and all(ord(character) < 256 for character in name) else [])]
@@ -109,7 +109,7 @@ def track_of(
     pitches: tuple[int, ...] = (60, 62, 64),
     instrument_name: bytes = b"",
 ) -> mido.MidiTrack:
-    """A track of those notes."""
+    """Track with given notes."""
     track = mido.MidiTrack()
     if name:
         track.append(mido.MetaMessage("track_name", name=name.decode("latin-1")))
@@ -124,7 +124,7 @@ def track_of(
 
 
 def inspected(path: Path, capsys: pytest.CaptureFixture[str], *tracks: mido.MidiTrack) -> dict[str, Any]:
-    """A file of some tracks, inspected."""
+    """Report on a file with some tracks."""
     mido.MidiFile(type=1, tracks=[mido.MidiTrack(), *tracks], charset="latin-1").save(path)
     assert main(["inspect", str(path), "--json"]) == 0
     found: dict[str, Any] = json.loads(capsys.readouterr().out)
@@ -133,13 +133,13 @@ def inspected(path: Path, capsys: pytest.CaptureFixture[str], *tracks: mido.Midi
 
 
 def easy(map_id: str) -> tuple[int, int, int]:
-    """Pitches that are easy on an instrument."""
+    """Pitches in the easy range of an instrument."""
     low = bundled_maps()[map_id].range.easy_low
     return low, low + 2, low + 4
 
 
 def parts(path: Path, *tracks: mido.MidiTrack) -> list[tuple[str, str]]:
-    """Names of a file's parts and the instruments they have, without anything planned."""
+    """Names of a file's parts with their recognised instruments, without planning."""
     mido.MidiFile(type=1, tracks=[mido.MidiTrack(), *tracks], charset="latin-1").save(path)
     score = read_midi(path, maps=map_choices(bundled_maps().values()))
     assert not {warning.id for warning in score.warnings} & GUESSED

@@ -1,4 +1,4 @@
-"""``suisou ports`` and ``suisou record`` as the user meets them, over real MIDI transport (JACK's dummy server)."""
+"""``suisou ports`` and ``suisou record`` with real MIDI transport (JACK's dummy server)."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def run(capsys: pytest.CaptureFixture[str]) -> Run:
 
 @pytest.fixture(autouse=True)
 def _state(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The second place of recordings is the test's own, not the user's."""
+    """Use a temporary folder instead of the user's second folder for recordings."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
 
 
@@ -60,7 +60,7 @@ def player(jack: None) -> Iterator[WindPlayer]:
 
 @pytest.fixture
 def playing(player: WindPlayer) -> Iterator[WindPlayer]:
-    """Someone who does not stop."""
+    """A synthetic player who plays continuously."""
     done = threading.Event()
 
     def play() -> None:
@@ -163,7 +163,7 @@ def test_nothing_is_written_over(run: Run, tmp_path: Path) -> None:
 
 
 def left(tmp_path: Path) -> Path:
-    """The journal of a recording that was killed."""
+    """Journal of a recording that was killed."""
     journal = tmp_path / "take.mid.take-journal"
     writer = JournalWriter(str(journal), JournalHeader("", "", "EWI USB", "ewi_usb", 0.0, ""))
     writer.sync(10**9, 0.0, 0)

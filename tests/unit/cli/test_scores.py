@@ -1,4 +1,4 @@
-"""A score in MusicXML goes wherever a MIDI file does."""
+"""Every command that accepts a MIDI file also accepts a MusicXML score."""
 
 from __future__ import annotations
 

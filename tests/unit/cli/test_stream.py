@@ -1,4 +1,4 @@
-"""``suisou stream``: a piece in time, to a program that listens."""
+"""``suisou stream``: a piece in real time, sent to a listening program."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def quartet() -> Path:
 
 
 def length_s(quartet: Path, capsys: pytest.CaptureFixture[str]) -> float:
-    """Return the end of the piece (s) that the program itself prints."""
+    """End of the piece in seconds as printed by the program."""
     assert main(["stream", str(quartet), "--player", "Trombone 1", "--from", "9999"]) == BAD_USE
     (end,) = re.findall(r"lasts from -?[0-9.]+ to ([0-9.]+) s$", capsys.readouterr().err)
     return float(end)
@@ -70,7 +70,7 @@ def test_everyone_has_a_port_and_a_place(quartet: Path, capsys: pytest.CaptureFi
 def test_dancers_of_a_project_have_the_ports_after_the_players(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The first of two dancers cannot dance, and keeps the port all the same."""
+    """The first of two dancers cannot dance but keeps the port."""
     project = with_dancers(bundled_quartet(), tmp_path, "Removed", "Ana")
     gone = msgspec.structs.replace(project.dancers[0], choreography=str(tmp_path / "gone.choreography"))
     ana = project.dancers[1]

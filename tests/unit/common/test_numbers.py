@@ -1,4 +1,4 @@
-"""Numbers as the user types and reads them."""
+"""Numbers as users type and read them."""
 
 from __future__ import annotations
 

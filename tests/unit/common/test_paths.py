@@ -1,4 +1,4 @@
-"""Paths as Qt has them: what it drops, and that their bytes come through URLs."""
+"""Paths in Qt: characters that Qt drops, and bytes preserved in URLs."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def test_what_is_no_file() -> None:
 
 
 def test_what_qt_itself_makes_of_such_names(tmp_path: Path) -> None:
-    """Should this fail, Qt has learnt them, and `widgets.common.paths` may do less."""
+    """If this fails, Qt supports such names and `widgets.common.paths` can be simplified."""
     path = odd(tmp_path, ".mid")
     path.write_bytes(b"x")
     assert QDir(str(tmp_path)).entryList(QDir.Filter.Files) == []

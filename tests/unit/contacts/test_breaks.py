@@ -1,4 +1,4 @@
-"""Contacts that are not kept: frames become spans, spans of one contact one problem, and nothing is reported twice."""
+"""Broken contacts: frames are joined to spans, spans of one contact to one problem, and nothing is reported twice."""
 
 from __future__ import annotations
 

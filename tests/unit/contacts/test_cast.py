@@ -1,4 +1,4 @@
-"""Forty of the pairs of a person and an instrument, judged as `resources.build.check_cast` judges all of them."""
+"""Forty of the pairs of a person and an instrument, checked like all pairs by `resources.build.check_cast`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Controls are judged at the frames of their notes; against values made up frame by frame."""
+"""Controls are judged at the frames of their notes, compared with synthetic values frame by frame."""
 
 from __future__ import annotations
 
@@ -139,7 +139,7 @@ def test_what_works_is_what_is_found_note_by_note(notes: list[tuple[float, float
 
 
 def _kept_slowly(times_s: FloatArray, notes: list[FingeringEvent], asked: list[bool], moved: Control) -> list[bool]:
-    """Frames of the notes asked for, until the control may leave for the next one, note after note."""
+    """Frames of given notes until the control may move for the next one, calculated note by note."""
     frames = [False] * len(times_s)
 
     def within(start_s: float, end_s: float) -> list[int]:

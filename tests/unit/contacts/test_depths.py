@@ -1,4 +1,5 @@
-"""Test how deep hands are inside an instrument, against slower judges.
+"""Depth of hands inside an instrument, compared with slower methods. One deforms every vertex and measures it against
+every body; the other is the former method by groups of the same frames.
 
 One deforms every vertex one by one and measures it to every body; the other is the search by groups of the same frames
 that the judge was before.
@@ -42,7 +43,7 @@ SINGLE_PRECISION_M = 2e-6
 
 
 class Played(NamedTuple):
-    """Some frames of a player, with the instrument moved."""
+    """Frames of a player with a displaced instrument."""
 
     instrument: InstrumentMap
     joints: JointTransforms
@@ -88,8 +89,9 @@ def played(
 )
 @pytest.mark.parametrize("index", [0, 2], ids=["trumpet", "trombone"])
 def test_no_vertex_of_a_hand_is_left_out(index: int, push_m: tuple[float, float, float], every: int) -> None:
-    """The instrument is pushed into the hands, in all frames or in one of several: what is far in most frames may be
-    deep in one."""
+    """The instrument is moved into the hands in all frames or in one of several, since a part may be far in most frames
+    and deep in one.
+    """
     scene = played(index, push_m, 3.0, every=every)
     deepest = 0.0
     for skin in scene.hands:
@@ -138,7 +140,7 @@ def test_what_is_less_than_asked_for_may_be_left_out(share: float) -> None:
 
 
 def test_the_deepest_of_all_frames_are_as_without_a_least_depth() -> None:
-    """Findings of some frames hold for those that are not looked at."""
+    """Results of some frames also bound those that are not examined."""
     scene = played(2, (0.004, -0.003, 0.002), 8.0, "sax_alto_Eb")
     for skin in scene.hands:
         judge = HandDepths(skin, scene.instrument.proxy)
@@ -151,7 +153,7 @@ def test_the_deepest_of_all_frames_are_as_without_a_least_depth() -> None:
 
 
 def test_hands_whose_vertices_morphs_move() -> None:
-    """Hands of other characters may change with a morph, at once or little by little."""
+    """Morphs of foreign characters may change hands suddenly or gradually."""
     scene = played(2, (0.004, -0.003, 0.002), 4.0)
     frames = len(scene.world)
     swelling = np.linspace(-0.3, 1.0, frames)
@@ -168,7 +170,7 @@ def test_hands_whose_vertices_morphs_move() -> None:
 
 @pytest.mark.parametrize("instrument_id", ["trumpet_Bb", "flute", "sousaphone_BBb"])
 def test_the_field_is_the_distance_to_the_nearest_body(instrument_id: str) -> None:
-    """Around the bodies of every node, and far from them."""
+    """Tested around the bodies of every node, and far from them."""
     instrument = bundled_maps()[instrument_id]
     random = np.random.default_rng(5)
     names = sorted({body.node for body in instrument.proxy})

@@ -1,4 +1,4 @@
-"""Broken contacts are reported where the motion breaks them, and nowhere else; against vertices deformed one by one."""
+"""Broken contacts are reported exactly where the motion breaks them, compared with vertices deformed one by one."""
 
 from __future__ import annotations
 
@@ -83,7 +83,9 @@ def test_a_correction_that_breaks_a_contact_is_reported_where_it_does(
 
 
 def test_the_lips_gap_is_that_of_the_vertices() -> None:
-    """Deformed vertex by vertex, the lips are as far from the rim as reported, and at no other sounding frame."""
+    """The distance of the deformed vertices of the lips from the rim equals the reported one, and no other sounding
+    frame has a gap.
+    """
     project = project_of(LUTKIN)
     player = project.players[0]
     performance = Performance(with_corrections(project, player.id, [LOWERED]))
@@ -120,7 +122,7 @@ def straight(station: StationTable) -> StationTable:
 
 
 def test_a_finger_that_misses_its_valve_is_reported_alone() -> None:
-    """The index finger stretched away from its valve: only its touch is broken."""
+    """The index finger is stretched away from its valve, and only its touch is reported."""
     project = project_of(LUTKIN)
     player = project.players[0]
     performance = Performance(project)

@@ -1,4 +1,4 @@
-"""Test that players who cannot reach a place are reported, note by note; against the exported motion's own hands."""
+"""Players who cannot reach a place are reported note by note, compared with the hands in the exported motion."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def played_by(character_id: str) -> Project:
 
 
 def short_arms() -> Project:
-    """Players with short arms, of whom the last has notes in seventh position."""
+    """Players with short arms, the last of whom has notes in seventh position."""
     project = played_by("woman_adult")
     return in_seventh(project, project.players[3])
 
@@ -58,8 +58,7 @@ def test_long_arms_reach_everything() -> None:
 
 @pytest.mark.parametrize("index", [0, 3])
 def test_what_is_reported_is_what_the_motion_shows(index: int) -> None:
-    """In the motion itself, the slide stops as short as is reported at its notes, and at no other; the hand has
-    it."""
+    """In the motion, the slide stops at the reported place at these notes only, with the hand on it."""
     project = short_arms()
     player = project.players[index]
     performance = Performance(project)

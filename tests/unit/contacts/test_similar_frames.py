@@ -1,4 +1,4 @@
-"""Frames in an order in which those of a block are alike."""
+"""Order of frames in which those of a block are similar."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from app.contacts.similar_frames import order_by_similarity
 
 @pytest.mark.parametrize("blocks", [1, 2, 3, 7])
 def test_poses_that_come_again_are_put_together(blocks: int) -> None:
-    """Every frame is there once, and frames of one pose lie together however they follow each other."""
+    """Every frame occurs once, and frames with equal poses are adjacent regardless of their original order."""
     rng = np.random.default_rng(blocks)
     poses_m = rng.normal(size=(blocks, 12))
     which = rng.permutation(np.repeat(np.arange(blocks), 16))

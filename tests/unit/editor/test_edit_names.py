@@ -1,4 +1,4 @@
-"""Names of edits of notes and events say of what kind they are, whose, and where."""
+"""Names of edits of notes and events state the kind, the player and the place."""
 
 from __future__ import annotations
 

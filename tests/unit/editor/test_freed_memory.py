@@ -1,4 +1,4 @@
-"""Test that memory freed between two things that stay is returned to the system."""
+"""Memory freed between two remaining allocations is returned to the system."""
 
 from __future__ import annotations
 

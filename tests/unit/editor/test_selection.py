@@ -1,4 +1,4 @@
-"""The selection follows plans: events that are gone are no longer selected."""
+"""The selection follows the plans: removed events are deselected."""
 
 from __future__ import annotations
 

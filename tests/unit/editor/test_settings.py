@@ -1,4 +1,4 @@
-"""Test that settings are there in the next run, with their types, whatever the file holds."""
+"""Settings are restored with their types in the next run, whatever the file contains."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Test when frames are sent, by a clock that a test turns: at the rate while something moves, seldom at rest."""
+"""Times at which frames are sent, with a clock controlled by the test: at the full rate during motion,
+seldom at rest.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,7 @@ LATE_S = 0.002
 
 
 class Clock:
-    """Stands still but while the thread waits."""
+    """A clock that advances only while the thread waits."""
 
     def __init__(self) -> None:
         self.now_s = 100.0
@@ -27,7 +29,7 @@ class Clock:
 
 
 class Waiting(threading.Condition):
-    """Waits by turning the clock, and not at all on the machine's own."""
+    """Waits by advancing the clock instead of waiting in real time."""
 
     def __init__(self, clock: Clock) -> None:
         super().__init__()
@@ -41,7 +43,7 @@ class Waiting(threading.Condition):
 
 
 class Sending:
-    """A thread that is asked step by step, and what it sent."""
+    """A thread that is run step by step, and the frames sent."""
 
     def __init__(self, clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(streamer, "time", clock)

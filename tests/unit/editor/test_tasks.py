@@ -1,4 +1,4 @@
-"""Slow work in threads: results, errors, cancelling, keys."""
+"""Background tasks in threads: results, errors, cancelling, keys."""
 
 from __future__ import annotations
 
@@ -146,7 +146,9 @@ def test_ending_waits_for_the_workers(tasks: ThreadTasks, qtbot: QtBot) -> None:
 
 
 def test_what_the_work_knew_dies_in_the_window_s_thread_alone(qtbot: QtBot) -> None:
-    """Whoever forgets the tasks, and however late the thread is: what its work held is let go of here."""
+    """Objects held by a task are freed in the window's thread, regardless of who drops the task and how late the thread
+    ends.
+    """
     died: list[int] = []
 
     class SettingBinding:

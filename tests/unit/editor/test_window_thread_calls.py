@@ -1,4 +1,6 @@
-"""Calls that threads ask for are made in the window's thread, in order, each in its own turn."""
+"""Calls requested by other threads are executed in the window's thread, in order, each in its own turn of the event
+loop.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Viewers' files: as the page writes them, as spreadsheets save them again, and what is refused."""
+"""Viewers' files as saved by the page and by spreadsheets, and refused ones."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LINES = CONTENT.decode("utf-8-sig").split("\r\n")
 
 
 def refused(content: bytes) -> FileError:
-    """The error, which names the file and is worded in both languages."""
+    """Error about a file, which names the file and has a text in both languages."""
     with pytest.raises(FileError) as raised:
         decode_answers(content, FILE)
     message = raised.value.message
@@ -29,7 +29,7 @@ def refused(content: bytes) -> FileError:
 
 
 def changed(line: int, **columns: str) -> bytes:
-    """The file with other values in a line."""
+    """File with other values in a line."""
     values = dict(zip(COLUMNS, LINES[line - 1].split(","), strict=True)) | columns
     return "\r\n".join([*LINES[: line - 1], ",".join(values.values()), *LINES[line:]]).encode()
 

@@ -1,5 +1,6 @@
-"""Test what `suisou evaluate` refuses before anything is drawn, and which videos; what it draws is in
-tests/gui/evaluation/test_command.py."""
+"""Errors of `suisou evaluate` before anything is drawn, and accepted videos; tests/gui/evaluation/test_command.py tests
+the drawing.
+"""
 
 from __future__ import annotations
 
@@ -64,7 +65,7 @@ FILM_FPS = Fraction(5)
 
 
 def film_of(path: Path, sound: Block | None, size: tuple[int, int] = (64, 48)) -> None:
-    """A film whose pictures say by their brightness when they are seen."""
+    """Film whose pictures encode their time as brightness."""
     with video_into(path, size, FILM_FPS, sound, RATE_HZ) as film:
         for index in range(round(LENGTH_S * FILM_FPS)):
             film.write(np.full((size[1], size[0], 3), 2 * index, np.uint8))
@@ -72,7 +73,7 @@ def film_of(path: Path, sound: Block | None, size: tuple[int, int] = (64, 48)) -
 
 @pytest.fixture(scope="module")
 def films(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Films of the quartet from a while after its beginning on: with sound, without, and of something else."""
+    """Films of the quartet from some time after its beginning: with sound, without sound, and of another piece."""
     folder = tmp_path_factory.mktemp("films")
     film_of(folder / "film.mp4", mixdown(quartet(), LATE_S, LATE_S + LENGTH_S, RATE_HZ))
     film_of(folder / "silent.mp4", None)
@@ -83,7 +84,7 @@ def films(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def nothing(share: float) -> None:
-    """Nothing is shown."""
+    """Replacement for drawing that shows nothing."""
 
 
 def test_a_film_is_placed_by_its_sound_and_its_pictures_are_those_of_the_time(films: Path) -> None:
@@ -128,7 +129,7 @@ def test_a_silent_video_is_placed_by_hand(films: Path) -> None:
 
 
 def test_the_piece_follows_a_film_of_a_part_of_it(tmp_path: Path) -> None:
-    """One that is played faster and slower, which an even tempo does not fit."""
+    """The film is played faster and slower, which no constant tempo fits."""
     path, first_s, length_s = tmp_path / "film.mp4", 30, 25
     sound = recorded()[first_s * RATE_HZ : (first_s + length_s) * RATE_HZ]
     with video_into(path, (16, 16), Fraction(1), sound, RATE_HZ) as film:

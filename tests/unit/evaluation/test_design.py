@@ -1,4 +1,4 @@
-"""Orders are balanced, codes say nothing."""
+"""Orders of clips are balanced, and codes reveal nothing."""
 
 from __future__ import annotations
 

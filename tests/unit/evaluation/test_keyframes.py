@@ -1,4 +1,4 @@
-"""Files of motion that players are posed by: ours read back, moved by hand, and of no use."""
+"""Motion files that pose players: exported ones read back, edited ones, and unusable ones."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def motion_of(performance: Performance, name: str) -> Motion:
 
 @pytest.fixture(scope="module")
 def exported(performance: Performance, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Two players as `suisou export` writes them."""
+    """Two players as exported by `suisou export`."""
     folder = tmp_path_factory.mktemp("exported")
     for name in ("Trumpet 1", "Trombone 1"):
         export_bvh(performance, name, folder)
@@ -53,7 +53,7 @@ def exported(performance: Performance, tmp_path_factory: pytest.TempPathFactory)
 
 
 def export_bvh(performance: Performance, name: str, folder: Path) -> None:
-    """Write some seconds of a player as `suisou export` does, with what of its report is read."""
+    """Write some seconds of a player as in `suisou export`, with the parts of the report that are read."""
     player = next(player for player in performance.project.players if player.name == name)
     character, motion = performer_of(performance, player).character, motion_of(performance, name)
     scene = character_scene(character, motion, name, "test", normalised_target(character.skeleton), ())

@@ -1,4 +1,4 @@
-"""Measures of the bundled quartet's first players, and of motions whose measure is known."""
+"""Measures of the bundled quartet's first players, and of motions with known measures."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def test_breaths_show(variants: dict[str, VariantMeasures]) -> None:
 
 
 def test_motion_that_is_held_still_breaks_contact_and_is_missed(duet: Project) -> None:
-    """Fingers that stay where they were are off the keys that move on."""
+    """Motionless fingers are off the moving keys."""
     performance = Performance(duet)
     whole = measure(performance)
     frozen = {
@@ -111,7 +111,7 @@ def test_motion_that_is_held_still_breaks_contact_and_is_missed(duet: Project) -
 @pytest.mark.parametrize("hz", [0.5, 1.0, 4.0])
 @pytest.mark.parametrize("fps", [24.0, 60.0])
 def test_quantity_of_motion_of_a_sine(hz: float, fps: float) -> None:
-    """RMS speed of a sine of 10 mm is its greatest speed over the root of two."""
+    """The root mean square speed of a sine of 10 mm is its greatest speed over the square root of two."""
     times_s = np.arange(0.0, 40.0, 1.0 / fps)
     place_m = np.zeros((len(times_s), 3))
     place_m[:, 0] = 0.010 * np.sin(2.0 * np.pi * hz * times_s)

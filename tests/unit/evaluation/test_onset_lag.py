@@ -1,4 +1,4 @@
-"""Lag of what is seen behind what is heard, on controls that were moved to be early or late."""
+"""Delay of visible motion behind the sound, with controls that were shifted in time."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ TIMES_S = np.arange(-2.0, 12.0, 1.0 / 60.0)
 
 
 def notes(*fingered: tuple[float, float, dict[str, float]]) -> list[FingeringEvent]:
-    """Notes of (start, end, controls)."""
+    """Notes from (start, end, controls)."""
     return [
         FingeringEvent(f"f{index}", f"n{index}", 0, 0, start_s, end_s, "", 0, controls, 0.0, Message("fingering.usual"))
         for index, (start_s, end_s, controls) in enumerate(fingered)
@@ -32,7 +32,7 @@ def notes(*fingered: tuple[float, float, dict[str, float]]) -> list[FingeringEve
 
 
 def moved(fingerings: list[FingeringEvent], name: str, late_s: float = 0.0, takes_s: float = 0.05) -> FloatArray:
-    """A control that moves evenly and arrives so late at every note."""
+    """Control that moves at constant speed and arrives at every note with a given delay."""
     times, values, before = [-10.0], [0.0], 0.0
     for note in fingerings:
         target = note.controls.get(name, 0.0)
@@ -113,7 +113,7 @@ def test_a_finger_that_is_lifted_in_a_rest_is_not_awaited() -> None:
 
 
 def test_a_small_way_is_not_done_when_it_begins() -> None:
-    """A tuning slide that moves 8 mm is within 5 mm of its place early on."""
+    """A tuning slide that moves by 8 mm is within 5 mm of its place early in the move."""
     [slide] = [control for control in MAPS["trumpet_Bb"].controls if control.name == "first_slide"]
     assert slide.travel_m is not None
     tuned = notes((0.0, 0.5, {}), (0.5, 1.0, {slide.name: 0.008 / slide.travel_m}))

@@ -1,4 +1,4 @@
-"""The page says nothing of what is behind a clip, and takes nothing for markup."""
+"""The page reveals nothing about the origin of a clip, and interprets no text as markup."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def source(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 
 class Scripts(HTMLParser):
-    """The text of every script, and the names of all elements."""
+    """Text of every script, and names of all elements."""
 
     def __init__(self) -> None:
         super().__init__()

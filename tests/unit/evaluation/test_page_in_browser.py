@@ -1,4 +1,4 @@
-"""The questionnaire answered in a real browser, by its keyboard alone."""
+"""The questionnaire in a real browser, answered by keyboard only."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ def press_until_focused(page: Page, id: str) -> None:
 
 
 def fits(page: Page) -> bool:
-    """Return whether nothing has to be scrolled sideways."""
+    """Return whether the page needs no horizontal scrolling."""
     return bool(page.value("document.documentElement.scrollWidth <= window.innerWidth"))
 
 
 def watch(page: Page) -> None:
-    """Play the clip by the button that has the focus, and wait for the questions."""
+    """Play the clip with the focused button, and wait for the questions."""
     page.wait_for(f"{FOCUSED} === 'play'")
     assert page.value("document.querySelectorAll('fieldset').length") == 0
     page.press("1")
@@ -39,7 +39,7 @@ def watch(page: Page) -> None:
 
 
 def answer(page: Page, first: int) -> list[str]:
-    """Answer every question with the digits 0 to 5 in turn; what was pressed."""
+    """Answer every question with the digits 0 to 5 in turn; return the pressed digits."""
     count = page.value("document.querySelectorAll('fieldset').length")
     pressed = [str((first + number) % 6) for number in range(count)]
     for key in pressed:

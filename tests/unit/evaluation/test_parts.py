@@ -1,4 +1,4 @@
-"""Excerpts that contain playing, sounds of one loudness, late fingers, keys and requests."""
+"""Parts of an evaluation: excerpts with playing, sounds of equal loudness, late fingers, keys and requests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Results of viewers whose opinions are known, and what is said of them."""
+"""Results of viewers with known opinions, and the texts about them."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def ids(messages: Sequence[Message]) -> list[str]:
 
 
 def worded(results: EvaluationResults) -> list[str]:
-    """Everything that is said, in both languages; no field is left open and nothing is "nan"."""
+    """All texts in both languages, checked for empty fields and "nan"."""
     said = conclude(results)
     found = [text(message, language) for language in LANGUAGES for message in (*said.may, *said.may_not)]
     assert not [sentence for sentence in found if re.search(r"[{}]|nan|None", sentence)]
@@ -74,7 +74,7 @@ def test_differences_are_shown_where_they_are(many: EvaluationResults) -> None:
 
 
 def summary_of(found: Contrast) -> object:
-    """The interval is about the mean that is reported."""
+    """Summary of values, checked to have an interval around the reported mean."""
     spread = found.difference
     assert spread.low is not None
     assert spread.high is not None
@@ -84,7 +84,7 @@ def summary_of(found: Contrast) -> object:
 
 
 def test_without_a_difference_few_are_shown() -> None:
-    """At most one family of six comparisons in twenty, but for chance: 8 questions of 10 evaluations."""
+    """At most one family of six comparisons in twenty shows a difference by chance: 8 questions of 10 evaluations."""
     same: dict[Variant, float] = dict.fromkeys(TRUTH, 3.2)
     shown = set()
     for seed in range(10):
@@ -122,7 +122,9 @@ def test_the_order_of_the_files_changes_nothing() -> None:
 
 
 def test_agreement_is_by_clip() -> None:
-    """Viewers who say the same of every clip agree, however the clips differ and in whatever order they come."""
+    """Viewers who give each clip the same rating agree, however much clips differ and in whatever order
+    they are shown.
+    """
     opinions = {clip.code: 1 + index % 5 for index, clip in enumerate(KEY.clips)}
 
     def file(viewer: str, seed: int) -> ViewerFile:
@@ -138,7 +140,9 @@ def test_agreement_is_by_clip() -> None:
 
 
 def test_variants_are_compared_in_the_same_excerpts() -> None:
-    """A viewer who could not judge one excerpt of a variant is compared in the others: excerpts differ."""
+    """A viewer who could not judge one excerpt of a variant is compared in the other excerpts, since
+    excerpts differ.
+    """
     given = {("film", 1): 5, ("film", 2): 2, ("generated", 1): 4, ("generated", 2): None}
     answers = [
         answer_of(CODE[place], position=position, answer=answer)
@@ -179,7 +183,7 @@ def test_few_viewers_are_explained(count: int) -> None:
 
 
 def test_the_least_number_of_viewers_is_the_least() -> None:
-    """The least number of viewers is right: with one fewer nothing can be shown."""
+    """One viewer fewer than the reported least number cannot show a difference."""
     results = tabulate(KEY, viewers(KEY, 2))
     [few] = [message for message in conclude(results).may_not if message.id == "results.too_few"]
     least = int(few.arguments["least"])
@@ -238,7 +242,7 @@ def test_a_viewer_counts_once() -> None:
 
 
 def test_results_are_about_viewers_means() -> None:
-    """One who answers often weighs no more than another."""
+    """A viewer with many answers has no more weight than others."""
     often = [answer_of(CODE["film", excerpt], position=excerpt, answer=5) for excerpt in (1, 2, 3)]
     once = [answer_of(CODE["film", 1], viewer="b0000001", answer=1)]
     [score] = tabulate(KEY, [viewer_of(often), viewer_of(once)]).scores

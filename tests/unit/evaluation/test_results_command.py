@@ -20,7 +20,7 @@ Captured = pytest.CaptureFixture[str]
 
 @pytest.fixture
 def answers(tmp_path: Path) -> list[str]:
-    """The files of eight viewers, in a folder of their own beside the key."""
+    """Files of eight viewers in a folder beside the key."""
     folder = tmp_path / "answers"
     folder.mkdir()
     key = key_of()

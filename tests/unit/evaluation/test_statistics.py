@@ -1,4 +1,4 @@
-"""Statistics against published examples, scipy, and slow obvious ways."""
+"""Statistics compared with published examples, scipy, and slow direct calculations."""
 
 from __future__ import annotations
 

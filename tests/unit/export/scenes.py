@@ -1,4 +1,4 @@
-"""Small scenes whose every number is known, to judge what plays them back."""
+"""Small scenes with known values for testing playback."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from app.formats.scene import Bone, Clip, Material, MorphTarget, Scene, SkinnedM
 
 
 def random_scene(seed: int, vertices: int = 60, frames: int = 7) -> Scene:
-    """A chain of four bones that bends a cloud of vertices with two morphs."""
+    """Chain of four bones that bends a cloud of vertices with two morphs."""
     random = np.random.default_rng(seed)
     bones = tuple(
         Bone(name, parent, random.uniform(-3, 3, 3), np.array([0.0, 0.0, 0.0, 1.0]))
@@ -49,7 +49,7 @@ def random_scene(seed: int, vertices: int = 60, frames: int = 7) -> Scene:
 
 
 def slow_positions_m(scene: Scene, frame: int) -> np.ndarray:
-    """Deformed vertices of the first mesh, one by one, straight from the definition."""
+    """Vertices of the first mesh, deformed one by one according to the definition."""
     clip, mesh = scene.clip, scene.meshes[0]
     assert clip is not None
     world: list[np.ndarray] = []

@@ -1,4 +1,6 @@
-"""FBX, GLB and USD of one player say the same at every rate: names, frames, joints, morphs and deformed surfaces."""
+"""FBX, GLB and USD files of one player agree at every frame rate: names, frames, joints, morphs and
+deformed surfaces.
+"""
 
 from __future__ import annotations
 
@@ -73,7 +75,7 @@ def _shown_by_fbx(scene: Scene, frame: int) -> Shown:
 
 
 def _compare(one: Shown, other: Shown) -> np.ndarray:
-    """Greatest differences: joints and surfaces in cm, weights."""
+    """Greatest differences of joints and surfaces in cm, and of weights."""
     assert set(one.corners_cm) == set(other.corners_cm)
     surfaces = max(np.abs(points - other.corners_cm[name]).max() for name, points in one.corners_cm.items())
     names = set(one.weights) | set(other.weights)

@@ -1,4 +1,4 @@
-"""Depths of arms in a trunk: spheres whose depth is known."""
+"""Depths of arms in a trunk, with spheres of known depth."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FRAMES = 61
 
 
 def sphere(radius_m: float, rings: int) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices, metres, and triangles, counter-clockwise from outside."""
+    """Vertices in metres, and triangles counter-clockwise from outside."""
     polar, around = np.meshgrid(np.linspace(0.0, np.pi, rings + 1), np.arange(2 * rings) * np.pi / rings, indexing="ij")
     places = np.stack([np.sin(polar) * np.cos(around), np.cos(polar), np.sin(polar) * np.sin(around)], axis=-1)
     ring, step = np.meshgrid(np.arange(rings), np.arange(2 * rings), indexing="ij")
@@ -41,7 +41,7 @@ def mesh(name: str, bone: int, places_m: np.ndarray, faces: np.ndarray, binds: n
 
 
 def judged(left_m: np.ndarray, open_below: bool = False) -> ArmDepth:
-    """Depth of a left forearm that is a small sphere at places (F, 3) from the middle of the trunk."""
+    """Depth of a left forearm that is a small sphere at positions (F, 3) relative to the trunk's centre."""
     offsets_cm = np.array([[0, 100, 0], [0, 30, 0], [80, 0, 0], [10, 0, 0], [-80, 0, 0], [-10, 0, 0]], np.float64)
     binds = np.tile(np.eye(4), (len(BONES), 1, 1))
     for bone, parent in enumerate(PARENTS):
@@ -69,7 +69,7 @@ def judged(left_m: np.ndarray, open_below: bool = False) -> ArmDepth:
 
 @pytest.mark.parametrize("deepest_m", [0.005, 0.03, 0.06])
 def test_the_greatest_depth_is_found_with_its_side_and_frame(deepest_m: float) -> None:
-    """A forearm comes from aside, is deepest in the middle and leaves again."""
+    """A forearm moves in from the side, is deepest in the middle and moves out."""
     away_m = TRUNK_M + ARM_M - deepest_m + 0.3 * np.abs(np.linspace(-1.0, 1.0, FRAMES))
     found = judged(np.stack([away_m, np.full(FRAMES, 0.01), np.full(FRAMES, 0.02)], axis=1))
     own_m = np.linalg.norm([away_m.min(), 0.01, 0.02])
@@ -85,7 +85,7 @@ def test_an_arm_that_only_passes_by_is_not_inside() -> None:
 
 
 def test_below_an_open_hem_is_outside() -> None:
-    """The nearest vertex is one of the hem, whose normal says nothing of what is below."""
+    """The nearest vertex is at the hem, whose normal does not determine the side of a point below."""
     way = np.tile([0.02, -0.16, 0.0], (FRAMES, 1))
     assert judged(way).depth_mm > 20.0
     assert judged(way, open_below=True) == ArmDepth()

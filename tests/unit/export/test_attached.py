@@ -1,4 +1,4 @@
-"""The command line with instruments on sockets: files, stage and report agree, and the judge finds the same."""
+"""Instruments on sockets through the command line: files, stage and report agree, and the judge confirms them."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def test_measures_stage_and_report(free: tuple[Path, dict[str, Any]], tmp_path: 
 
 
 def test_more_than_one_process_writes_the_same(tmp_path: Path) -> None:
-    """Options of skeletons are sent to machines of the scheduler, too."""
+    """Options of skeletons are also sent to the scheduler's computers."""
     arguments = ["--fps", "12", "--from-bar", "1", "--to-bar", "1", "--player", "Trumpet 1", "--player", "Trombone 2"]
     arguments += ["--format", "fbx", "--instrument", "socket", "--rest-pose", "t"]
     for jobs in ("1", "2"):

@@ -1,4 +1,4 @@
-"""Bars that were asked for are exactly what every file shows, and a lead-in only on request."""
+"""Every file contains exactly the requested bars, and a lead-in only on request."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ WITHIN_CM = 0.01
 
 
 def export(folder: Path, *options: str, file: Path = QUARTET) -> dict[str, Any]:
-    """The report on an export of the player."""
+    """Report on an export of the player."""
     arguments = ["export", str(file), "--to", str(folder), "--fps", str(FPS), "--player", PLAYER, *options]
     assert main(arguments) == 0
     report: dict[str, Any] = json.loads((folder / "report.json").read_text(encoding="utf-8"))
@@ -62,7 +62,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def joints_cm() -> FloatArray:
-    """The joints (B, 3) where the first bar begins, in the motion of a longer stretch."""
+    """Positions (B, 3) of the joints at the beginning of the first bar, in the motion of a longer range."""
     performance = Performance(quartet())
     player = performance.project.players[0]
     first_s = (BARS[0] - 1) * BAR_S

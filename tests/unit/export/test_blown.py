@@ -1,4 +1,4 @@
-"""A take as a MIDI file, exported as the user would and read back: what was blown is in the file."""
+"""A take as a MIDI file is exported and read back: the exported motion shows the blown breaths."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Curves of exported bones that an animator can read: near 0 at rest, and away from gimbal lock while they play."""
+"""Curves of exported bones are readable for animators: near 0 at rest, and away from gimbal lock during playing."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def played() -> Played:
 
 
 def _turned_deg(rotations: np.ndarray) -> np.ndarray:
-    """Degrees from frame to frame (F - 1, B)."""
+    """Rotation from frame to frame (F - 1, B) in degrees."""
     q = np.asarray(rotations, np.float64)
     q /= np.linalg.norm(q, axis=-1, keepdims=True)
     sides = np.minimum(np.linalg.norm(q[1:] - q[:-1], axis=-1), np.linalg.norm(q[1:] + q[:-1], axis=-1))
@@ -57,7 +57,7 @@ def _turned_deg(rotations: np.ndarray) -> np.ndarray:
 
 
 def _judge(degrees: np.ndarray, orders: list[str], rotations: np.ndarray, names: list[str]) -> None:
-    """Hold curves (B, 3, F) against the way that the bones turn."""
+    """Compare curves (B, 3, F) with the rotation of the bones."""
     for bone, order in enumerate(orders):
         middle = np.abs(degrees[bone, AXES.index(order[1])]).max()
         assert middle < FREE_DEG, f"{names[bone]}: {order}, {middle:.0f} degrees in the middle"

@@ -1,4 +1,4 @@
-"""BVH files under the names of other programs' bones: the same motion, other names."""
+"""BVH files with the bone names of other programs contain the same motion."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def test_every_profile_names_joints_of_ours_differently(profile: str) -> None:
 
 
 def _scene(choice: SkeletonChoice = "suisou") -> tuple[Scene, TargetSkeleton, Character]:
-    """A character that moves at random for a few frames, on a skeleton."""
+    """Character with random motion for a few frames on a skeleton."""
     character = character_named("woman_adult")
     turns = scenes.rotations(5, 6, len(character.skeleton.names), 0.4).astype(np.float32)
     turns[:, 0] = [0, 0, 0, 1]
@@ -65,7 +65,7 @@ def _scene(choice: SkeletonChoice = "suisou") -> tuple[Scene, TargetSkeleton, Ch
 
 
 def _listed(clip: BvhClip) -> list[ListedBone]:
-    """The bones of a BVH file where they are at rest, on the ground."""
+    """Bones of a BVH file with their rest positions on the ground."""
     places_m = np.array(clip.offsets_cm) / 100
     for bone, parent in enumerate(clip.parents):
         places_m[bone] += places_m[parent] if parent >= 0 else 0.0

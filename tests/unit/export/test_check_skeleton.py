@@ -1,5 +1,4 @@
-"""Every way in which an asset's skeleton may differ is found; what spoils an animation is reported from what does
-not."""
+"""All differences of an asset's skeleton are found, and those that spoil an animation are distinguished from others."""
 
 from __future__ import annotations
 

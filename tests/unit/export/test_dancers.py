@@ -1,4 +1,4 @@
-"""Dancers' files, read back: bones, feet that stand, what the report says, and BVH by the reader of others' motion."""
+"""Dancers' files, read back: bones, standing feet, the report, and BVH read as another maker's motion."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def test_the_bvh_file_moves_as_the_dance_does(written: tuple[Report, Path, Proje
 def test_a_dancer_who_was_moved_and_renamed_is_written_as_now(
     written: tuple[Report, Path, Project], tmp_path: Path
 ) -> None:
-    """Dances are kept for dancers who dance alike, wherever they stand and whatever they are called."""
+    """Dances are cached independently of the dancer's place and name."""
     _, _, project = written
     now = msgspec.structs.replace(project.dancers[0], name="Now", stage=StagePosition(-2.0, 4.0, 0.0))
     performance = Performance(replace(project, dancers=(now,)))

@@ -1,4 +1,4 @@
-"""Files of one musician who plays two instruments, read back."""
+"""Files of a musician with two instruments, read back."""
 
 from __future__ import annotations
 

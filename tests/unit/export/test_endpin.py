@@ -1,4 +1,4 @@
-"""Test that an instrument on a pin stands on the floor: exported as the user would, read back, for every body."""
+"""An instrument with an endpin stands on the floor: exported and read back for every body."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ TOUCHES_M = 0.002
 
 
 def line(path: Path, low: int) -> None:
-    """A scale with swells, a long rest, and a few notes more; a beat is half a second."""
+    """Scale with swells, a long rest, and a few more notes; a beat is half a second."""
     track = mido.MidiTrack([mido.MetaMessage("track_name", name="x"), mido.MetaMessage("set_tempo", tempo=500_000)])
     rest = 0
     for step in [*range(16), None, *range(4)]:

@@ -1,4 +1,4 @@
-"""Eyes in files, read back: what is looked at lies in the line of sight of each iris, whatever turns it."""
+"""Eyes in files, read back: both irises point to the object looked at, whether shapes or bones rotate them."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ SETTLED_S = 0.15
 
 
 class Eyes:
-    """Two players of the quartet, who look at music, each other and the audience."""
+    """Two players of the quartet who look at music, each other and the audience."""
 
     def __init__(self) -> None:
         maps = bundled_maps()
@@ -71,8 +71,9 @@ def target_of(character: Character, name: str, turn: EyeTurn = "shapes") -> Targ
 
 
 def sights(scene: Scene, character: Character) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Place of each ball (F, 3), metres, and the direction (F, 3) from it to the middle of its pupil, from vertices as
-    a program deforms them."""
+    """Position (F, 3) of each eyeball in metres, and direction (F, 3) from it to the centre of its pupil, from deformed
+    vertices.
+    """
     assert scene.clip is not None
     playback = ScenePlayback(scene, scene.clip)
     world = playback.world(0, scene.clip.frames)
@@ -110,7 +111,7 @@ def off_deg(ways: np.ndarray, places: np.ndarray, target: np.ndarray) -> np.ndar
 
 
 def stare(motion: Motion, character: Character, points_m: np.ndarray, at_m: dict[str, np.ndarray]) -> Motion:
-    """A motion of a head that keeps still, with both eyes on a point in every frame."""
+    """Motion with a motionless head and both eyes on a point in every frame."""
     weights = {}
     rotations = np.tile(np.array([0.0, 0.0, 0.0, 1.0], np.float32), (len(points_m), len(character.skeleton.names), 1))
     for side in EYE_SIDES:

@@ -61,7 +61,7 @@ def test_curves_are_in_the_makers_lists() -> None:
 
 
 def test_eyes_look_to_the_sides_that_a_metahuman_means() -> None:
-    """ARKit looks in and out, a MetaHuman to its own left and right."""
+    """ARKit's shapes look in and out, a MetaHuman's to its own left and right."""
     table = curve_names("metahuman")
     assert [*table["eyeLookInLeft"], *table["eyeLookOutLeft"]] == [
         "CTRL_expressions_eyeLookRightL",
@@ -74,7 +74,7 @@ def test_eyes_look_to_the_sides_that_a_metahuman_means() -> None:
 
 
 def _deformed(scene: Scene, frame: int) -> np.ndarray:
-    """Vertices by the morphs alone, of all meshes."""
+    """Vertices of all meshes, deformed by the morphs only."""
     assert scene.clip is not None
     parts = []
     for mesh in scene.meshes:

@@ -1,4 +1,4 @@
-"""Characters whose small surfaces share materials: few, and seen as before."""
+"""Small surfaces of characters share a few materials without visible change."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def materials_of(character: Character) -> set[Material]:
 
 
 def looks(mesh: Mesh) -> tuple[FloatArray, FloatArray]:
-    """Colours and opacity (T, 4), and roughness (T,), in the middle of triangles, by the nearest pixel."""
+    """Colours and opacity (T, 4) and roughness (T,) at the centres of triangles, by the nearest pixel."""
     colors, rough = np.ones((len(mesh.triangles), 4)), np.ones(len(mesh.triangles))
     for number, material in enumerate(mesh.materials):
         own = np.flatnonzero(mesh.triangle_materials == number)

@@ -1,4 +1,4 @@
-"""Files that come all together or not at all."""
+"""Exported files appear all together or not at all."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_a_folder_in_the_way_is_found_before_anything_moves(tmp_path: Path) -> N
 def test_a_late_failure_does_not_leave_half_of_the_files(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: type[BaseException]
 ) -> None:
-    """Behave as Windows does, where a file that a program has open cannot be replaced."""
+    """Simulates Windows, where a file in use cannot be replaced."""
     for name in ("one", "two"):
         (tmp_path / name).write_text("old")
     replace = Path.replace

@@ -1,4 +1,4 @@
-"""Characters that others made: the motion goes back to the very bones of their files."""
+"""Characters of other makers: motion is exported to the bones of their own files."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def all_m(playback: ScenePlayback) -> np.ndarray:
 
 
 def test_names_hierarchy_and_rest_pose_are_the_files(character: Character) -> None:
-    """A file compared with what would be exported for it: nothing differs, so it drops on what was made from it."""
+    """A file has no differences from its own export, so that the animation fits the original asset."""
     (path,) = [path for path in FILES if path.stem == character.id]
     assert check_skeleton(own_target(character), read_figure(path)) == ()
 
@@ -105,7 +105,7 @@ def test_joints_are_where_they_should_be(character: Character, tmp_path: Path) -
 
 
 def test_feet_that_hang_from_the_root_stay_at_their_legs(tmp_path: Path) -> None:
-    """Rigs whose legs are drawn by their feet (Quaternius): the file moves them, and no bone stretches."""
+    """In rigs whose feet are children of the root (Quaternius), the file moves the feet, and no bone stretches."""
     figure = read_figure(FOLDER / "woman_game_engine.glb")
     rest = rest_of(figure)
     parents, offsets, turns = list(figure.parents), figure.translations_m.copy(), figure.rotations.copy()
@@ -132,8 +132,7 @@ def require_constant_lengths(character: Character, tmp_path: Path) -> None:
 
 
 def handless(figure: Figure) -> Figure:
-    """A figure whose forearms carry a bone for each finger from the wrist on, and a thumb, instead of a hand (robots
-    of Quaternius)."""
+    """Figure whose forearms have a bone for each finger, and a thumb, instead of a hand (robots of Quaternius)."""
     fingers = ("index", "middle", "ring", "pinky")
     copies = [
         [f"palm_{finger}{name[-2:]}" for finger in fingers] if name.startswith("hand_") else [name]
@@ -177,7 +176,7 @@ def handless(figure: Figure) -> Figure:
 
 
 def test_a_hand_of_several_bones_moves_as_one(tmp_path: Path) -> None:
-    """Forearms that carry a bone for each finger: these are the hand, and the forearm stays the forearm."""
+    """In forearms with a bone for each finger, these form the hand, and the forearm remains the forearm."""
     whole = read_figure(FOLDER / "woman_game_engine.glb")
     figure = handless(whole)
     mapping, before = map_joints(figure), map_joints(whole)

@@ -1,4 +1,4 @@
-"""At most four influences per vertex, wherever no vertex moves by more than half a millimetre for it."""
+"""Vertices have at most four influences wherever removing others moves no vertex by more than half a millimetre."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_a_players_skin_has_four_influences_and_is_where_it_was() -> None:
 
 
 def test_vertices_are_near_where_all_their_bones_took_them_or_keep_them() -> None:
-    """Six influences with weights at random: some can do with four, and most can not."""
+    """Six influences with random weights: some vertices need only four, most do not."""
     given = scenes.character(Fraction(30), amplitude_rad=0.05)
     shares = np.array([1.0, 0.3, 0.2, 0.0, 0.02, 0.01])
     strong = [

@@ -1,4 +1,4 @@
-"""Angles, accelerations and transforms of joints, against scipy and closed forms."""
+"""Angles, accelerations and transforms of joints compared with scipy and closed forms."""
 
 from __future__ import annotations
 

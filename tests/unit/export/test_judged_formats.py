@@ -1,4 +1,4 @@
-"""Every format that has a skin is measured, and what is measured is the same in each."""
+"""Every format with a skin is measured, with the same results."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Measured = Callable[[str, KeyChoice], PlayerReport]
 
 @pytest.fixture(scope="module")
 def measured(tmp_path_factory: pytest.TempPathFactory) -> Measured:
-    """Report on a player whose files are of one format only."""
+    """Report on a player whose files have one format only."""
     performance = Performance(quartet_project())
     fps = Fraction(24)
     request = ExportRequest(

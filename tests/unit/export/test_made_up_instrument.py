@@ -1,4 +1,4 @@
-"""An instrument that no one has heard of, from a map and a model alone: fitted, played, written and measured."""
+"""An unknown instrument from a map and a model alone: fitted, played, written and measured."""
 
 from __future__ import annotations
 

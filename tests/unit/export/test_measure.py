@@ -1,4 +1,4 @@
-"""The measures find what is wrong: files are spoilt in known ways, and the numbers must say so."""
+"""Measurements detect errors: files are damaged in known ways, and the numbers must show it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ FPS = Fraction(30)
 
 
 class Case:
-    """A few seconds of one player, as scenes that need no file."""
+    """A few seconds of one player as scenes without files."""
 
     def __init__(self, index: int) -> None:
         maps = bundled_maps()

@@ -1,4 +1,4 @@
-"""Normals of morph targets in files, against those of the deformed surface by a second, slow way."""
+"""Normals of morph targets in files compared with a second, slow calculation from the deformed surface."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from app.rig.mesh import Mesh, Morph
 
 
 def slow_normals(places: np.ndarray, triangles: np.ndarray, alike: list[list[int]]) -> dict[int, np.ndarray]:
-    """Normals of groups of vertices, triangle by triangle."""
+    """Normals of groups of vertices, calculated triangle by triangle."""
     group = {vertex: number for number, vertices in enumerate(alike) for vertex in vertices}
     sums = {number: np.zeros(3) for number in range(len(alike))}
     for triangle in triangles:
@@ -38,7 +38,7 @@ def slow_normals(places: np.ndarray, triangles: np.ndarray, alike: list[list[int
 
 
 def grid(size: int = 6) -> Mesh:
-    """A square of the floor with a seam in the middle, where vertices are doubled but smooth, and a wall at its end."""
+    """Square of the floor with a seam of doubled but smooth vertices in the middle, and a wall at its end."""
     x, z = np.meshgrid(np.arange(size, dtype=float), np.arange(size, dtype=float), indexing="ij")
     floor = np.column_stack([x.ravel(), np.zeros(size * size), z.ravel()])
     wall = np.column_stack([np.full(2 * size, size - 1.0), np.repeat([0.0, 1.0], size), np.tile(np.arange(size), 2)])

@@ -1,4 +1,4 @@
-"""Files without meshes: the same motion, with the face as animated properties where a format has these."""
+"""Files without meshes contain the same motion, with the face as animated properties in formats that support them."""
 
 from __future__ import annotations
 
@@ -92,7 +92,9 @@ def test_lips_and_breaths_of_a_glb_without_meshes_are_judged_with_the_face(
 
 
 def test_properties_of_the_face_are_a_users_and_animated(tmp_path: Path) -> None:
-    """The FBX SDK, and Unreal by it, takes such properties for curves: flags A and U, and a curve node on each."""
+    """The FBX SDK, and thus Unreal, imports such properties as curves: they need flags A and U and a curve
+    node each.
+    """
     scene = without_meshes(scenes.character(Fraction(60)))
     write_scene(tmp_path / "alone.fbx", scene)
     graph = ObjectGraph(read_elements((tmp_path / "alone.fbx").read_bytes(), "alone.fbx"), "alone.fbx")

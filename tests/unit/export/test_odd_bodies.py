@@ -1,5 +1,6 @@
-"""Bodies unlike our own are exported and measured: what they can reach is within the bounds of grown-ups, what they
-lack is reported and counted apart."""
+"""Unusual bodies are exported and measured: reachable contacts are within the bounds of adults, unreachable ones are
+reported and counted separately.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +19,7 @@ from tests.support.bodies import playing
 
 
 def exported(folder: Path, instrument_id: str, character_id: str) -> dict[str, Any]:
-    """The report of a short study, played by a body."""
+    """Report on a short study played by a body."""
     limits = bundled_maps()[instrument_id].range
     track = mido.MidiTrack([mido.MetaMessage("set_tempo", tempo=500_000), mido.MetaMessage("track_name", name="x")])
     wait = 1920

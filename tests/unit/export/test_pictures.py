@@ -1,4 +1,4 @@
-"""PNG frames and contact sheets appear whole or not at all."""
+"""PNG frames and contact sheets are written completely or not at all."""
 
 from __future__ import annotations
 

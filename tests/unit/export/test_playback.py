@@ -1,4 +1,4 @@
-"""Playing a scene back, against a slow second implementation."""
+"""Playback of a scene compared with a slow second implementation."""
 
 from __future__ import annotations
 

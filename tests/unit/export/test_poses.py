@@ -1,4 +1,4 @@
-"""Pose corrections are in the files: what is read back shows the bell higher, and `inspect` tells of it."""
+"""Exported files contain pose corrections: the bell is higher, and `inspect` lists the correction."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ARGUMENTS = ("--fps", "30", "--from-bar", "1", "--to-bar", "4", "--player", PLAY
 
 
 def bell_directions(folder: Path) -> np.ndarray:
-    """Return the direction of the instrument in every frame of the written file."""
+    """Direction of the instrument in every frame of the written file."""
     scene = read_scene(folder / f"{PLAYER}_trumpet_Bb.fbx")
     assert scene.clip is not None
     playback = ScenePlayback(scene, scene.clip)

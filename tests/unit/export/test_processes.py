@@ -1,4 +1,4 @@
-"""An export shared over processes: the same files, whatever becomes of the processes."""
+"""An export shared by several processes writes the same files, even if processes are killed."""
 
 from __future__ import annotations
 
@@ -58,25 +58,25 @@ def files(folder: Path) -> dict[str, bytes]:
 
 @pytest.fixture(scope="module")
 def alone(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    """Return the files that a single process writes."""
+    """Files written by a single process."""
     folder = tmp_path_factory.mktemp("alone")
     export(request(folder, quartet(), 1), text)
     return files(folder)
 
 
 def ending(code: str) -> Any:
-    """Instead of a process of ours: one that runs some other code."""
+    """Replace the child process by one that runs other code."""
     return lambda module: {"args": [sys.executable, "-c", code]}
 
 
 @pytest.fixture
 def no_copies(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Processes are programs of their own."""
+    """Start processes as new programs instead of copies of this one."""
     monkeypatch.setattr(processes, "can_fork", lambda: False)
 
 
 def export_by_copies(folder: Path) -> None:
-    """Export by copies of this process that work, that are killed, that fail and that report what is wrong."""
+    """Export with copies of this process that work, are killed, fail or report errors."""
     assert child.can_fork()
     open_before = len(list(Path("/proc/self/fd").iterdir()))
 

@@ -1,4 +1,4 @@
-"""Straps and chairs in exported files: hooked in, on the clothes, under who sits, and left out when asked."""
+"""Straps and chairs in exported files: hooked in, on the clothes, under seated players, and omitted on request."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def _scene(folder: Path, name: str, held: str) -> Scene:
 
 
 def _skinned(scene: Scene, mesh: SkinnedMesh, frames: range) -> np.ndarray:
-    """Vertices (F, V, 3) in metres: the formula of linear blend skinning, written once more."""
+    """Vertices (F, V, 3) in metres by a second implementation of linear blend skinning."""
     assert scene.clip is not None
     from_bind = np.linalg.inv(np.asarray(mesh.world_from_bone_bind, np.float64))
     from_bind[:, :3, 3] *= 0.01

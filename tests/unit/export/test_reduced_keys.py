@@ -1,4 +1,4 @@
-"""Reduced keys, judged on the files: what a reader plays at every frame beside the same motion with every key."""
+"""Reduced keys: playback of exported files at every frame compared with the same motion with all keys."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def target(character: Character) -> TargetSkeleton:
 
 @pytest.fixture(scope="module")
 def every(character: Character, target: TargetSkeleton) -> dict[str, Scene]:
-    """A trumpeter and the trumpet, a few bars that begin with a rest and a breath."""
+    """A trumpeter with trumpet, for a few bars that begin with a rest and a breath."""
     from app.export.character import character_scene
     from app.export.instrument import instrument_scene
 
@@ -85,7 +85,7 @@ def _angles_deg(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 
 
 def _judge(found: Scene, meant: Scene, most_mm: float) -> None:
-    """Hold every bone, joint, vertex group and weight of a played file against the motion, at every frame."""
+    """Compare every bone, joint, vertex group and weight of a file with the motion at every frame."""
     assert found.clip is not None
     frames = meant.clip.frames
     assert found.clip.frames == frames
@@ -101,7 +101,7 @@ def _judge(found: Scene, meant: Scene, most_mm: float) -> None:
 
 
 def _landmarks_mm(scene: Scene, character: Character, target: TargetSkeleton, played: Scene) -> dict[str, np.ndarray]:
-    """Return the error (mm) of every landmark of a played scene in each frame, measured by skinning the vertices."""
+    """Error in millimetres of every landmark in each frame, measured by skinning the vertices."""
     assert played.clip is not None
     frames, result, found = scene.clip.frames, {}, []
     for one in (scene, played):
@@ -120,7 +120,7 @@ def _landmarks_mm(scene: Scene, character: Character, target: TargetSkeleton, pl
 
 
 def _curve_keys(path: Path) -> list[tuple[int, bool]]:
-    """The number of keys of every curve of an FBX file, and whether all are alike."""
+    """Number of keys of every curve of an FBX file, and whether all are equal."""
     objects = read_elements(path.read_bytes(), path.name).child("Objects")
     assert objects is not None
     values = [curve.child("KeyValueFloat") for curve in objects.children or () if curve.name == "AnimationCurve"]
@@ -176,7 +176,7 @@ def test_an_fbx_instrument_plays_within_the_bounds_and_its_valves_reach_their_pl
 def test_a_glb_plays_within_the_bounds(
     every: dict[str, Scene], few: dict[str, Scene], held: str, tmp_path: Path
 ) -> None:
-    """Its samplers, interpolated as the specification says."""
+    """Its samplers are interpolated according to the specification."""
     meant = every[held]
     assert meant.clip is not None
     write_glb(tmp_path / "player.glb", few[held])
@@ -199,7 +199,7 @@ def test_a_glb_plays_within_the_bounds(
 def test_other_programs_play_all_formats_within_the_bounds(
     every: dict[str, Scene], few: dict[str, Scene], held: str, tmp_path: Path
 ) -> None:
-    """Frames between the keys, in FBX by ufbx, in GLB and USD by evaluators of their own."""
+    """Frames between keys: in FBX by ufbx, in GLB and USD by independent evaluators."""
     clip = every[held].clip
     expected = _expected(every[held], list(range(0, clip.frames, 11)))
     written: list[tuple[Any, str, tuple[str, ...]]] = [
@@ -214,7 +214,7 @@ def test_other_programs_play_all_formats_within_the_bounds(
 
 
 def _expected(scene: Scene, sampled: list[int] | None = None) -> readers.Expected:
-    """Return the values that every reader should find, with every key."""
+    """Values that every reader should find, with all keys."""
     assert scene.clip is not None
     clip = scene.clip
     sampled = list(range(clip.frames)) if sampled is None else sampled
@@ -235,7 +235,7 @@ def _expected(scene: Scene, sampled: list[int] | None = None) -> readers.Expecte
 
 
 def _smooth(scene: Scene, frames: int = 90) -> Scene:
-    """The scene moving slowly enough to leave out keys, with a rest in the middle."""
+    """Scene that moves slowly enough for reduced keys, with a rest in the middle."""
     assert scene.clip is not None
     clip = scene.clip
     at = np.concatenate([np.linspace(0, 12, frames // 3), np.full(frames // 3, 12), np.linspace(12, 24, frames // 3)])
@@ -310,7 +310,7 @@ def test_what_never_moves_keeps_the_length_of_the_clip(tmp_path: Path) -> None:
 
 
 def test_a_chain_whose_bones_are_each_within_their_bound_is_tightened_for_what_hangs_on_its_end() -> None:
-    """Ten bones of 20 cm that all turn the same way: their tips add up what each is off."""
+    """Ten bones of 20 cm with errors in the same direction, which add up at the end."""
     from app.formats.scene import Bone, Clip
 
     count, frames = 10, 480
@@ -341,7 +341,7 @@ def test_a_chain_whose_bones_are_each_within_their_bound_is_tightened_for_what_h
 def test_marks_are_where_skinning_takes_the_landmarks(
     every: dict[str, Scene], character: Character, target: TargetSkeleton
 ) -> None:
-    """The places that are bounded against a vertex-by-vertex mean: morphs, several bones and all."""
+    """The points with bounded error equal means over skinned vertices, with morphs and several bones."""
     from app.export.key_reduction_landmarks import character_marks
     from app.export.keyed_motion import KeyedMotion
 

@@ -1,4 +1,4 @@
-"""The report's bytes and what it calls a failure."""
+"""The report's bytes, and its criteria for failures."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test sockets and other additions to skeletons on the files read back: body, skin and instrument stay in place."""
+"""Sockets and other additions to skeletons in the files read back: body, skin and instrument keep their places."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ TOGETHER = (RigOptions("ik", "motion", "a", True), RigOptions("socket", "place",
 
 @dataclass(frozen=True)
 class Files:
-    """Content of a character's and an instrument's file."""
+    """Contents of a character's and an instrument's file."""
 
     character: Character
     target: TargetSkeleton
@@ -71,7 +71,7 @@ class Files:
         return JointPlayback(ScenePlayback(scene, scene.clip), self.target, self.character)
 
     def instrument(self) -> np.ndarray:
-        """Return the transforms of the instrument's bones (F, N, 4, 4), in the player's own space."""
+        """Transforms (F, N, 4, 4) of the instrument's bones in the player's space."""
         held = self.held
         for socket in socket_names(self.target):
             held = in_world(held, self.scene, socket)
@@ -79,7 +79,7 @@ class Files:
 
 
 class Made:
-    """A few seconds of a trumpeter who turns about, to be written with any options."""
+    """A few seconds of a trumpeter who turns, to be written with any options."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -123,7 +123,7 @@ def plain(made: Made) -> Files:
 
 
 def world_m(scene: Scene) -> np.ndarray:
-    """Every bone's place (F, B, 4, 4), from the definition."""
+    """World transforms (F, B, 4, 4) of all bones, from the definition."""
     clip = scene.clip
     result = np.tile(np.eye(4), (clip.frames, len(scene.bones), 1, 1))
     for index, bone in enumerate(scene.bones):
@@ -135,7 +135,7 @@ def world_m(scene: Scene) -> np.ndarray:
 
 
 def rest_m(scene: Scene) -> dict[str, np.ndarray]:
-    """Return the places of the bones at rest (m), by their names."""
+    """Rest positions of the bones in metres by name."""
     clip = scene.clip
     assert clip is not None
     turns = np.stack([bone.rotation_xyzw for bone in scene.bones])[None]
@@ -144,13 +144,13 @@ def rest_m(scene: Scene) -> dict[str, np.ndarray]:
 
 
 def angles_rad(before: np.ndarray, after: np.ndarray) -> np.ndarray:
-    """Between rotation matrices (..., 3, 3)."""
+    """Angles between rotation matrices (..., 3, 3)."""
     turns = np.swapaxes(before, -1, -2) @ after
     return np.asarray(Rotation.from_matrix(turns.reshape(-1, 3, 3)).magnitude())
 
 
 def check_body(plain: Files, found: Files) -> None:
-    """Joints, landmarks, bone lengths and instrument are as in the plain files."""
+    """Check that joints, landmarks, bone lengths and instrument are as in files without options."""
     before, after = plain.joints, found.joints
     here, there = world_m(before.playback.scene), world_m(after.playback.scene)
     shown = 0
@@ -206,7 +206,7 @@ def test_a_skeleton_of_another_file_keeps_its_rest_pose_and_twist_bones(made: Ma
 
 
 def turned(scene: Scene, name: str, degrees: float) -> Scene:
-    """A scene with a bone turned by hand at all frames."""
+    """Scene with a bone rotated in all frames."""
     clip = scene.clip
     assert clip is not None
     bone = [bone.name for bone in scene.bones].index(name)
@@ -228,7 +228,7 @@ CARRIED = [
 def test_an_edited_hand_takes_the_instrument_along(
     made: Made, choice: SkeletonChoice, attachment: str, hand: str, socket: str
 ) -> None:
-    """In two files, and in one scene of both: the instrument goes round the wrist as the hand does."""
+    """The instrument rotates about the wrist with the hand, both in two files and in one scene."""
     _, target, character, held = made.scenes(choice, RigOptions(attachment))
     assert socket_names(target) == [socket]
     read, read_held = made.file(character), made.file(held)
@@ -265,7 +265,7 @@ def test_an_instrument_on_a_socket_moves_its_parts_only(made: Made) -> None:
 
 
 def test_one_scene_shows_the_surfaces_of_both_files(made: Made, tmp_path: Path) -> None:
-    """The skins of both, as glTF has it and without our code."""
+    """Skins of both, evaluated according to glTF and without the program's code."""
     _, target, character, held = made.scenes("suisou", RigOptions("socket"))
     _, _, free_character, free = made.scenes("suisou", PLAIN)
     write_glb(tmp_path / "both.glb", attached(character, [held], target))
@@ -419,7 +419,7 @@ def test_slow_readers_read_the_same(made: Made, reader: str) -> None:
 
 @pytest.mark.parametrize("attachment", ["socket", "ik"])
 def test_with_reduced_keys_an_instrument_stays_on_its_socket(made: Made, attachment: Attachment) -> None:
-    """In two files and in one scene: the box around the instrument is where keys on every frame have it."""
+    """In two files and in one scene the instrument's bounding box is where it is with keys on every frame."""
     character, target, scene, held = made.scenes("suisou", RigOptions(attachment))
     formats = frozenset(("fbx",))
     keyed = keyed_character(scene, "reduced", formats, character, target, [made.performer.model])

@@ -1,4 +1,4 @@
-"""A few bars exported as the user would, read back, and held against the plan and the bounds."""
+"""A few bars are exported, read back, and compared with the plan and the bounds."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def test_the_files_are_those_the_report_names(folder: Path, report: dict[str, An
 
 
 def test_the_bundled_quartet_keeps_every_bound_and_shows_every_breath(tmp_path: Path) -> None:
-    """The first thing that a new user sees: `./run` exports it where there is no display."""
+    """New users see this export first: `./run` makes it without a display."""
     players = tuple(
         msgspec.convert(player, PlayerReport) for player in export(tmp_path / "all", "--fps", "30")["players"]
     )
@@ -261,7 +261,7 @@ def test_other_frame_rates(tmp_path: Path, rate: str) -> None:
 
 
 def test_ctrl_c_leaves_nothing(tmp_path: Path) -> None:
-    """Stopped in the middle of the work: exit status 130, a sentence, no file and no folder."""
+    """An export stopped in the middle has exit status 130 and leaves a sentence, but no file or folder."""
     if os.name == "nt":
         pytest.skip("signals to a child are another thing there")
     target = tmp_path / "out"

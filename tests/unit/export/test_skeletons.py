@@ -1,4 +1,6 @@
-"""A real piece on each skeleton, through files: our judge measures the same on all, other programs read what we do."""
+"""A real piece on each skeleton, through files: the measurements are equal on all, and other programs read the same
+motion.
+"""
 
 from __future__ import annotations
 
@@ -123,7 +125,7 @@ def test_the_judge_measures_the_same_on_every_skeleton(piece: Piece, plain: dict
 
 @pytest.mark.parametrize("name", ["own", "ue5"])
 def test_a_spoilt_file_is_found_on_every_skeleton(piece: Piece, name: str) -> None:
-    """The judge looks at the file: a hand turned by two degrees is off its key, whatever the bone is called."""
+    """Measurements use the file: a hand rotated by two degrees misses its key, whatever the bone's name is."""
     character, target = piece.on(name)
     scene = piece.written(name)
     assert scene.clip is not None
@@ -154,7 +156,7 @@ def what_it_holds(scene: Scene) -> readers.Expected:
 
 
 def without_morphs(scene: Scene) -> Scene:
-    """Return the scene without its morphs: no option changes them, and they take readers longest."""
+    """Scene without morphs, which no option changes and which take readers longest."""
     assert scene.clip is not None
     meshes = tuple(replace(mesh, morphs=()) for mesh in scene.meshes)
     return replace(scene, meshes=meshes, clip=replace(scene.clip, morph_weights={}))
@@ -170,7 +172,7 @@ def test_other_programs_read_the_same(piece: Piece, name: str) -> None:
 @pytest.mark.readers
 @pytest.mark.parametrize("reader", readers.SLOW_FBX)
 def test_slow_readers_read_the_same(piece: Piece, reader: str) -> None:
-    """On Unreal's skeleton; in test_run they read whole exports on ours."""
+    """Unreal's skeleton; test_run lets them read whole exports on the default one."""
     if not readers.installed(reader):
         pytest.skip(f"{reader} is not installed")
     scene = piece.file("still_face", without_morphs(piece.written("ue5")))
@@ -204,7 +206,7 @@ def test_an_asset_that_would_lose_the_animation_stops_the_export(piece: Piece, t
 
 
 def test_what_differs_is_in_the_report(piece: Piece, tmp_path: Path) -> None:
-    """A mannequin of another body: bones of other lengths, which the animation is played with all the same."""
+    """A mannequin with bones of other lengths plays the animation, with the differences in the report."""
     other = mannequin_target(character_named("man_adult").skeleton)
     assert piece.ours.id != "man_adult"
     scene = character_scene(character_named("man_adult"), replace(piece.motion), "x", "test", other)

@@ -1,4 +1,4 @@
-"""Feet of files: where a foot stands it does not slide, and what is lifted as planned does not count."""
+"""Sliding of feet in files: standing feet do not slide, and planned steps do not count."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def plan(*rows: tuple[str, float, float, float]) -> PlayerPlan:
 
 
 def stepping(out_m: float = 0.08) -> np.ndarray:
-    """A sole that is put ahead from 2 s to 6 s, in half a second each way."""
+    """Foot that stands forward from 2 s to 6 s, with steps of half a second."""
     ahead = out_m * (np.clip((TIMES_S - 2.0) / 0.5, 0, 1) - np.clip((TIMES_S - 5.5) / 0.5, 0, 1))
     return np.stack((np.zeros(len(TIMES_S)), 0.02 * np.sin(np.pi * ahead / out_m), ahead), axis=1)
 

@@ -1,4 +1,4 @@
-"""The whole stage in one file: everyone as in the own files, at the place that the project and the report say."""
+"""The whole stage in one file: performers as in their own files, at the places in project and report."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def report(folder: Path) -> dict[str, Any]:
 
 
 def _hips_m(scene: Scene) -> np.ndarray:
-    """Return the places (F, 3) of the bone that follows the body's motion: the hips, or an instrument's root."""
+    """Positions (F, 3) of the bone with the body's motion: the hips, or an instrument's root."""
     assert scene.clip is not None
     names = [bone.name for bone in scene.bones]
     bone = names.index("hips") if "hips" in names else 0
@@ -64,7 +64,7 @@ def test_the_report_names_the_files_and_what_they_hold(folder: Path, report: dic
 
 
 def test_a_materials_name_is_one_surface_only_and_the_same_in_every_file() -> None:
-    """Man and woman both have a skin; programs find materials by name or make up another."""
+    """Man and woman both have a material for skin; programs identify materials by name or rename them."""
     figure = character(Fraction(24), frames=2)
     light, dark = Material("skin", (0.8, 0.6, 0.5, 1.0)), Material("skin", (0.3, 0.2, 0.1, 1.0))
     known: dict[str, Material] = {}

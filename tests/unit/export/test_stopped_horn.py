@@ -1,4 +1,4 @@
-"""A stopped horn as it was exported and read back: the palm closes the bell, the fingers stay on its wall."""
+"""A stopped horn, exported and read back: the palm closes the bell, and the fingers stay on its wall."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from app.motion.contacts.hand_in_bell import CLOSES_S, READY_S
 
 @pytest.fixture(scope="module", params=["horn_F_single", "horn_double_F_Bb"])
 def folder(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Three notes open, three stopped, three open: half a second each, one second of silence between."""
+    """Three open notes, three stopped, three open: half a second each, with a second of silence between."""
     folder = tmp_path_factory.mktemp("stopped")
     track = mido.MidiTrack(
         [mido.MetaMessage("track_name", name="Horn in F"), mido.Message("program_change", program=60)]

@@ -1,4 +1,4 @@
-"""Small bodies and long slides: read back from the files, the hand has its slide in every frame, however far it is."""
+"""Small bodies with long slides: in the exported files the hand holds the slide in every frame, however far out."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ BEAT_TICKS = 480
 
 
 def every_place(instrument_id: str, path: Path) -> None:
-    """The lowest two octaves upwards at 120: all positions, the farthest with and without the attachments."""
+    """The lowest two octaves upwards at 120, with all positions, the farthest ones with and without attachments."""
     file = mido.MidiFile(ticks_per_beat=BEAT_TICKS)
     track = mido.MidiTrack([mido.MetaMessage("set_tempo", tempo=500_000)])
     low = bundled_maps()[instrument_id].range.low

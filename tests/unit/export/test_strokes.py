@@ -1,4 +1,4 @@
-"""Strokes of the tongue in what was exported and read back: how far chin, tongue and chest move at an onset."""
+"""Strokes of the tongue in exported files: motion of chin, tongue and chest at an onset."""
 
 from __future__ import annotations
 
@@ -66,8 +66,9 @@ def first_frame_s(folder: Path) -> float:
 
 
 def moved_mm(scene: Scene, morph: str, first_s: float, bar: str, *places: int) -> float:
-    """Median way (mm), seen from the head, of the lowest vertex that a morph moves much, at the onsets of a bar's
-    notes: chin or tip of the tongue."""
+    """Median displacement in millimetres relative to the head, at the onsets of a bar, of the lowest vertex that a
+    morph moves strongly: chin or tip of the tongue.
+    """
     assert scene.clip is not None
     mesh, target = next((mesh, target) for mesh in scene.meshes for target in mesh.morphs if target.name == morph)
     sizes_cm = np.linalg.norm(target.position_deltas_cm, axis=1)

@@ -1,4 +1,4 @@
-"""A motion on other skeletons: joints and skin are where they are on ours, and the judge reads them back."""
+"""Motion on other skeletons: joints and skin are where they are on the default skeleton, also when read back."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def ours() -> Character:
 
 
 def random_motion(seed: int, frames: int = 5, reach_rad: float = 1.0) -> Motion:
-    """Every joint turned by up to a radian about any axis, the hips anywhere near."""
+    """Motion with every joint rotated by up to a radian about any axis and the hips displaced."""
     random = np.random.default_rng(seed)
     count = len(ours().skeleton.names)
     vectors = random.uniform(-1.0, 1.0, (frames, count, 3)) * reach_rad / np.sqrt(3.0)
@@ -110,7 +110,7 @@ def test_names_hierarchy_and_rest_are_the_files() -> None:
 
 
 def test_skin_is_where_it_is_on_ours() -> None:
-    """Bound in the A-pose of the file, the same vertices at the same places (twist bones carry none here)."""
+    """Bound in the A-pose of the file, the same vertices are at the same places (twist bones have no skin here)."""
     character = foreign(ours())
     motion = random_motion(3)
     own = surfaces_m(played(character, motion, own_target(character)))
@@ -128,7 +128,7 @@ def test_skin_is_where_it_is_on_ours() -> None:
 
 
 def test_a_missing_upper_chest_leaves_arms_where_they_were() -> None:
-    """A bone below a joint that the file lacks is moved on its parent: contacts are worth more than a fixed rib."""
+    """A bone below a missing joint is moved relative to its parent: contacts matter more than constant bones."""
     character = foreign(ours(), lacking=("upperChest", "leftToes", "jaw"))
     motion = random_motion(5)
     target = own_target(character)
@@ -150,7 +150,7 @@ def test_several_roots_become_one_and_it_is_said() -> None:
 
 
 def test_blenders_armature_is_no_bone() -> None:
-    """Unreal leaves it out when it imports the character, so its animation must not begin with it."""
+    """Unreal omits the armature when importing the character, so the animation must not begin with it."""
     character = foreign(ours(), root="Armature")
     motion = random_motion(11)
     target = own_target(character)
@@ -164,7 +164,9 @@ def test_blenders_armature_is_no_bone() -> None:
 
 
 def test_a_twist_bone_has_its_share() -> None:
-    """A forearm's twist bone at 60 % of the way turns with 60 % of the hand's twist; an upper arm's lacks 40 %."""
+    """A forearm's twist bone at 60 % of its length takes 60 % of the hand's twist; an upper arm's takes 40 % less than
+    the whole.
+    """
     character = foreign(ours())
     skeleton = character.skeleton
     still = random_motion(0, frames=3, reach_rad=0.0)
@@ -259,7 +261,7 @@ def test_the_mannequin_moves_as_ours(seed: int) -> None:
 
 
 def test_the_mannequins_skin_is_ours() -> None:
-    """The eyes look ahead, since it has no bones for them."""
+    """The eyes look straight ahead, since the mannequin has no bones for them."""
     motion = random_motion(4)
     eyes = [ours().skeleton.index(name) for name in ("leftEye", "rightEye")]
     motion.rotations[:, eyes] = quaternion.IDENTITY
@@ -271,7 +273,7 @@ def test_the_mannequins_skin_is_ours() -> None:
 
 
 def test_an_assets_rest_rotations_are_taken() -> None:
-    """A rotation on our file means the same as on the asset's if both have the same axes."""
+    """A rotation has the same effect on the exported file and on the asset if both have the same axes."""
     plain = mannequin_target(ours().skeleton)
     _, turned = world_placements(plain.parents, plain.offsets_m, plain.t_pose)
     random = Rotation.random(len(plain.names), random_state=3)

@@ -1,4 +1,4 @@
-"""A tree of files that changes as a whole, whatever happens meanwhile."""
+"""A folder tree changes as a whole, whatever happens meanwhile."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def test_a_folder_made_for_a_failure_goes_again(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("refused", range(1, 4))
 def test_what_is_refused_halfway_is_given_back(root: Path, monkeypatch: pytest.MonkeyPatch, refused: int) -> None:
-    """Behave as Windows does, where a file that a program has open cannot be replaced."""
+    """Simulates Windows, where a file in use cannot be replaced."""
     replace, moved = Path.replace, []
 
     def refusing(source: Path, target: Path) -> Path:
@@ -194,7 +194,7 @@ def test_a_list_that_came_with_a_project_leads_nowhere_else(tmp_path: Path, root
 
 @pytest.fixture
 def outside(tmp_path: Path) -> Path:
-    """A folder beside the project, of someone who does not want it touched."""
+    """Folder beside the project that must not be changed."""
     folder = tmp_path / "home"
     folder.mkdir()
     for name in ("one", "two", "three", "precious"):
@@ -203,7 +203,7 @@ def outside(tmp_path: Path) -> Path:
 
 
 def linked(root: Path, name: str, target: Path) -> None:
-    """Put a link in the place of a folder of the project."""
+    """Replace a folder of the project by a link."""
     folder = root / name
     if folder.is_dir():
         shutil.rmtree(folder)
@@ -241,7 +241,7 @@ def test_what_a_killed_process_is_said_to_have_left_leads_nowhere_else(root: Pat
 
 @posix
 def test_a_link_is_no_leftover_of_ours(root: Path, outside: Path) -> None:
-    """Neither what it leads to nor what is said there counts."""
+    """Neither its target nor a note there is followed."""
     (outside / "coming.txt").write_text("src/a/one")
     before = contents(outside)
     linked(root, "src/.0123456789abcdef.partial", outside)

@@ -1,4 +1,4 @@
-"""Films: read back by the encoder's own reader."""
+"""Films, read back by the encoder's own reader."""
 
 from __future__ import annotations
 

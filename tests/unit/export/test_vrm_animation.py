@@ -1,4 +1,4 @@
-"""A VRM animation on VRM figures: three.js and Blender find every humanoid bone where our GLB has it."""
+"""A VRM animation on VRM figures: three.js and Blender place every humanoid bone as in the exported GLB."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ MOST_MM, MOST_DEG = 0.05, 0.02
 
 @dataclass(frozen=True)
 class Cast:
-    """A character with its VRM file, and the skeleton that its GLB is on."""
+    """A character with its VRM file, and the skeleton of its GLB."""
 
     character: Character
     vrm: Path
@@ -54,7 +54,7 @@ class Cast:
 
 
 def bundled(id: str, folder: Path) -> Cast:
-    """A bundled body; its own GLB, with VRM's extension, is the figure."""
+    """Bundled body whose exported GLB, with VRM's extension, is the figure."""
     character = character_named(id)
     motion = random_motion(character)
     glb = folder / f"{id}.glb"
@@ -65,14 +65,14 @@ def bundled(id: str, folder: Path) -> Cast:
 
 
 def elder(folder: Path) -> Cast:
-    """A figure of VRM 0, which faces the other way, written by the add-on for Blender."""
+    """Figure of VRM 0, which faces the other way, written by the add-on for Blender."""
     path = FOLDER / "elder_vrm0.vrm"
     character = load_character(path)
     return Cast(character, path, own_target(character))
 
 
 def stranger(folder: Path) -> Cast:
-    """A VRM 1.0 whose bones have axes of their own, bound in an A-pose, and at rest in a T-pose with drooping arms."""
+    """VRM 1.0 with individual bone axes, bound in an A-pose and resting in a T-pose with drooping arms."""
     body = character_named("man_adult")
     figure = foreign(body, seed=5, rename=lambda name: f"J_{name}")
     glb = write_estranged(folder / "stranger.glb", figure, vrm=1)
@@ -108,7 +108,7 @@ def cast(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
 
 
 def moving(character: Character) -> Motion:
-    """A motion of all joints, with a mouth and a lid."""
+    """Motion of all joints, with a mouth and a lid."""
     motion = random_motion(character)
     face = {"jawOpen": np.linspace(0.1, 0.7, motion.frames), "eyeBlinkLeft": np.linspace(0.9, 0.3, motion.frames)}
     return replace(motion, morphs={name: weights.astype(np.float32) for name, weights in face.items()})
@@ -122,7 +122,7 @@ def written(cast: Cast, motion: Motion, path: Path) -> Path:
 
 
 def expected(cast: Cast, motion: Motion) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Places (F, 3) in metres and rotations (F, 4) of all humanoid bones in the character's GLB."""
+    """Positions (F, 3) in metres and rotations (F, 4) of all humanoid bones in the character's GLB."""
     scene = character_scene(cast.character, motion, "test", "test", cast.target)
     assert scene.clip is not None
     world = ScenePlayback(scene, scene.clip).world(0, motion.frames)
@@ -138,7 +138,7 @@ def expected(cast: Cast, motion: Motion) -> dict[str, tuple[np.ndarray, np.ndarr
 
 
 def compare(cast: Cast, motion: Motion, places: list[Any]) -> None:
-    """Hold what a program shows at `FRAMES` against our GLB."""
+    """Compare a program's result at `FRAMES` with the exported GLB."""
     own = cast.character.own
     # A figure of VRM 0 faces the other way.
     about = np.array([-1.0, 1.0, -1.0]) if own is not None and own.figure.origin == "vrm0" else np.ones(3)
@@ -194,7 +194,7 @@ def test_it_is_read_back_as_it_was_written(cast: Cast, tmp_path: Path) -> None:
 
 
 def test_limbs_with_bent_bones_between_their_joints_end_where_our_glb_has_them(tmp_path: Path) -> None:
-    """The toddler's second bones of thighs and upper arms are bent in the pose in which its file rests."""
+    """In the toddler's file, the second bones of thighs and upper arms are bent in the rest pose."""
     character = load_character(FOLDER / "toddler_vrm1.vrm")
     toddler = Cast(character, FOLDER / "toddler_vrm1.vrm", own_target(character))
     motion = moving(character)
@@ -225,7 +225,7 @@ def test_a_place_on_the_stage_is_in_the_path_of_the_hips() -> None:
 
 
 def test_a_face_of_arkit_names_gets_these_alone() -> None:
-    """A VRM with an expression of ARKit's name, in any capitals, has no preset that moves the same."""
+    """A VRM with an expression that has an ARKit name, in any capitals, gets no preset for the same motion."""
     character = load_character(FOLDER / "elder_vrm0.vrm")
     assert character.own is not None
     usual = vrm_expressions(character)
