@@ -10,6 +10,7 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
+from app.choreography.body_speeds import angle
 from app.choreography.clip import MotionClip
 from app.choreography.limbs import bend, softly_within
 from app.rig import quaternion
@@ -28,6 +29,8 @@ FREE_S: Final = 0.12
 ANKLE_RAD: Final = ((-1.3, 1.45), (-1.0, 1.0), (-0.75, 0.75))
 """Least and greatest rotation in radians of a left foot relative to its lower leg, from the T-pose, about +X (toes
 down), +Y (toes out) and +Z (sole out): the extremes of 70 clean captures from six sources."""
+LEAST_RAD: Final = 1e-4
+"""Angle in radians by which a foot must be turned to be placed again."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
 _MIRRORED: Final = (1.0, -1.0, -1.0)
 
@@ -58,15 +61,20 @@ def legs_to(
         tip = _over_floor(tips[:, foot], rest_tip_m(clip, foot), planted[:, foot], float(clip.fps))
         bend(clip, world, limb, tip - quaternion.rotate(world.rotations[:, at], end), AHEAD, rotations)
         _move(clip, world, limb, rotations)
-        before = quaternion.rotate(world.rotations[:, at], end)
-        off = _into_range(rotations[:, at - 1], foot)
-        world.rotations[:, at] = quaternion.multiply(world.rotations[:, at], off)
+        was, fps = world.rotations[:, at], float(clip.fps)
+        turned = quaternion.multiply(was, _into_range(rotations[:, at - 1], foot))
         # In the air a foot is turned about its ankle, on the floor about its tip.
-        turned = quaternion.rotate(world.rotations[:, at], end) - before
-        tip += free(planted[:, foot], float(clip.fps))[:, None] * turned
+        way = quaternion.rotate(turned, end) - quaternion.rotate(was, end)
+        tip += free(planted[:, foot], fps)[:, None] * way
         tip[:, 1] = _above(tip[:, 1], rest_tip_m(clip, foot), planted[:, foot])
-        world.rotations[:, at] = _heel_up(world.rotations[:, at], tip[:, 1], end)
-        bend(clip, world, limb, tip - quaternion.rotate(world.rotations[:, at], end), AHEAD, rotations)
+        turned = _heel_up(turned, tip[:, 1], end)
+        some = np.flatnonzero(angle(was, turned) > LEAST_RAD)
+        if len(some):
+            world.rotations[some, at] = turned[some]
+            part = JointTransforms(world.joints, world.positions_m[some], world.rotations[some])
+            solved = rotations[some]
+            bend(clip, part, limb, tip[some] - quaternion.rotate(turned[some], end), AHEAD, solved)
+            rotations[some] = solved
     return replace(clip, rotations=quaternion.continuous(rotations))
 
 

@@ -108,8 +108,7 @@ def fading_difference(value: FloatArray, slope: FloatArray, times_s: FloatArray,
     rest = 1.0 - u
     # Basis of the quintic: value 1 and slope 0, value 0 and slope 1 at the start; bend 0; all 0 at the end.
     held = rest**3 * (1.0 + 3.0 * u + 6.0 * u * u)
-    moved = rest**3 * u * (1.0 + 3.0 * u)
-    return np.asarray(held * value + moved * (fade_s * np.asarray(slope)))
+    return np.asarray(held * value + _fading_slope(u) * (fade_s * np.asarray(slope)))
 
 
 def fading_turn(turn: FloatArray, spin_rad_s: FloatArray, times_s: FloatArray) -> FloatArray:
@@ -122,9 +121,12 @@ def fading_turn(turn: FloatArray, spin_rad_s: FloatArray, times_s: FloatArray) -
     times_s : (T,) float64
         From 0 on.
     """
-    fading = fading_difference(turn, np.zeros_like(spin_rad_s), times_s)
-    for joint, spin in enumerate(spin_rad_s):
-        far_s = MOST_CARRIED_RAD / (_CARRIED * max(float(np.linalg.norm(spin)), 1e-9))
-        fade_s = min(max(far_s, LEAST_FADE_S), FADE_S)
-        fading[:, joint] += fading_difference(np.zeros(3), spin, times_s, fade_s)
-    return fading
+    far_s = MOST_CARRIED_RAD / (_CARRIED * np.maximum(np.linalg.norm(spin_rad_s, axis=-1), 1e-9))
+    fades_s = np.clip(far_s, LEAST_FADE_S, FADE_S)
+    carried = _fading_slope(np.clip(times_s[:, None] / fades_s, 0.0, 1.0))[..., None] * fades_s[:, None] * spin_rad_s
+    return fading_difference(turn, np.zeros_like(turn), times_s) + carried
+
+
+def _fading_slope(u: FloatArray) -> FloatArray:
+    """Quintic with value 0 and slope 1 at 0, and value, slope and curvature 0 at 1."""
+    return np.asarray((1.0 - u) ** 3 * u * (1.0 + 3.0 * u))

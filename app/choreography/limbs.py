@@ -59,8 +59,11 @@ def within_hinges(rotations: FloatArray, captured: FloatArray, ranges: FloatArra
     result = rotations.copy()
     for (name, axis), (least, most) in zip(HINGES.items(), ranges, strict=True):
         at = SEGMENTS.index(name)
+        turned = quaternion.twist_angle(rotations[:, at], axis)
+        if least <= turned.min() and turned.max() <= most:
+            continue
         usual = quaternion.twist_angle(captured[:, at], axis)
-        off = quaternion.twist_angle(rotations[:, at], axis) - usual
+        off = turned - usual
         # The deviation fades out: at the end it is less than half a turn.
         off = np.unwrap(((off + np.pi) % (2.0 * np.pi) - np.pi)[::-1])[::-1]
         bent = usual + off
