@@ -124,7 +124,7 @@ def fading_turn(turn: FloatArray, spin_rad_s: FloatArray, times_s: FloatArray) -
     far_s = MOST_CARRIED_RAD / (_CARRIED * np.maximum(np.linalg.norm(spin_rad_s, axis=-1), 1e-9))
     fades_s = np.clip(far_s, LEAST_FADE_S, FADE_S)
     carried = _fading_slope(np.clip(times_s[:, None] / fades_s, 0.0, 1.0))[..., None] * fades_s[:, None] * spin_rad_s
-    return fading_difference(turn, np.zeros_like(turn), times_s) + carried
+    return np.asarray(fading_difference(turn, np.zeros_like(turn), times_s) + carried)
 
 
 def _fading_slope(u: FloatArray) -> FloatArray:
