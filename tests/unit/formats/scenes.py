@@ -1,4 +1,4 @@
-"""Made-up scenes for the tests of files, and where their joints are by an independent computation."""
+"""Synthetic scenes for tests of files, with positions of their joints from an independent calculation."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ BONES = (
 
 
 def rotations(seed: int, frames: int, joints: int, amplitude_rad: float) -> np.ndarray:
-    """Smooth random rotations (F, J, 4) about changing axes."""
+    """Smooth random rotations (F, J, 4) about varying axes."""
     generator = np.random.default_rng(seed)
     speed = generator.uniform(0.02, 0.15, (1, joints, 3))
     phase = generator.uniform(0, 2 * np.pi, (1, joints, 3))
@@ -86,7 +86,7 @@ def _sphere(center: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray, 
 
 
 def _mesh(name: str, joints: list[int], binds: np.ndarray, morph_names: tuple[str, ...], seed: int) -> SkinnedMesh:
-    """A ball around each joint, blended into the parent's and two more joints."""
+    """Ball around each joint, with weights blended between the joint, its parent and two others."""
     generator = np.random.default_rng(seed)
     vertices, faces, normals, indices = [], [], [], []
     for number, joint in enumerate(joints):
@@ -123,7 +123,7 @@ def _mesh(name: str, joints: list[int], binds: np.ndarray, morph_names: tuple[st
 
 
 def character(fps: Fraction, frames: int = 49, amplitude_rad: float = 0.6) -> Scene:
-    """Twenty-two bones, three skinned meshes bound in another pose than the rest, morphs on two of them."""
+    """Twenty-two bones and three skinned meshes bound in another pose than the rest pose, two of them with morphs."""
     bones = _rest_bones(11, 0.3)
     bind_rotations = rotations(12, 1, len(bones), 0.2)
     bind_rotations[:, :2] = [0, 0, 0, 1]
@@ -150,7 +150,7 @@ def character(fps: Fraction, frames: int = 49, amplitude_rad: float = 0.6) -> Sc
 
 
 def instrument(fps: Fraction, frames: int = 49) -> Scene:
-    """One root and rigid moving parts, two of them straight above their parent."""
+    """A root with rigid moving parts, two of them vertically above their parent."""
     identity = np.array([0.0, 0.0, 0.0, 1.0])
     parts = (("root", -1, (0, 0, 0)), ("valve_1", 0, (0, 8, 0)), ("valve_2", 0, (3, 8, 0)), ("slide", 0, (0, 0, 20)),
              ("water_key", 3, (0, 5, 0)))  # fmt: skip
@@ -183,7 +183,7 @@ def instrument(fps: Fraction, frames: int = 49) -> Scene:
 
 
 def expected(scene: Scene) -> Expected:
-    """Return the values that every reader should find in a scene's file."""
+    """Values that every reader should find in a scene's file."""
     assert scene.clip is not None
     clip = scene.clip
     translations = np.tile([bone.translation_cm for bone in scene.bones], (clip.frames, 1, 1)).astype(float)

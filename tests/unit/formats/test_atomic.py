@@ -87,7 +87,7 @@ def test_what_a_killed_process_left_is_swept_and_what_a_living_one_writes_is_not
 
 
 def test_sweeping_in_the_midst_of_any_step_costs_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Another editor may sweep the folder whenever it likes."""
+    """Another editor may clean up the folder at any time."""
     target, backup = tmp_path / "take.fbx", tmp_path / "take.fbx.bak"
     target.write_bytes(b"old")
 

@@ -19,7 +19,7 @@ from tests.unit.formats import scenes
 
 
 def clip(frames: int = 20, fps: Fraction = Fraction(60)) -> BvhClip:
-    """Seven joints whose children do not follow their parents directly."""
+    """Seven joints in an order in which children do not directly follow their parents."""
     parents = (-1, 0, 0, 1, 2, 1, 4)
     generator = np.random.default_rng(4)
     return BvhClip(
@@ -220,7 +220,7 @@ DIALECTS = {
 
 
 def _in_rows(text: str, between: str) -> str:
-    """The text with this between the numbers of each row of the motion."""
+    """Text with a separator inserted between the numbers of each row of the motion."""
     head, rows = re.split(r"(?<=\d\n)(?=[^\n]*\Z|[^:]*\Z)", text, maxsplit=1)
     return head + rows.replace(" ", between)
 
@@ -301,7 +301,7 @@ def test_figures_of_one_name_are_numbered() -> None:
 
 
 def test_commas_that_may_be_either_are_named_by_their_line() -> None:
-    """A decimal comma looks like one that parts numbers: nothing is guessed."""
+    """Decimal commas cannot be distinguished from separators, so nothing is guessed."""
     text = encode_bvh(clip(frames=5)).decode()
     lines = text.splitlines()
     mixed = "\n".join([*lines[:-2], lines[-2].replace(" ", ",").replace(".", ","), lines[-1]])

@@ -1,4 +1,4 @@
-"""Test where results are kept."""
+"""Location of cached results."""
 
 from __future__ import annotations
 

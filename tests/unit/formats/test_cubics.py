@@ -1,4 +1,4 @@
-"""Cubics through few keys, against scipy's, and the choice of the keys."""
+"""Cubics through few keys compared with scipy's, and the choice of the keys."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def test_curves_are_scipys_through_keys_and_slopes() -> None:
 
 
 def test_slopes_are_the_best_there_are() -> None:
-    """No other slopes of a span leave a smaller sum of squares."""
+    """No other slopes of a span have a smaller sum of squared errors."""
     values = _waves(1, 1)[0]
     keys = np.array([10, 31])
     (slopes,) = span_slopes(values, keys)
@@ -67,7 +67,7 @@ def test_keys_keep_every_number_within_its_bound_and_are_few() -> None:
 
 
 def _fewest(values: np.ndarray) -> int:
-    """Keys of one curve (F, D) when every span is as long as it can be, frame by frame."""
+    """Keys of one curve (F, D) with every span as long as possible, found frame by frame."""
     keys, here = 1, 0
     while here < len(values) - 1:
         for length in range(1, len(values) - here):

@@ -1,4 +1,4 @@
-"""Euler angles against scipy's, and their continuity."""
+"""Continuous Euler angles compared with scipy's."""
 
 from __future__ import annotations
 
@@ -50,7 +50,9 @@ def test_matrices_are_scipys() -> None:
 @pytest.mark.parametrize("order", ORDERS)
 @pytest.mark.parametrize("axis", range(3))
 def test_a_steady_turn_never_jumps(order: str, axis: int) -> None:
-    """Five turns about each axis, a degree a frame: the angles go on growing, also past the middle one's 90 degrees."""
+    """Five turns about each axis, one degree per frame: the angles increase continuously, also when the middle one
+    passes 90 degrees.
+    """
     degrees = np.arange(1800.0)
     vectors = np.zeros((1800, 3))
     vectors[:, "XYZ".index(order[axis])] = degrees
@@ -62,7 +64,7 @@ def test_a_steady_turn_never_jumps(order: str, axis: int) -> None:
 
 @pytest.mark.parametrize("order", ORDERS)
 def test_smooth_motion_takes_the_shortest_way(order: str) -> None:
-    """Away from gimbal lock no angle moves faster between frames than the rotation itself, but for its lever."""
+    """Away from gimbal lock no angle changes faster between frames than the rotation allows."""
     time = np.arange(2000)[:, None] * 0.01
     vectors = np.sin(time * [1.0, 1.3, 0.7]) * [0.9, 0.8, 0.9]
     quaternions = Rotation.from_rotvec(vectors).as_quat()[:, None]
@@ -72,7 +74,7 @@ def test_smooth_motion_takes_the_shortest_way(order: str) -> None:
 
 
 def test_unrolled_angles_interpolate_near_the_rotation() -> None:
-    """Half-way between two frames the mean of the angles is the rotation there, as readers find that fill in frames."""
+    """Midway between two frames, the mean of the angles gives the rotation there, as in readers that interpolate."""
     time = np.arange(0, 20, 0.01)[:, None]
     vectors = np.sin(time * [1.0, 1.3, 0.7]) * [2.0, 1.2, 2.5]
     quaternions = Rotation.from_rotvec(vectors).as_quat()[:, None]
@@ -84,7 +86,7 @@ def test_unrolled_angles_interpolate_near_the_rotation() -> None:
 
 
 def test_many_joints_at_once_are_each_by_itself() -> None:
-    """The blocks that the work is cut into do not show."""
+    """The blocks in which the work is done have no influence."""
     quaternions = np.random.default_rng(5).normal(size=(5000, 9, 4)).cumsum(axis=0)
     together = euler.euler_degrees(quaternions, "ZXY")
     for joint in range(9):

@@ -1,4 +1,4 @@
-"""Only ordinary files are read, only up to a size, and nothing is ever waited for."""
+"""Only regular files are read, only up to a size, and without waiting."""
 
 from __future__ import annotations
 

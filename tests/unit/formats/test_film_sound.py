@@ -1,4 +1,4 @@
-"""The sound of films: its time is the film's, and what a file asks for is counted before it is made."""
+"""Sound of films: it has the film's time, and the size claimed by a file is checked before memory is allocated."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="counts what children
 
 
 class TooMuch(Exception):
-    """Exception of a check."""
+    """Raised by a check of the test."""
 
 
 def at_most(seconds: float) -> Callable[[float], None]:

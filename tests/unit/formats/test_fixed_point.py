@@ -15,7 +15,7 @@ LARGE = st.floats(-9.9e8, 9.9e8)
 
 
 def _slowly(values: np.ndarray) -> bytes:
-    """One number after the other, by Python's own decimals."""
+    """Convert one number after another with Python's decimals."""
     lines = []
     for row in values.tolist():
         millionths = [Decimal(round(value * 1e6)).scaleb(-6) for value in row]

@@ -1,4 +1,4 @@
-"""Angles of joints with an order and a rest of their own, against scipy's."""
+"""Angles of joints with individual orders and rest rotations compared with scipy's."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def test_the_order_is_that_of_the_nearest_axes_either_way_round(order: str) -> N
 
 
 def test_the_order_does_not_hang_on_rounding() -> None:
-    """Axes half-way between two: the same order on every machine."""
+    """Axes midway between two choices give the same order on every machine."""
     half = Rotation.from_euler("Z", 45, degrees=True).apply(np.eye(3))
     random = np.random.default_rng(6)
     assert {order_along(half + random.normal(scale=1e-9, size=(3, 3))) for _ in range(20)} == {order_along(half)}

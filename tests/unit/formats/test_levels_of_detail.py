@@ -1,4 +1,4 @@
-"""Lower levels of detail: a mesh's own vertices with all that belongs to them, without cracks, in every format."""
+"""Reduced levels of detail consist of a mesh's own vertices with all attributes, without cracks, in every format."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ RADIUS_CM = 10.0
 
 @pytest.fixture(scope="module")
 def globe() -> SkinnedMesh:
-    """A ball whose UVs have a seam from pole to pole, with a dent as morph target and two materials."""
+    """Ball with a UV seam between the poles, a dent as morph target, and two materials."""
     turn, height = np.meshgrid(np.linspace(0, 1, COLUMNS + 1), np.linspace(0, 1, ROWS + 1), indexing="ij")
     longitude, latitude = 2 * np.pi * turn.ravel(), np.pi * (height.ravel() - 0.5)
     around = np.where(turn.ravel() == 1, 0.0, longitude)
@@ -58,7 +58,7 @@ def globe() -> SkinnedMesh:
 
 
 def _closed(mesh: SkinnedMesh) -> trimesh.Trimesh:
-    """The surface with vertices that lie together made one."""
+    """Surface in which vertices at the same place are merged."""
     result = trimesh.Trimesh(mesh.vertices_cm, mesh.faces, process=False)
     result.merge_vertices(merge_tex=True, merge_norm=True)
     result.update_faces(result.nondegenerate_faces())
@@ -140,7 +140,7 @@ def test_vertices_all_at_one_place_cost_little(globe: SkinnedMesh) -> None:
 
 @pytest.fixture(scope="module")
 def scene(globe: SkinnedMesh) -> Scene:
-    """A moving figure with a globe of three levels, and a mesh without any."""
+    """Moving figure with a globe of three levels, and a mesh with one level."""
     made = scenes.character(Fraction(30), frames=4)
     binds = made.meshes[0].world_from_bone_bind
     small = replace(made.meshes[0], name="small", faces=made.meshes[0].faces[:40], face_materials=None)

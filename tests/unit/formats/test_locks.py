@@ -1,4 +1,4 @@
-"""Locks as Windows has them: of a byte far behind the content, by the file's own position."""
+"""Locks like those of Windows: on one byte far behind the content, at the file's current position."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Kinds of files by their content, whatever their names."""
+"""Kinds of files by content, regardless of name."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""MPEG audio without a header: frames counted, against what encoders wrote."""
+"""MPEG audio without a header: counted frames compared with encoders' output."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test that files from outside are read by `app.formats.files` alone, which minds pipes, sizes and odd errors."""
+"""External files are read only through `app.formats.files`, which handles pipes, sizes and unusual errors."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ MENTIONED = re.compile("|".join((*READING, r"\bopen\s*\(")))
 
 
 def readings(path: Path) -> Iterator[tuple[str, int]]:
-    """Yield the names in a module that read a file directly, each with its line."""
+    """Yield the functions with which a module reads files directly, each with its line."""
     source = path.read_text(encoding="utf-8")
     if not MENTIONED.search(source):
         return

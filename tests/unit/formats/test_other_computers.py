@@ -1,4 +1,4 @@
-r"""Paths on other computers: recognised by their text, and not touched before the user agrees."""
+r"""Paths on other computers are recognised from their text and not accessed without the user's consent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Files of our own that something has damaged: each reader words it or does without, whatever the bytes are."""
+"""Damaged files in the program's own formats: each reader reports an error or ignores the file, whatever
+its bytes are.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files of arrays are read as written, and what is no such file is refused before it takes memory."""
+"""Files of arrays are read as written; other files are refused before they take memory."""
 
 from __future__ import annotations
 

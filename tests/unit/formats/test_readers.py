@@ -1,4 +1,4 @@
-"""Files are what other programs' readers say they are."""
+"""Written files have the intended content according to other programs' readers."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def test_fbx_instrument_by(reader: str, tmp_path: Path) -> None:
 @pytest.mark.readers
 @pytest.mark.parametrize("reader", QUICK_FBX + SLOW_FBX)
 def test_fbx_violent_rotations_by(reader: str, tmp_path: Path) -> None:
-    """Through gimbal lock and over half turns, where unrolled angles leave the usual range."""
+    """Rotations through gimbal lock and beyond half turns, where continuous angles leave the usual range."""
     _needed(reader)
     scene = scenes.character(Fraction(60), frames=120, amplitude_rad=4.0)
     write_scene(tmp_path / "player.fbx", scene)
@@ -104,7 +104,7 @@ for bone in armature.pose.bones:
 @pytest.mark.readers
 @pytest.mark.parametrize("make", [scenes.character, scenes.instrument])
 def test_blender_keeps_the_places_of_moving_bones_without_any_repair(make: object, tmp_path: Path) -> None:
-    """Blender's importer drops the location keys of bones that it connects to a parent; so none may look connected."""
+    """Blender's importer discards the location keys of bones that look connected to a parent; so none may look so."""
     _needed("blender")
     scene = make(Fraction(60))
     write_scene(tmp_path / "scene.fbx", scene)
@@ -128,7 +128,7 @@ def test_blender_keeps_the_places_of_moving_bones_without_any_repair(make: objec
 
 
 def _write_bvh(path: Path, fps: Fraction) -> Expected:
-    """The character's motion from the hips down the tree, as BVH has it: offsets, and one moving root."""
+    """The character's motion from the hips downwards, in BVH's form: offsets, and one moving root."""
     scene = scenes.character(fps)
     assert scene.clip is not None
     names = tuple(bone.name for bone in scene.bones)
@@ -173,7 +173,7 @@ def test_glb_by_quick_readers(make: Callable[[Fraction], Scene], fps: Fraction, 
 @pytest.mark.parametrize("fps", RATES, ids=_rate_name)
 @pytest.mark.parametrize("reader", SLOW_GLB)
 def test_glb_by(reader: str, fps: Fraction, make: Callable[[Fraction], Scene], tmp_path: Path) -> None:
-    """The validator of the format's makers finds no error, and other programs find the same motion."""
+    """The format's official validator finds no error, and other programs find the same motion."""
     _needed(reader)
     scene = make(fps)
     write_glb(tmp_path / "scene.glb", scene)

@@ -1,4 +1,4 @@
-"""Several figures in one file, each at its place: found there by our reader and by other programs'."""
+"""Several figures in one file, each at its place, as read by the program's reader and by other programs."""
 
 from __future__ import annotations
 
@@ -258,7 +258,7 @@ def test_assimp_finds_the_surfaces(suffix: str, tmp_path: Path) -> None:
 
 @pytest.mark.readers
 def test_the_sdk_finds_the_surfaces(tmp_path: Path) -> None:
-    """FBX2glTF makes of a Physical Material of 3ds Max a metallic-roughness surface."""
+    """FBX2glTF converts a Physical Material of 3ds Max to a metallic-roughness material."""
     _needed("fbxsdk")
     write_scenes(tmp_path / "stage.fbx", stage())
     program = Path(os.environ["CHECK_ANIM_NODE_MODULES"]) / "fbx2gltf" / "bin" / "Linux" / "FBX2glTF"
@@ -272,7 +272,7 @@ def test_the_sdk_finds_the_surfaces(tmp_path: Path) -> None:
 
 
 def _assert_same_points(found: list[list[float]], figure: Scene, frame: int) -> None:
-    """The deformed vertices, in Blender's space (Z up); glTF's importer may have more than one of a vertex."""
+    """Compare deformed vertices in Blender's space (Z up); glTF's importer may duplicate vertices."""
     turn = Rotation.from_quat(figure.place.rotation_xyzw)
     points = turn.apply(100.0 * slow_positions_m(figure, frame)) + figure.place.translation_cm
     x, y, z = 100.0 * np.array(found).T

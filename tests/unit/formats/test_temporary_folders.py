@@ -1,4 +1,6 @@
-"""Temporary folders: gone when their work is done, and when their process was killed, but never under a living one."""
+"""Temporary folders are removed when their work is done or their process was killed, but not while the
+process lives.
+"""
 
 from __future__ import annotations
 

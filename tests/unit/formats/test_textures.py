@@ -1,4 +1,4 @@
-"""Textures: read within bounds, made smaller, named safely, and written so that they come back."""
+"""Textures: read within limits, reduced, given safe names, and equal after writing and reading."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def test_a_mesh_without_textures_has_their_mean_colours() -> None:
 
 
 def read_back(path: Path) -> Material:
-    """The one material of an FBX file, as another program's reader and ours of its output find it."""
+    """The material of an FBX file, converted by another program and read by the program's reader."""
     content = read_foreign_fbx(path)
     return FbxTextures(path, content).material(content.meshes[0].materials[0])
 

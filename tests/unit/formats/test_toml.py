@@ -1,4 +1,4 @@
-"""TOML files: what was written is read; of what no one means to write only our own errors are raised, and soon."""
+"""TOML files are read as written; other content raises the program's errors within limited time."""
 
 from __future__ import annotations
 

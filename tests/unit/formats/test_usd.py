@@ -1,4 +1,4 @@
-"""Scenes as USD: valid to OpenUSD's own validators, and deformed by its own skinning to where we mean."""
+"""Scenes as USD are valid according to OpenUSD's validators, and its own skinning gives the intended vertices."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ def test_without_usd_core_the_remedy_is_reported(tmp_path: Path, monkeypatch: py
 @needs_usd
 @pytest.mark.skipif(sys.platform != "linux", reason="numpy asks the system's loader on Linux only")
 def test_the_package_is_loaded_while_another_thread_asks_the_loader(tmp_path: Path) -> None:
-    """The other thread does so with the interpreter's lock, as numpy when it looks who calls it."""
+    """The other thread holds the interpreter's lock, like numpy when it looks up its caller."""
     script = f"""
 import ctypes, faulthandler, threading
 from fractions import Fraction

@@ -1,4 +1,4 @@
-"""A user's folder laid over what is bundled: after any edits of its files the last good version of each is in use."""
+"""A user's folder over the bundled tables: after any edits, the last valid version of each file is used."""
 
 from __future__ import annotations
 

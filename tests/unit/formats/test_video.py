@@ -1,4 +1,4 @@
-"""Reading films: which picture is seen when, judged by films whose pictures carry their number."""
+"""Reading films: the picture displayed at each time, in films whose pictures contain their index."""
 
 from __future__ import annotations
 

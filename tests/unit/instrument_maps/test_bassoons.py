@@ -1,4 +1,4 @@
-"""The bassoon's fingerings against what its holes and keys do, and its size against real ones."""
+"""The bassoon's fingerings compared with the effects of its holes and keys, and its size with real ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The brass instruments' first choices against public charts, what no chart says against the harmonics of the tube."""
+"""First choices of brass instruments compared with public charts, and with harmonics of the tube where there is no
+chart.
+"""
 
 from __future__ import annotations
 
@@ -92,7 +94,7 @@ OUT_OF_TUNE_CENTS = 35
 
 
 def charts() -> dict[str, dict[int, dict[str, set[int]]]]:
-    """Chart -> written pitch -> fingering -> its ranks."""
+    """Ranks of each fingering by chart and written pitch."""
     found: dict[str, dict[int, dict[str, set[int]]]] = defaultdict(lambda: defaultdict(lambda: defaultdict(set)))
     with CHARTS.open(encoding="utf-8") as file:
         for row in csv.DictReader(file):
@@ -114,7 +116,7 @@ def first_choice(name: str, written: int) -> str:
 
 
 def reported(name: str, written: int) -> dict[str, set[int]]:
-    """Return the fingerings of a note in the chart, without those that need a valve this instrument lacks."""
+    """Fingerings of a note in the chart, without those that need a missing valve."""
     chart, shift = CHART_OF[name]
     signs = {control.label for control in MAPS[name].controls if control.label}
     acoustics = MAPS[name].acoustics
@@ -129,8 +131,9 @@ def uncharted(name: str) -> set[int]:
 
 
 def deviation_cents(instrument: InstrumentMap, valves: tuple[str, ...], written: int) -> float:
-    """Return the distance (cents) of a note from the nearest harmonic of the tube with these valves, computed from the
-    tube's lengths alone."""
+    """Distance in cents of a note from the nearest harmonic of the tube with these valves, from the tube's lengths
+    alone.
+    """
     acoustics = instrument.acoustics
     added = {name: 2 ** (semitones / 12) - 1 for name, semitones in acoustics.semitones.items()}
     again = sum(length for name, length in added.items() if name in valves and name == acoustics.compensator)
@@ -238,7 +241,7 @@ def test_a_tuba_of_another_key_is_the_same_table_moved(name: str, semitones: int
 
 @pytest.mark.parametrize("name", BRASS)
 def test_first_choices_are_in_tune_unless_a_valve_sum_is_too_long(name: str) -> None:
-    """Players correct by lip and slides: published are 54 cents for 123."""
+    """Players correct with lips and slides; the published deviation of 123 is 54 cents."""
     for written in written_range(MAPS[name]):
         concert = written - MAPS[name].transposition_semitones
         fingering = MAPS[name].fingerings_for(concert)[0]

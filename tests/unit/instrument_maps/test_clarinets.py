@@ -1,4 +1,4 @@
-"""The clarinets' fingerings against four public charts, and their sizes against real ones."""
+"""The clarinets' fingerings compared with four public charts, and their sizes with real ones."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ TOGETHER = ({"T", "R"}, {"S3", "S4"}, {"S1", "S2"})
 
 
 def possible(label: str) -> bool:
-    """Return whether ten fingers can do it."""
+    """Return whether ten fingers can play a fingering."""
     asked: dict[str, set[str]] = defaultdict(set)
     for sign in label.split():
         if sign not in FINGER:

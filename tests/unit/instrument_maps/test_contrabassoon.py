@@ -1,4 +1,4 @@
-"""The contrabassoon's fingerings against the bassoon's where they must agree, and its size against real ones."""
+"""The contrabassoon's fingerings compared with the bassoon's where they must agree, and its size with real ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The wind controller's fingerings against what every key does, its octaves against the rollers, and its size."""
+"""The wind controller's fingerings compared with the effect of each key, its octaves with the rollers, and its size."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LOWEST_C = 24
 
 
 def sounding(keys: set[str]) -> int:
-    """Return the pitch that some keys sound, in semitones over the low C of the thumb's octave."""
+    """Pitch of some keys in semitones above the low C of the thumb's octave."""
     first, second, little = "L1" in keys, "L2" in keys, "Lp1" in keys
     steps = {
         "L1": -2, "L2": -2 if first else -1, "bis": 0 if first and second else -1, "L3": -2, "Lp1": 1, "Lp2": -1,
@@ -29,7 +29,7 @@ def sounding(keys: set[str]) -> int:
 
 
 def signs(fingering: Fingering) -> tuple[set[str], int]:
-    """The keys without the thumb, and the thumb's octave."""
+    """Keys of a fingering without the thumb, and the thumb's octave."""
     words = fingering.label.split()
     (octave,) = (word for word in words if word[0] == "o")
     return set(words) - {octave}, int(octave[1:])

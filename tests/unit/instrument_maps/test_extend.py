@@ -1,4 +1,4 @@
-"""A map that extends another says only what differs."""
+"""A map that extends another one contains only the differences."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Edits of a table of fingerings, and the file that keeps them: only what was changed, the rest as it stood."""
+"""Edits of a table of fingerings, and the file that stores only the changes."""
 
 from __future__ import annotations
 

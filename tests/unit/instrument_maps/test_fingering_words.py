@@ -1,4 +1,4 @@
-"""Keys by the names that players have for them, in both languages, and fingerings in these words."""
+"""Players' names of keys in both languages, and fingerings in these words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The bundled tables of fingerings against published charts and against acoustics."""
+"""Bundled tables of fingerings compared with published charts and acoustics."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ SLIDE_TRAVEL_M = 0.62
 
 
 def harmonic(partial: int) -> float:
-    """Cents of a harmonic above the fundamental."""
+    """Distance of a harmonic from the fundamental in cents."""
     return 1200 * math.log2(partial)
 
 

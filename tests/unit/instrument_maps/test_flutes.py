@@ -1,4 +1,4 @@
-"""The flutes' fingerings against three public charts, and their sizes against real ones."""
+"""The flutes' fingerings compared with three public charts, and their sizes with real ones."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ EXCEPTIONS = {
 
 
 def twice(instrument: InstrumentMap, label: str) -> set[str]:
-    """The fingers that would have to be in two places."""
+    """Fingers that a fingering would need in two places."""
     signs = label.split() if label != "(open)" else []
     at_work = [next(control.finger for control in instrument.controls if control.label == sign) for sign in signs]
     return {finger for finger in at_work if at_work.count(finger) > 1}

@@ -1,4 +1,4 @@
-"""Drawn fingerings: places of holes and keys, and what is closed, against charts that others published."""
+"""Drawn fingerings: positions of holes and keys and closed ones, compared with published charts."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def overlaps(one: ChartedKey, other: ChartedKey) -> bool:
 @pytest.mark.parametrize("instrument", MAPS)
 @pytest.mark.parametrize("said", [True, False], ids=["said", "not_said"])
 def test_every_key_has_a_place_of_its_own(instrument: InstrumentMap, said: bool) -> None:
-    """Also where a map, as a user's own, says nothing of places."""
+    """Also in maps without positions, such as a user's."""
     assert all(key.at is not None and key.sign for key in instrument.chart)
     chart = key_chart(instrument if said else msgspec.structs.replace(instrument, chart=()))
     assert {key.control.name for key in chart.keys} == {one.name for one in instrument.controls}

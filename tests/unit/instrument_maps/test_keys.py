@@ -1,4 +1,4 @@
-"""Keys and holes: labels of words, half holes, linked parts, and fingers that cannot do two things at once."""
+"""Keys and holes: labels, half holes, linked parts, and fingers that cannot do two things simultaneously."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The user's own instruments: found, laid over the bundled ones, read again, the last good version kept."""
+"""The user's own instruments: found, combined with the bundled ones, read again, with the last valid version kept."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def write(path: Path, text: str) -> None:
-    """Write, at another time than before."""
+    """Write a file with another time of modification than before."""
     before = path.stat().st_mtime_ns if path.exists() else 0
     path.write_text(text, "utf-8")
     os.utime(path, ns=(before + 10**9, before + 10**9))

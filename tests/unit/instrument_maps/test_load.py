@@ -1,4 +1,4 @@
-"""The bundled maps are parsed and validated once for each version of them; what is kept is what would be read."""
+"""Bundled maps are parsed and validated once per version; the cached ones equal those that would be read."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from instrument_maps.model import InstrumentMap
 
 @pytest.fixture
 def maps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with two of the maps, as if they were all that come with the program."""
+    """Folder with two of the maps in place of the bundled ones."""
     folder = tmp_path / "maps"
     folder.mkdir()
     for name in ("trumpet_Bb", "cornet_Bb"):
@@ -28,7 +28,7 @@ def maps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def _again() -> dict[str, object]:
-    """Return the maps that another start of the program would load; the maps of this process stay as they are."""
+    """Maps as loaded by another start of the program, without changing those of this process."""
     digest_of.cache_clear()
     return dict(bundled_maps.__wrapped__())
 

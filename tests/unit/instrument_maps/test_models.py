@@ -1,4 +1,4 @@
-"""The bundled models against the maps: sizes, sound meshes, touch points on them, bodies around them."""
+"""Bundled models compared with their maps: sizes, valid meshes, touch points on surfaces, collision bodies."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def model_of(name: str) -> GltfModel:
 
 @cache
 def surfaces_of(name: str) -> dict[str, FloatArray]:
-    """The triangles of each node in its own frame."""
+    """Triangles of each node in its own frame."""
     return node_triangles(bundled_maps()[name], model_of(name))
 
 
@@ -159,7 +159,7 @@ def test_trombone_has_real_sizes() -> None:
 
 
 def moved(instrument: InstrumentMap, name: str, value: float) -> FloatArray:
-    """Triangles of a control's node in the root frame at a value."""
+    """Triangles of a control's node in the root frame at a value of the control."""
     control = instrument.control(name)
     origin = origins(model_of(instrument.id))[control.node]
     triangles = surfaces_of(instrument.id)[control.node]
@@ -200,7 +200,7 @@ def test_trigger_moves_its_pad_forward_by_a_thumbs_stroke() -> None:
 
 
 def bodies_of(instrument: InstrumentMap) -> tuple[instrument_proxy.Bodies, instrument_proxy.InstrumentNodes]:
-    """The collision bodies, and their nodes at rest."""
+    """Collision bodies, and their nodes at rest."""
     places = origins(model_of(instrument.id))
     place_m = np.array(list(places.values()))
     return instrument_proxy.bodies(instrument.proxy, list(places)), instrument_proxy.InstrumentNodes(

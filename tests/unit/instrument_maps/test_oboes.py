@@ -1,4 +1,4 @@
-"""The oboes' fingerings against the one public chart, and their sizes against real ones."""
+"""The oboes' fingerings compared with a public chart, and their sizes with real ones."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ PLACE = {"i": "index", "m": "middle", "r": "ring", "p": "little"}
 
 
 def chart() -> dict[int, dict[int, set[str]]]:
-    """Written pitch -> rank -> fingerings."""
+    """Fingerings by written pitch and rank."""
     found: dict[int, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
     with CHART.open(encoding="utf-8") as file:
         for row in csv.DictReader(file):

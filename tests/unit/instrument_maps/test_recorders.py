@@ -1,4 +1,4 @@
-"""The recorders' fingerings against a public chart, and the two sizes against each other."""
+"""The recorders' fingerings compared with a public chart, and the two sizes with each other."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ALTO_ABOVE_SOPRANO = 5
 
 
 def chart() -> dict[int, str]:
-    """Written pitch of the soprano -> fingering."""
+    """Fingerings by written pitch of the soprano."""
     with CHART.open(encoding="utf-8") as file:
         return {int(row["written_pitch"]): row["fingering"] for row in csv.DictReader(file)}
 

@@ -1,4 +1,4 @@
-"""The saxophones' fingerings against three public charts, and their sizes against real ones."""
+"""The saxophones' fingerings compared with three public charts, and their sizes with real ones."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ HEIGHT_M = {"sax_alto_Eb": (0.60, 0.70), "sax_tenor_Bb": (0.75, 0.86), "sax_bari
 
 
 def charts() -> dict[int, dict[str, list[int]]]:
-    """Written pitch -> fingering -> ranks, one of each chart that has it."""
+    """Ranks by written pitch and fingering, one from each chart that contains it."""
     found: dict[int, dict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
     with CHARTS.open(encoding="utf-8") as file:
         for row in csv.DictReader(file):
@@ -45,7 +45,7 @@ def charts() -> dict[int, dict[str, list[int]]]:
 
 
 def possible(label: str) -> bool:
-    """Return whether ten fingers can do it."""
+    """Return whether ten fingers can play a fingering."""
     asked: dict[str, set[str]] = defaultdict(set)
     for sign in label.split() if label != "(open)" else ():
         asked[FINGER[sign]].add(sign)

@@ -1,4 +1,4 @@
-"""Lists of instruments are in the order of a score, and keys are written alike."""
+"""Lists of instruments have score order, and keys a uniform spelling."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_keys_are_written_with_the_sign_of_a_flat() -> None:
 
 
 def test_names_begin_with_a_capital_and_go_on_without() -> None:
-    """Names are written like words of a sentence; keys, valves and abbreviations stay."""
+    """Names have sentence case; keys, valves and abbreviations keep their capitals."""
     words = [word for one in bundled_maps().values() for word in one.name.en.split()[1:]]
     assert [word for word in words if word.istitle() and len(word.strip("()♭")) > 1] == []
 

@@ -1,4 +1,4 @@
-"""Straps that maps ask for: their hooks are on the instruments."""
+"""Straps in maps have their hooks on the instruments."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The loader refuses with the exact place; the bundled maps are valid."""
+"""The loader refuses invalid maps with the exact place; the bundled maps are valid."""
 
 from __future__ import annotations
 

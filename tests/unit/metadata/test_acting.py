@@ -1,4 +1,4 @@
-"""Styles, habits, gestures and rules: the bundled ones are sound, and a wrong one is refused with its exact place."""
+"""Bundled styles, habits, gestures and rules are valid, and an invalid one is refused with its exact place."""
 
 from __future__ import annotations
 

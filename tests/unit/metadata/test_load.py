@@ -1,4 +1,4 @@
-"""The bundled tables are sound, and a wrong one is refused with its exact place."""
+"""Bundled tables are valid, and an invalid one is refused with its exact place."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rules while they are changed: whose they are, what is written and what is read again."""
+"""Rules during editing: bundled or the user's, written and read again."""
 
 from __future__ import annotations
 

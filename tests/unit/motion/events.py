@@ -1,4 +1,4 @@
-"""Plan events for the tests of motion, written by hand rather than by the plan's code."""
+"""Plan events for tests of motion, written independently of the planning code."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ REASON = Message("test.reason")
 
 
 def press(name: str = "valve_1", **changes: object) -> Control:
-    """A valve under a finger."""
+    """Valve pressed by a finger."""
     settings: dict[str, object] = {
         "kind": "press",
         "role": "pitch",
@@ -32,7 +32,7 @@ def press(name: str = "valve_1", **changes: object) -> Control:
 
 
 def slide(name: str = "slide", **changes: object) -> Control:
-    """A playing slide."""
+    """Playing slide moved by a hand."""
     settings: dict[str, object] = {
         "kind": "slide",
         "role": "pitch",
@@ -74,7 +74,7 @@ def plan_of(
     cues: tuple[CueEvent, ...] = (),
     gestures: tuple[GestureEvent, ...] = (),
 ) -> PlayerPlan:
-    """A plan that plays these notes, with tongue and embouchure for each of them."""
+    """Plan that plays these notes, with tongue and embouchure for each."""
     return PlayerPlan(
         player_id=player_id,
         time_frame=TimeFrame(first_frame_s, events[-1].end_s + 2.0),

@@ -1,4 +1,4 @@
-"""A made-up body and two made-up instruments: joints with human lengths, holds set by hand, no mesh."""
+"""A synthetic body and two instruments: joints with human lengths, fixed grips, no mesh."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def character() -> Character:
 
 
 def _hand_rotation(side: str, fingers: tuple[float, float, float], palm: tuple[float, float, float]) -> np.ndarray:
-    """Rotation of a hand whose fingers (+-X at rest) point along one way and whose palm (-Y at rest) along another."""
+    """Rotation of a hand whose fingers (+-X at rest) and palm (-Y at rest) point in given directions."""
     along = np.array(fingers) * (1.0 if side == "left" else -1.0)
     return quaternion.from_frames(along / np.linalg.norm(along), -np.array(palm))
 
@@ -69,7 +69,9 @@ def _finger(bones: Skeleton, side: str, finger: str, control: str | None) -> Fin
 
 
 def hold(bones: Skeleton, slide_m: float = 0.0, sliding: str = "right") -> GripPose:
-    """Both hands 20 cm before the lips; with ``slide_m`` the ``sliding`` one goes as far out with a slide."""
+    """Grip with both hands 20 cm in front of the lips; with ``slide_m`` the ``sliding`` hand moves out by it with a
+    slide.
+    """
     slide = None
     if slide_m:
         slide = NodeMotion("slide", np.array([0.0, 0.0, slide_m]), np.array([0.0, 0.0, 1.0]), 0.0, np.zeros(3))
@@ -100,7 +102,7 @@ def hold(bones: Skeleton, slide_m: float = 0.0, sliding: str = "right") -> GripP
 
 
 def instrument_map(*controls: maps.Control) -> InstrumentMap:
-    """A map with these controls and a usual carriage."""
+    """Map with these controls and a usual carriage."""
     carriage = holding.Carriage((-10.0, 10.0, 40.0), (-5.0, 0.0, 5.0), (-10.0, 0.0, 10.0))
     lowered = holding.LoweredPlace((0.0, -0.30, 0.05), 40.0, 10.0, 0.0)
     return InstrumentMap(

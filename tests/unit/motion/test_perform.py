@@ -1,4 +1,4 @@
-"""Test what must hold of every motion, measured by forward kinematics and not by the solvers' own numbers."""
+"""Properties of all motion, measured by forward kinematics independent of the solvers."""
 
 from __future__ import annotations
 
@@ -186,7 +186,7 @@ def test_the_weight_goes_over_before_a_foot_steps() -> None:
 
 @pytest.mark.parametrize("posture", ["standing", "seated"])
 def test_hips_begin_and_chest_head_and_elbows_follow(posture: str) -> None:
-    """A lean and a swing, alone: each part does what the one before did, 40 to 120 ms later."""
+    """In a single lean or swing, each part follows the previous one 40 to 120 ms later."""
     rows = [("sway", 1.0 + 1.2 * i, 2.2 + 1.2 * i, (-1.0) ** i) for i in range(8)]
     rows = [(kind, start_s, end_s, amount) for kind, start_s, end_s, amount in rows]
     plan = msgspec.structs.replace(piece(), gestures=with_gestures(*rows).gestures[:0], breaths=(), cues=(), poses=())

@@ -72,7 +72,7 @@ def request_of(
 
 
 def with_dancers(project: Project, folder: Path, *names: str) -> Project:
-    """The project with dancers of these names; what they dance is written into a folder."""
+    """Project with dancers of these names; their choreography is written into a folder."""
     path = folder / "steps.choreography"
     if not path.exists():
         write_model(path, model())
@@ -93,7 +93,7 @@ def with_recording(project: Project, path: Path, offset_s: float) -> Project:
 
 
 def artists_project(folder: Path) -> UnrealProject:
-    """A project with something of the artist's in every folder that an export writes to."""
+    """Unreal project with an artist's file in every folder that an export writes to."""
     files = {
         "Game.uproject": json.dumps({"FileVersion": 3, "EngineAssociation": "5.6"}),
         "Content/Suisou/quartet/BP_Mine.uasset": "mine",
@@ -109,13 +109,13 @@ def artists_project(folder: Path) -> UnrealProject:
 
 @pytest.fixture
 def unreal(tmp_path: Path) -> UnrealProject:
-    """A project with something of the artist's in every folder that an export writes to."""
+    """Unreal project with an artist's file in every folder that an export writes to."""
     return artists_project(tmp_path / "Game")
 
 
 @pytest.fixture(scope="session")
 def exported_files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    """All files of such a project into which the first player was exported."""
+    """All files of such a project after the first player was exported into it."""
     unreal = artists_project(tmp_path_factory.mktemp("exported_unreal") / "Game")
     export_into(request_of(quartet()), unreal, text)
     return tree_of(unreal.folder)
@@ -123,7 +123,7 @@ def exported_files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]
 
 @pytest.fixture
 def exported(unreal: UnrealProject, exported_files: dict[str, bytes]) -> UnrealProject:
-    """Such a project into which the first player was exported."""
+    """Such a project after the first player was exported into it."""
     for name, data in exported_files.items():
         (unreal.folder / name).parent.mkdir(parents=True, exist_ok=True)
         (unreal.folder / name).write_bytes(data)

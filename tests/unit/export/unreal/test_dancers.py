@@ -1,4 +1,4 @@
-"""Dancers in an Unreal project: their files and description, read back; who cannot dance; all or nothing."""
+"""Dancers in an Unreal project: files and description read back, dancers who cannot dance, all or nothing."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def test_a_dancer_is_written_as_a_player_is(unreal: UnrealProject, export: Expor
 
 
 def test_the_file_holds_the_dance(unreal: UnrealProject, export: Export, danced: Project) -> None:
-    """Hips and feet are at every frame where the motion of the viewport has them."""
+    """Hips and feet are in every frame where the viewport's motion has them."""
     request = request_of(danced, ("Ana",), last_bar=3)
     export(request)
     (dancer,) = read(unreal, "performance.json")["dancers"]

@@ -1,4 +1,4 @@
-"""A musician who changes instruments, in an Unreal project: one character, and an actor for each instrument."""
+"""A musician with several instruments in an Unreal project: one character, and an actor for each instrument."""
 
 from __future__ import annotations
 

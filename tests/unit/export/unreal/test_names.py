@@ -1,4 +1,4 @@
-"""Names of assets: harmless, unique, the same every time."""
+"""Names of assets are valid, unique and reproducible."""
 
 from __future__ import annotations
 

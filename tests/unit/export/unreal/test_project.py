@@ -1,4 +1,4 @@
-"""Test which folders are Unreal projects, and what is said of those that are not."""
+"""Recognition of Unreal projects, and messages about other folders."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The files in an Unreal project as other programs read them, the FBX SDK among them, which Unreal reads by."""
+"""Files in an Unreal project as read by other programs, including the FBX SDK, which Unreal uses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Exports into an Unreal project: what is there afterwards, again and again, and whatever happens meanwhile."""
+"""Exports into an Unreal project: resulting files after repeated exports and after failures."""
 
 from __future__ import annotations
 
@@ -310,7 +310,7 @@ def test_it_is_cancelled(unreal: UnrealProject) -> None:
 def test_a_wrong_file_never_takes_its_place(
     unreal: UnrealProject, export: Export, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A file of half the size, as a wrong unit would make it."""
+    """The wrong file has half the size, as with a wrong unit."""
     from app.formats.fbx import write as fbx
 
     real = fbx.write_scenes
@@ -353,7 +353,7 @@ def test_the_plug_in_is_put_there_once(exported: UnrealProject, export: Export) 
 
 
 def plugin_of_before(place: Path, version: int) -> None:
-    """Plug-in that an export of another version left."""
+    """Plug-in as left by an export of another version."""
     files = {"Suisou.uplugin": json.dumps({"CreatedBy": "Suisou", "Version": version}), "Content/Python/old.py": "1\n"}
     for name, content in files.items():
         (place / name).parent.mkdir(parents=True, exist_ok=True)
@@ -424,7 +424,9 @@ def test_other_bars_than_before_are_remarked(
 
 
 def test_places_as_unreal_has_them() -> None:
-    """Our +X is its X, our +Z its Y; from +Z towards +X is from Y towards X, which its yaw counts as negative."""
+    """+X of the project is Unreal's X and +Z its Y; a rotation from +Z towards +X is from Y towards X, a
+    negative yaw.
+    """
     place = place_of(StagePosition(1.0, -2.0, np.pi / 2))
     assert (place.x_cm, place.y_cm, place.z_cm, place.yaw_deg) == (100.0, -200.0, 0.0, -90.0)
 
@@ -476,7 +478,7 @@ def test_nothing_is_written_through_a_link_out_of_the_project(
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names")
 def test_a_manifest_that_is_no_file_is_named(unreal: UnrealProject, export: Export) -> None:
-    """A pipe would be waited for without end."""
+    """Reading a pipe would wait forever."""
     os.mkfifo(unreal.folder / "SuisouSource/quartet/manifest.json")
     with pytest.raises(FileError) as caught:
         export(request_of(quartet()))

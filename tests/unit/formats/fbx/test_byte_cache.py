@@ -1,4 +1,4 @@
-"""A cache with room for some bytes, against a list of what was used last."""
+"""A cache limited in bytes, compared with a list in order of use."""
 
 from __future__ import annotations
 

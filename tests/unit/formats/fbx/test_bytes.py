@@ -1,4 +1,4 @@
-"""Bytes of binary FBX: encoder and decoder against each other, the layout's rules, and damaged files."""
+"""Binary FBX: encoder and decoder are inverse, the layout follows the format's rules, and damaged files are refused."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ TREES = st.recursive(
 
 
 def _same(left: Element, right: Element) -> bool:
-    """Equal to the bit, types and block or no block included."""
+    """Compare trees to the bit, including types and the presence of a block."""
     if left.name != right.name or len(left.properties) != len(right.properties):
         return False
     for mine, other in zip(left.properties, right.properties, strict=True):
@@ -98,7 +98,7 @@ def test_a_file_past_the_limit_is_of_version_7500_throughout(tmp_path: Path, mon
 
 @pytest.mark.parametrize("records", range(16))
 def test_the_footer_is_where_it_belongs(records: int) -> None:
-    """For every remainder: version word at a multiple of 16, at least one and at most 16 zeros before it."""
+    """For every remainder of the length, the version word is at a multiple of 16, after one to sixteen zeros."""
     data = encode_elements([Element("A" * records)] if records else [])
     version_at = len(data) - 16 - 120 - 4
     assert version_at % 16 == 0

@@ -1,4 +1,4 @@
-"""Metallic-roughness surfaces become Phong ones of the same reflection, and come back as they were."""
+"""Metallic-roughness materials are converted to Phong materials of the same reflection, and back without loss."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""FBX files of other programs where the library that reads them is missing: some Pythons have no wheel of it."""
+"""FBX files of other programs if the library for reading them is missing, since some Python versions have no wheel."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ BLOCKED = ("No module named 'ufbx'", "DLL load failed while importing ufbx")
 
 @pytest.fixture(params=BLOCKED)
 def blocked(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The library cannot be imported, here and in our processes."""
+    """Make the library impossible to import in this process and its children."""
     (tmp_path / "ufbx.py").write_text(f"raise ImportError({request.param!r})\n")
     monkeypatch.syspath_prepend(str(tmp_path))
 

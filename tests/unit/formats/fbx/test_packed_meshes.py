@@ -1,4 +1,4 @@
-"""Meshes in their file form, which are made once."""
+"""Meshes in their encoded form, which is computed only once."""
 
 from __future__ import annotations
 

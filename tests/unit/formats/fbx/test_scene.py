@@ -1,4 +1,4 @@
-"""Scenes survive the way through a file; contradictions are refused before anything is written."""
+"""Scenes are equal after writing and reading a file; contradictory ones are refused before anything is written."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def _dense(mesh: SkinnedMesh, bones: int) -> np.ndarray:
 
 
 def _surface(material: Material) -> np.ndarray:
-    """Return the properties of a material that a Phong surface can express: all but whether both sides show."""
+    """Properties of a material that a Phong material can express: all except double-sidedness."""
     return np.array([*material.base_color, material.metallic, material.roughness])
 
 
@@ -177,7 +177,7 @@ Change = Callable[[Element], Element]
 
 
 def _changed(elements: Sequence[Element], path: Sequence[str], change: Change) -> tuple[Element, ...] | None:
-    """The same tree with `change` applied to the first record at that path; None if there is none."""
+    """Tree with `change` applied to the first record at a path; None if there is none."""
     for number, element in enumerate(elements):
         if element.name != path[0]:
             continue

@@ -1,4 +1,4 @@
-"""Smoothing groups against meshes whose edges are known."""
+"""Smoothing groups of meshes with known edges."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def mesh_of(vertices: np.ndarray, faces: np.ndarray, normals: np.ndarray) -> Ski
 
 
 def box() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Six sides of two triangles each, with vertices of their own; normals of the sides."""
+    """Six sides of two triangles each with separate vertices, and the normals of the sides."""
     vertices, faces, normals = [], [], []
     for axis in range(3):
         for sign in (-1.0, 1.0):

@@ -1,4 +1,4 @@
-"""Channels between their keys, against scipy; damaged ones are refused."""
+"""Interpolation of channels compared with scipy; damaged channels are refused."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def test_channels_of_other_things_are_left_out() -> None:
 
 
 def changed(data: bytes, document: dict[str, Any]) -> bytes:
-    """The file with another document."""
+    """File with another document."""
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     rest = data[20 + struct.unpack_from("<I", data, 12)[0] :]
@@ -120,7 +120,7 @@ def changed(data: bytes, document: dict[str, Any]) -> bytes:
 
 
 def test_a_step_at_a_frame_is_seen_at_that_frame() -> None:
-    """Keys are stored as float32: 12.6 s is a little later than a frame at 12.6."""
+    """Keys are stored in float32, in which 12.6 s is slightly later than the frame at 12.6."""
     frames = np.arange(300)
     keys_s = (frames / 30.0).astype(np.float32).astype(np.float64)
     values = np.repeat(frames[:, None], 3, axis=1).astype(np.float64)

@@ -1,4 +1,6 @@
-"""Compressed files of other programs against the file that was compressed; damage, bombs and a missing library."""
+"""Compressed files of other programs compared with the original files; damage, decompression bombs and a missing
+library.
+"""
 
 from __future__ import annotations
 
@@ -117,7 +119,7 @@ def test_a_missing_library_is_named_with_the_extension_and_a_remedy(monkeypatch:
 
 
 def test_a_view_that_may_be_read_without_unpacking_is() -> None:
-    """The extension is used and not required: the buffer beside it has the bytes."""
+    """The extension is used but not required: the uncompressed buffer is included."""
     values = np.arange(12, dtype=np.float32).reshape(4, 3)
     packed = meshopt.encode_gltf_buffer(values, "ATTRIBUTES")
     document = {

@@ -1,4 +1,4 @@
-"""The glTF reader against files that pygltflib and trimesh write."""
+"""The glTF reader with files written by pygltflib and trimesh."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 
 
 class Maker:
-    """Puts a document and its buffer together."""
+    """Builds a document and its buffer."""
 
     def __init__(self) -> None:
         self.data = bytearray()
@@ -87,7 +87,9 @@ DELTAS = np.array([[0, 1, 0], [2, 0, 0]], np.float32)
 
 
 def character() -> Maker:
-    """A skinned triangle pair: two sets of joints, a sparse morph, one over a base, one dense, a matrix node."""
+    """Two skinned triangles with two sets of joints, a sparse morph, a morph over a base, a dense morph, and a node
+    with a matrix.
+    """
     maker = Maker()
     attributes = {
         "POSITION": maker.accessor(POSITIONS, stride=20),
@@ -165,7 +167,7 @@ def test_a_character_is_read_whole() -> None:
 
 
 def test_the_least_of_normalised_integers_is_minus_one() -> None:
-    """It has no opposite; glTF 2.0, 3.6.2.2."""
+    """The least integer has no positive counterpart; glTF 2.0, 3.6.2.2."""
     maker = character()
     normals = np.array([[-128, -127, 127], [0, 0, 64]] * 3, np.int8)
     attributes = maker.document["meshes"][0]["primitives"][0]["attributes"]
@@ -286,7 +288,7 @@ def _set(path: str, value: object) -> Any:
 
 
 def _point_beyond(maker: Maker) -> None:
-    """A triangle of six points names a seventh."""
+    """Triangle of six points with an index of a seventh."""
     indices = maker.accessor(np.array([0, 1, 2, 3, 4, 6], np.uint16))
     _set("meshes/0/primitives/0/indices", indices)(maker)
 
@@ -378,7 +380,7 @@ def test_a_missing_file_is_an_error_a_user_can_act_on(tmp_path: Path) -> None:
 
 
 def test_the_bundled_characters_are_read() -> None:
-    """Whatever else they are: humanoids whose weights add up and whose morphs are the ARKit ones."""
+    """All are humanoids with normalised weights and ARKit's morphs."""
     for path in sorted(Path("resources/characters").glob("*.glb")):
         model: GltfModel = read_glb(path)
         assert "VRMC_vrm" in model.extensions

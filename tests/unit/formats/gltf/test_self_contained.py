@@ -1,4 +1,4 @@
-"""A glTF document and the files beside it: what it may name, and what of it is taken."""
+"""A glTF document with separate files: allowed names, and the data read from them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ BODY: Final = Path(__file__).parents[3] / "data" / "characters" / "woman_game_en
 
 
 def apart(folder: Path, name: str = "body parts.bin", uri: str = "body%20parts.bin") -> Path:
-    """A character as ``.gltf`` with its bytes in a file beside it."""
+    """A character as ``.gltf`` with its binary data in a separate file."""
     document, binary = split(BODY.read_bytes(), "body")
     assert binary is not None
     (folder / name).parent.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Scenes as GLB: what goes in comes out, in the form that glTF asks for."""
+"""Scenes as GLB are equal after writing and reading, and conform to glTF."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def _document(data: bytes) -> dict[str, Any]:
 
 
 def _keys(data: bytes, path: str) -> dict[int, tuple[np.ndarray, np.ndarray]]:
-    """Times and values of every channel of a path, by node, as another library loads them."""
+    """Times and values of every channel of a path by node, as loaded by another library."""
     loaded = pygltflib.GLTF2().load_from_bytes(data)
     (animation,) = loaded.animations
 
@@ -185,7 +185,7 @@ def test_a_vertex_that_nothing_moves_goes_with_the_root_and_doubles_add_up() -> 
 
 
 def test_polygons_and_corners_of_their_own() -> None:
-    """A square of two materials with a normal per corner: each face gets its corners, shared where they are alike."""
+    """Square of two materials with a normal per corner: each face has its corners, shared where they are equal."""
     scene = scenes.instrument(Fraction(24))
     mesh = scene.meshes[0]
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0]])
@@ -230,7 +230,9 @@ def test_normals_of_morphs_are_there_for_all_or_none() -> None:
 
 
 def test_a_mesh_whose_morphs_move_is_on_the_node_at_the_place() -> None:
-    """Blender leaves an empty where another node with keys had a mesh; the joints alone move it, so it stays there."""
+    """Blender would make an additional empty object for an animated node above a mesh; only the joints move the mesh,
+    so it stays in place.
+    """
     scene = scenes.character(Fraction(24), frames=2)
     placed = replace(scene, name="Ana", place=NodePlace(np.array([10.0, 0.0, 5.0]), np.array([0.0, 0.0, 0.0, 1.0])))
     top = _document(encode_glb(placed))["nodes"][0]
@@ -240,7 +242,7 @@ def test_a_mesh_whose_morphs_move_is_on_the_node_at_the_place() -> None:
 
 
 def test_a_morph_that_leaves_a_part_alone_has_bytes_for_it() -> None:
-    """Legal without them, but assimp does not open such a file."""
+    """The format allows omitting them, but assimp does not open such a file."""
     scene = scenes.character(Fraction(24), frames=2)
     body = scene.meshes[0]
     front = np.setdiff1d(body.faces[body.face_materials == 0], body.faces[body.face_materials == 1])

@@ -1,4 +1,4 @@
-"""Breaths show whatever else the body does."""
+"""Breaths are visible whatever else the body does."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_a_breath_shows_most_of_its_own_lean_and_one_that_does_is_left_as_it_is(
 @pytest.mark.parametrize("amplitude", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("seed", [0, 5])
 def test_a_nod_and_a_lean_do_not_hide_a_breath(amplitude: float, seed: int) -> None:
-    """The fault of the bundled quartet: a nod on the beat that ends a breath, and a lean that begins in it."""
+    """Case from the bundled quartet: a nod on the beat that ends a breath, and a lean that begins within it."""
     event = breath(15.5, 16.0)
     rows = (("nod", 14.9, 16.02, 1.0), ("lean", 15.6, 19.0, 1.0), ("bell_height", 15.5, 20.0, -1.0))
     added = tuple(
@@ -69,7 +69,7 @@ def test_a_nod_and_a_lean_do_not_hide_a_breath(amplitude: float, seed: int) -> N
 
 
 def test_the_trunk_is_not_taken_back_against_what_the_animator_holds() -> None:
-    """A correction wins over the generator."""
+    """The user's correction has priority over generated motion."""
     held = PoseEvent("pose:x", "torso", 0, 0, 15.8, 16.5, -12.0, 0.0, 0.0, 0.2, 0.2, REASON)
     times_s = np.arange(15.0, 17.0, 1.0 / float(FPS))
 

@@ -1,4 +1,4 @@
-"""Additive curves: they are seen, limited, over when they are over, and no contact is lost to them."""
+"""Additive curves are visible, limited, end in time, and break no contact."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ CASES = [(channel, side) for channel in LIMITS for side in (0, 1)]
 
 
 def event(channel: str, share: float, name: str = "x", size: float = 1.0) -> AdditiveEvent:
-    """A curve that goes to a share of the channel's limit, upwards or (negative) downwards, and beyond by ``size``."""
+    """Curve to a share of the channel's limit, upwards or (negative) downwards, scaled by ``size``."""
     low, high = LIMITS[channel]
     most = size * (high if share > 0.0 else -low)
     keys = tuple(CurveKey(tick, part * share * most) for tick, part in KEYS)

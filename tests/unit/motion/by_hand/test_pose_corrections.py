@@ -1,4 +1,4 @@
-"""Pose corrections: they are seen, smooth, over when they are over, and no contact is lost to them."""
+"""Pose corrections are visible, smooth, end in time, and break no contact."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test how the body turns to an instrument, and how far the instrument goes along with the body."""
+"""Rotation of the body towards an instrument, and motion of the instrument with the body."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def made(instrument: InstrumentMap, amplitude: float = 1.0, lowered: bool = Fals
 
 
 def angles_deg(motion: Motion) -> np.ndarray:
-    """Pitch down, yaw left and roll left of the instrument in the player's frame, (F, 3)."""
+    """Downward pitch, left yaw and left roll (F, 3) of the instrument in the player's frame."""
     rotation = motion.instrument_rotation.astype(np.float64)
     air = quaternion.rotate(rotation, np.array([0.0, 0.0, 1.0]))
     up = quaternion.rotate(rotation, np.array([0.0, 1.0, 0.0]))

@@ -1,4 +1,4 @@
-"""A control that a hand carries goes as far out as the hand comes: the hand keeps what it carries."""
+"""A control moved by a hand goes only as far as the hand reaches, so that the hand stays on it."""
 
 from __future__ import annotations
 
@@ -63,7 +63,9 @@ def test_the_arm_is_never_quite_straight_and_the_slide_never_jumps() -> None:
 
 
 def test_it_slows_down_to_where_the_arm_ends() -> None:
-    """It does not run into the end: the elbow, which stretches ever faster before it, stays within what elbows do."""
+    """The control approaches its end smoothly: the elbow, which extends ever faster before it, stays within human
+    speeds.
+    """
     motion = played(1.0, [0.0, 1.0, 0.0, 1.0], note_s=0.5)
     elbow = motion.rotations[:, [CHARACTER.skeleton.index("rightLowerArm")]].astype(np.float64)
     most = load_body().limits["lowerArm"].acceleration_rad_s2

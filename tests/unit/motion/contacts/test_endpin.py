@@ -1,4 +1,4 @@
-"""An instrument on its pin: the tip keeps its place, whatever lips and head do."""
+"""The tip of an endpin keeps its place, however lips and head move."""
 
 from __future__ import annotations
 

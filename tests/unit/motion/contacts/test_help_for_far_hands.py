@@ -1,4 +1,4 @@
-"""Help for far hands: exactly none where arms reach, enough where they do not, and never into a near hand."""
+"""Help for far hands is zero where arms reach, sufficient where they do not, and never pushes into a near hand."""
 
 from __future__ import annotations
 

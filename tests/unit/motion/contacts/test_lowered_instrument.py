@@ -1,4 +1,4 @@
-"""Every bundled instrument in a long rest: both hands on it, wrists within their range, and not inside the body."""
+"""Every bundled instrument in a long rest: held by both hands, with wrists within their range, and outside the body."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ POINT_M = 0.016
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """One body with one instrument in one posture."""
+    """A body with an instrument in a posture."""
 
     instrument: InstrumentMap
     character: Character
@@ -64,19 +64,19 @@ class Case:
 
     @property
     def frames(self) -> list[int]:
-        """At the lips, on the way down, and at rest."""
+        """Frames at the lips, on the way down, and at rest."""
         lower_s = load_body().bell.lower_s
         return [round((LOWERED_S + share * lower_s) * FPS) for share in (0.0, 0.37, 0.6, 2.0)]
 
     @cached_property
     def joints(self) -> JointTransforms:
-        """Joints in the frames looked at."""
+        """Joints in these frames."""
         rotations = self.motion.rotations[self.frames].astype(np.float64)
         return forward(self.character.skeleton, rotations, self.motion.hips_m[self.frames].astype(np.float64))
 
     @property
     def placed(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the places and rotations of the instrument in these frames."""
+        """Positions and rotations of the instrument in these frames."""
         place_m, turn = self.motion.instrument_position_m[self.frames], self.motion.instrument_rotation[self.frames]
         return place_m.astype(np.float64), turn.astype(np.float64)
 
@@ -155,7 +155,7 @@ def test_no_instrument_sinks_into_the_floor(rest: Case) -> None:
 
 @lru_cache(maxsize=2)
 def _points(instrument_id: str) -> np.ndarray:
-    """Points all over an instrument with its controls at rest, in its frame."""
+    """Points spread over an instrument with its controls at rest, in its frame."""
     meshes = bundled_instrument(bundled_maps()[instrument_id]).meshes
     points_m = np.concatenate([mesh.positions_m for mesh in meshes]).astype(np.float64)
     _, chosen = np.unique(np.floor(points_m / POINT_M).astype(int), axis=0, return_index=True)
@@ -164,7 +164,7 @@ def _points(instrument_id: str) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class Shell:
-    """A mesh of a body without forearms and hands: vertices of one place share a number, which has the normal."""
+    """Mesh of a body without forearms and hands; vertices at one place share a number and a normal."""
 
     skin: skinning.Patch
     triangles: np.ndarray
@@ -202,7 +202,7 @@ Skin = list[tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
 def _skins(character: Character, joints: JointTransforms) -> Iterator[Skin]:
-    """The body in every frame."""
+    """Skin of the body in every frame."""
     shells = _shells(character)
     placed = [deform(shell.skin, joints) for shell in shells]
     for frame in range(len(joints.positions_m)):

@@ -1,4 +1,4 @@
-"""Hips above feet that stay: no leg is ever longer than it is, and the shorter way carries."""
+"""Hips above stationary feet: no leg exceeds its length, and the shorter reach limits the hips."""
 
 from __future__ import annotations
 

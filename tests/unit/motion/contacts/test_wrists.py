@@ -1,4 +1,4 @@
-"""Wrists of players who lift and dip their bells as far as they ever do."""
+"""Wrists of players who raise and lower their bells to the limits."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ def test_minimum_jerk_against_its_derivatives() -> None:
 
 
 def slow_value(segments: list[tuple[float, float, float]], initial: float, time_s: float) -> float:
-    """The obvious way: one time, one segment after the other."""
+    """Value at one time, calculated segment by segment."""
     value = initial
     for start_s, end_s, target in segments:
         if time_s < start_s:

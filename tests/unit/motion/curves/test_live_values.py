@@ -1,5 +1,4 @@
-"""Test motion that cannot know the future: it starts where it is, never jumps, and comes to rest where it was
-reported."""
+"""Live motion starts from its current value, never jumps, and comes to rest at the reported value."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Paths, accents and feet as curves: where they go, how smoothly, and where two of them differ."""
+"""Curves of paths, accents and feet: values, smoothness, and ranges in which two differ."""
 
 from __future__ import annotations
 

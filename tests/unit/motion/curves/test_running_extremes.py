@@ -1,4 +1,4 @@
-"""The greatest and least of values around each, as scipy finds them."""
+"""Running maxima and minima compared with scipy's."""
 
 from __future__ import annotations
 

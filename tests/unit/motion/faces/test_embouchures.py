@@ -1,4 +1,4 @@
-"""Every kind of embouchure on both bodies: where the instrument is on the skin, and how far the lips are apart."""
+"""Every kind of embouchure on both bodies: place of the instrument on the skin, and distance between the lips."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Played:
         return self.spans(*((event.start_s, event.end_s - 0.01) for event in self.plan.fingerings)) & ~self.breathing
 
     def skin_m(self, place: Landmark) -> FloatArray:
-        """The mean of the place's vertices in the instrument's frame (F, 3), by linear blend skinning."""
+        """Mean position (F, 3) of the landmark's vertices in the instrument's frame, by linear blend skinning."""
         transforms = forward(self.character.skeleton, self.motion.rotations, self.motion.hips_m)
         part = patch(self.character, mesh_named(self.character, place.mesh), place.vertices)
         world_m = deform(part, transforms, self.motion.morphs).mean(axis=1)

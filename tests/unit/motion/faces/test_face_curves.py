@@ -40,7 +40,7 @@ def curves(made: PlayerPlan, tension: float = 1.0) -> FaceCurves:
 def face(
     made: PlayerPlan, times_s: np.ndarray = TIMES_S, *, still: bool = False, **parameters: float
 ) -> dict[str, np.ndarray]:
-    """Weights of a trumpeter; ``still`` is one whose face does nothing of its own."""
+    """Weights of a trumpeter; ``still`` for a face without idle motion."""
     body, settings = load_body(), PlayerParameters(**parameters)
     sizes = face_sizes(made.player_id, settings, Acting(), body, "cup", 0.6, recorded=False)
     if still:

@@ -1,4 +1,4 @@
-"""Eyes and lids: properties of the curves, whoever the player and whatever the seed."""
+"""Properties of the curves of eyes and lids that hold for every player and seed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test what makes a face look alive: properties of the curves, and measures on the bundled quartet as it is made."""
+"""Signs of life in a face: properties of curves, and measures on the bundled quartet."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ LIPS = ("mouth", "jaw", "cheekPuff")
 
 
 def plan(rows: list[tuple[float, float, float, float]], **changes: object) -> PlayerPlan:
-    """Notes of (start_s, end_s, tension, air)."""
+    """Plan of notes (start_s, end_s, tension, air)."""
     made = plan_of(fingerings([(start_s, end_s, {}) for start_s, end_s, _, _ in rows]), breaths=(breath(-0.5, 0.0),))
     lips = tuple(
         EmbouchureEvent(f"n{i}", row[0], row[1], row[2], 0.5 * row[2], row[3], REASON) for i, row in enumerate(rows)

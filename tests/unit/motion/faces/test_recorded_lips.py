@@ -1,5 +1,6 @@
-"""Test that recorded breath shows: cheeks and lips follow the curve within a note, a vibrato at its own rate, contacts
-hold."""
+"""Recorded breath is visible: cheeks and lips follow the curve within a note, vibrato has its own rate,
+contacts hold.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +36,7 @@ BREATH_S = (5.6, 6.0)
 
 @dataclass
 class Seen:
-    """A take that was played, frame by frame."""
+    """A played take, frame by frame."""
 
     performance: Performance
     motion: Motion
@@ -58,7 +59,7 @@ class Seen:
 
 
 def seen(*curves: ControllerCurve, map_id: str = "trumpet_Bb", corrections: tuple[Correction, ...] = ()) -> Seen:
-    """A long note with a crescendo, one that is breathed out of, and one more."""
+    """A long note with a crescendo, a note that fades with the breath, and one more."""
     maps = bundled_maps()
     low = maps[map_id].range.easy_low + 5
     part = take([(1.0, 5.0, low), (5.0, 6.0, low + 2), (6.0, 8.6, low + 4)], *curves, map_id=map_id)

@@ -1,4 +1,4 @@
-"""Curves put together after an edit are, to the bit, those that are made from the whole line."""
+"""Curves updated after an edit equal those of the whole line to the bit."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ NOTES = 300
 
 @cache
 def lines() -> dict[str, tuple[FingeringEvent, ...]]:
-    """A line of every instrument, by its id."""
+    """A line for every instrument, by its id."""
     project = large_project(40, NOTES)
     performance = Performance(project)
     return {player.instrument_id: performance.plan(player).fingerings for player in project.players}
 
 
 def edited(line: tuple[FingeringEvent, ...], at: int, other: int, kind: str) -> tuple[FingeringEvent, ...]:
-    """The line with a note fingered like another one, shortened, taken away or put back a little."""
+    """Line with a note fingered like another one, shortened, removed or slightly delayed."""
     note, like = line[at], line[other]
     if kind == "gone":
         return line[:at] + line[at + 1 :]

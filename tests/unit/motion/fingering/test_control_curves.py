@@ -1,4 +1,4 @@
-"""Controls are judged as the frames of an exported file are: at whole frames of every rate."""
+"""Controls are judged at whole frames of every frame rate, as in exported files."""
 
 from __future__ import annotations
 
@@ -173,7 +173,7 @@ MOST_M_S = 15 / 8 * 0.9
 
 
 def slide_motion(events: Sequence[FingeringEvent]) -> tuple[FloatArray, FloatArray]:
-    """Places and speeds of the unhurried slide, 2000 times a second."""
+    """Positions and speeds of an unhurried slide, 2000 times a second."""
     times_s = np.arange(events[0].start_s - 1.0, events[-1].end_s + 2.0, 0.0005)
     place_m = control_curve(events, EASY, ((0, TICKS),)).sample(times_s) * 0.6
     return times_s, np.abs(np.gradient(place_m, times_s))

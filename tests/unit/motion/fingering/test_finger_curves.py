@@ -1,4 +1,4 @@
-"""Fingers with several keys: over the key before it goes down, never away from one that is down."""
+"""Fingers with several keys are over a key before pressing it, and never leave a pressed key."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ def test_a_hand_stays_where_the_next_note_needs_it_again(made_up: InstrumentMap)
 
 
 def test_a_hand_has_given_way_by_the_onset_of_a_key_that_came_up_in_a_rest(made_up: InstrumentMap) -> None:
-    """The note before works the same key together with others: it comes up with them and goes down alone."""
+    """The previous note uses the same key with others: it is released with them and then pressed alone."""
     rows = [(0.0, 0.25, {"hole_T": 1.0, "key_Reg": 1.0}), (1.0, 2.0, {"key_Reg": 1.0})]
     events = fingerings(rows)
     controls = control_curves(events, made_up.controls, ((0, TICKS),))

@@ -1,4 +1,4 @@
-"""Bowing, settling the hands and counting, measured on made motion: hands, feet and human bounds hold at full size."""
+"""Bowing, settling the hands and counting, measured on computed motion: contacts and human limits hold at full size."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def event(kind: str, start_s: float, end_s: float) -> GestureEvent:
 
 
 def plan() -> PlayerPlan:
-    """The rest in the middle with what is done in it, and the end with a bow."""
+    """Plan with gestures in the middle rest, and a bow at the end."""
     made_before = piece()
     added = (
         event("settle_grip", 11.7, 13.0),

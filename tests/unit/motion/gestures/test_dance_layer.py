@@ -1,4 +1,4 @@
-"""A dance in a player's body: contacts, feet and bones as without it, by forward kinematics."""
+"""A dance in a player's body does not change contacts, feet and bones, by forward kinematics."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FRAMES = 600
 
 
 def dance(seed: int = 1) -> BodyLayer:
-    """Everything goes from one of its bounds to the other, about once a second."""
+    """Layer in which every channel moves between its bounds about once a second."""
     random = np.random.default_rng(seed)
     times_s = np.arange(-2.0, 26.0, 1 / 30)
     hz, phase = random.uniform(0.6, 1.2, len(CHANNELS)), random.uniform(0.0, 6.0, len(CHANNELS))

@@ -1,4 +1,4 @@
-"""Feet of a player who dances: planted between their moves, one at a time, and left to the animator where asked."""
+"""Feet of a dancing player: planted between moves, moved one at a time, and left to the user's gestures."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ TIMES_S = np.arange(0.0, 8.0, 1 / 120)
 
 
 def feet(*rows: tuple[int, int, float, float, float]) -> DancedFeet:
-    """Moves of (foot, kind, beat on which it lands, left, ahead), half a second a beat."""
+    """Moves of (foot, kind, beat of landing, left, ahead) at half a second per beat."""
     sides, kinds, beats, left_m, ahead_m = np.array(rows, np.float64).reshape(-1, 5).T
     lands_s = 0.5 * beats
     return DancedFeet(

@@ -1,4 +1,4 @@
-"""Counting, bowing, looking up and settling the hands: in their span, and nowhere else."""
+"""Counting, bowing, looking up and settling the hands only within their time spans."""
 
 from __future__ import annotations
 

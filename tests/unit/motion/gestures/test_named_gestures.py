@@ -1,4 +1,4 @@
-"""Gestures written as keys: the curve goes through its keys smoothly, and moves the body without breaking a contact."""
+"""Gestures defined by keys: the curve passes smoothly through the keys, and the motion breaks no contact."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Nods: up before the beat, down onto it, and there the acceleration peaks."""
+"""Nods: up before the beat and down on it, with the greatest acceleration there."""
 
 from __future__ import annotations
 
