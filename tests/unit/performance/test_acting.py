@@ -1,4 +1,4 @@
-"""Styles, habits and the section's intensity in the performance, and what is done anew when a table changes."""
+"""Styles, habits and the section's intensity in the performance, and the steps recomputed when a table changes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An edit costs what it touches: everything else of the plan and of the motion's curves is taken over."""
+"""An edit recomputes only what it affects: the remaining plan and curves are reused."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def performance() -> Performance:
 
 
 def raised(project: Project, semitones: int = 1, row: int = 0) -> Project:
-    """One note of a player a semitone higher, or more."""
+    """Project with a note of a player raised by semitones."""
     part = project.part(project.players[row])
     notes = tuple(
         msgspec.structs.replace(note, pitch=note.pitch + semitones) if index == 200 else note

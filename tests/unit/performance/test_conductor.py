@@ -1,4 +1,4 @@
-"""A conductor: entries come from there, players look up, and mostly read; measured on made motion where it is seen."""
+"""A conductor gives entries, and players look up at times but mostly read; measured on computed motion."""
 
 from __future__ import annotations
 

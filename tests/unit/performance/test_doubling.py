@@ -1,4 +1,4 @@
-"""One body plays several instruments: nothing is lost, nothing jumps, and what is not in the hands lies still."""
+"""One body with several instruments: nothing is lost, nothing jumps, and instruments put aside do not move."""
 
 from __future__ import annotations
 

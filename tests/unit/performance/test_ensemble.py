@@ -1,4 +1,4 @@
-"""Test that the cost of an edit is known before it is planned, and a plan can be stopped."""
+"""The cost of an edit is known before planning, and planning can be cancelled."""
 
 from __future__ import annotations
 

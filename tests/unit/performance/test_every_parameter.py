@@ -1,5 +1,6 @@
-"""Every parameter of a player, changed alone: what is taken over from before is what would be made from nothing, and
-what the parameter says it decides is what it decides."""
+"""Every parameter of a player, changed alone: reused results equal freshly computed ones, and the parameter influences
+exactly what it declares.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +28,7 @@ FPS = Fraction(6)
 
 @cache
 def before(danced: bool) -> Performance:
-    """Two trumpets, who take turns to lead, and a trombone; the first may dance, and holds the bell up."""
+    """Two trumpets who lead in turn, and a trombone; the first trumpet may dance and holds the bell high."""
     project = piece()
     first = project.players[0].id
     project = with_corrections(project, first, [PoseCorrection("up", "bell", 0, 9600, up_deg=500.0)])
@@ -38,7 +39,7 @@ def before(danced: bool) -> Performance:
 
 @cache
 def old_playing(danced: bool, place: int) -> tuple[PerformanceCurves, Motion]:
-    """A player of `before`, and all frames."""
+    """Curves of a player of `before`, and all frames."""
     old = before(danced)
     playing = performance_curves(old, old.project.players[place])
     return playing, all_frames(playing)
@@ -56,7 +57,7 @@ def arrays(motion: Motion) -> dict[str, np.ndarray]:
 
 
 def differing(one: Motion, other: Motion) -> np.ndarray:
-    """Return a mask of the frames in which two motions are not equal bit by bit."""
+    """Mask of the frames in which two motions are not equal bit by bit."""
     ours, theirs = arrays(one), arrays(other)
     assert ours.keys() == theirs.keys()
     differs = np.zeros(len(one.hips_m), bool)
@@ -66,7 +67,7 @@ def differing(one: Motion, other: Motion) -> np.ndarray:
 
 
 def within(spans_s: np.ndarray, start_s: float, count: int) -> np.ndarray:
-    """Return a mask of the frames that are in some spans or close to them."""
+    """Mask of the frames within or close to some time spans."""
     times_s, room_s = frame_times(start_s, FPS, 0, count), float((padding_frames(FPS) + 1) / FPS)
     found = np.zeros(count, bool)
     for first_s, last_s in spans_s:

@@ -1,4 +1,6 @@
-"""While a long piece is being planned, players move as an excerpt around the playhead has them, then as the whole."""
+"""While a long piece is being planned, players move according to an excerpt around the playhead, afterwards according
+to the whole.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,7 @@ CHANGED_S = (150.0, 250.0)
 
 
 def notes(track: int, low: int, seed: int, of: range = range(1, 600)) -> tuple[Note, ...]:
-    """Half seconds, with a rest here and there."""
+    """Notes of half a second with occasional rests."""
     random = np.random.default_rng(seed)
     row = []
     for beat in of:
@@ -53,7 +55,7 @@ def piece() -> Project:
 
 
 def begun(around_s: float, project: Project | None = None) -> tuple[Performance, PerformanceExcerpt]:
-    """A performance whose first player is planned, and an excerpt of it."""
+    """Performance whose first player is planned, and an excerpt of it."""
     performance, made = Performance(project or piece()), list[PerformanceExcerpt]()
 
     def planned(player_ids: tuple[str, ...]) -> None:

@@ -1,4 +1,4 @@
-"""Players in front are planned and move before all others, and the plans are the same in any order."""
+"""Selected players are planned and moved before all others, and the plans are independent of the order."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ QUARTER = 480
 
 @cache
 def unison() -> Project:
-    """Five clarinets in running notes with hardly a rest, who breathe one after another."""
+    """Five clarinets with fast notes and hardly a rest, which stagger their breaths."""
     rows = [(QUARTER * 4 + QUARTER // 2 * index, 60 + (index * 5) % 12) for index in range(160)]
     parts = tuple(
         Part(
@@ -62,7 +62,7 @@ def test_plans_are_the_same_in_any_order(project: Callable[[], Project], seed: i
 
 
 def test_a_unison_has_breaths_that_depend_on_who_is_before() -> None:
-    """Players of a unison breathe at times of their own, so that comparing their plans proves something."""
+    """Players in unison breathe at different times, so that comparing their plans is a valid test."""
     breaths = {tuple(event.start_s for event in plan.breaths) for plan in Performance(unison()).plans.values()}
     assert len(breaths) > 1
 

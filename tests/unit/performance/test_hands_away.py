@@ -1,4 +1,4 @@
-"""Hands that leave the lowered instrument, read back from made motion: where they go, and that they come back."""
+"""Hands that leave the lowered instrument, in computed motion: their destinations and their return."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ PLACED_S = 11.0
 
 
 def resting(instrument_id: str, *gestures: tuple[str, float]) -> Performance:
-    """Sixteen quarters, a rest and four more, with gestures placed by hand and none by rules."""
+    """Sixteen quarters, a rest and four more, with gestures placed by the test and none by rules."""
     bare = performance_of(instrument_id, [(QUARTER * step, QUARTER - 40, _pitch(instrument_id)) for step in _steps()])
     project, player = bare.project, bare.project.players[0]
     ruled = [event.id for event in bare.plans[player.id].gestures if event.kind == "named"]
@@ -62,7 +62,7 @@ def _tick(at_s: float) -> int:
 
 
 def made(performance: Performance, from_s: float, to_s: float) -> tuple[PerformanceCurves, Motion, FloatArray]:
-    """A player's curves, some of its motion, and the times of its frames."""
+    """Curves of a player, some of the motion, and the times of its frames."""
     playing = performance_curves(performance, performance.project.players[0])
     first = round((from_s - playing.start_s) * FPS)
     motion = playing.motion(Fraction(FPS), first, round((to_s - from_s) * FPS))
@@ -70,7 +70,7 @@ def made(performance: Performance, from_s: float, to_s: float) -> tuple[Performa
 
 
 def fingertip_m(playing: PerformanceCurves, motion: Motion, side: str, finger: str) -> FloatArray:
-    """A finger's pad in the world, by the joints of the motion."""
+    """World position of a finger's pad from the joints of the motion."""
     skeleton = playing.player.skeleton
     last = finger_joints(skeleton, side, finger)[-1]
     place_m, turned = forward(skeleton, motion.rotations, motion.hips_m, [last]).of(last)
@@ -163,7 +163,7 @@ def _on_the_grip(playing: PerformanceCurves, motion: Motion) -> None:
 
 
 def _back_on_the_grip(playing: PerformanceCurves, motion: Motion, times_s: FloatArray) -> None:
-    """Half a second before the next note both hands are where they hold."""
+    """Check that both hands are back on the instrument half a second before the next note."""
     first = int(np.searchsorted(times_s, NEXT_S - 0.5))
     playing_again = playing.motion(Fraction(FPS), round((times_s[first] - playing.start_s) * FPS), 30)
     _on_the_grip(playing, playing_again)
@@ -186,7 +186,7 @@ def _other_hand_and_feet_stay(playing: PerformanceCurves, motion: Motion, side: 
 
 
 def _within_bounds(motion: Motion, without: Motion, playing: PerformanceCurves) -> None:
-    """Wrists within their ranges (or no further out than the hold has them), and no joint thrown."""
+    """Check that wrists are within their ranges (or those of the grip) and that no joint moves too fast."""
     body, profile, skeleton = load_body(), load_skeleton(), playing.player.skeleton
     for wrist in ("leftHand", "rightHand"):
         beyond_deg = [
@@ -202,7 +202,7 @@ def _within_bounds(motion: Motion, without: Motion, playing: PerformanceCurves) 
 
 
 def _beyond_deg(motion: Motion, wrist: int, axes: JointAxes, body: Body) -> float:
-    """Return the greatest angle by which a wrist is out of its range, degrees."""
+    """Greatest angle in degrees by which a wrist exceeds its range."""
     local = motion.rotations[:, wrist].astype(np.float64)
     turns, of_axes = local.T[:, None], np.array([[axes.flexion, axes.sideways, axes.twist]])
     degrees = np.degrees(anatomical_angles(turns, of_axes))[:, 0].T

@@ -1,5 +1,4 @@
-"""Test that visible motion is made first, memory stays within its bound, and a pose is there at once when it must
-be."""
+"""Visible motion is computed first, memory stays within its bound, and urgent poses are available immediately."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Loudness from controllers, against a sum over every tick."""
+"""Loudness from controllers, compared with a sum over every tick."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def test_a_velocity_that_never_changes_leaves_the_dynamics_to_a_drawn_curve() ->
 @pytest.mark.parametrize("kind", ["breath", "expression"])
 @pytest.mark.parametrize("level", [0.5, 0.8])
 def test_a_curve_that_only_shapes_notes_leaves_the_level_to_the_velocities(kind: CurveKind, level: float) -> None:
-    """Every note swells and every other one is a little louder: that is no forte, however high the curve lies."""
+    """Every note swells and every other one is slightly louder; this is no forte, however high the curve is."""
     curve = ControllerCurve(
         kind, tuple(range(0, 400, 5)), (level - 0.05, level + 0.05, level - 0.07, level + 0.03) * 20
     )
@@ -64,7 +64,7 @@ def test_breath_speaks_before_volume() -> None:
 
 
 def test_expression_scales_what_the_velocities_say() -> None:
-    """A line marked forte by its velocities, whose expression moves about its usual level, stays forte."""
+    """A line that is forte by its velocities remains forte if its expression varies around the usual level."""
     velocities = [64] * 10 + [112] * 10
     notes = tuple(Note(f"1:{n}", 10 * n, 10, 60, velocity) for n, velocity in enumerate(velocities))
     swelling = ControllerCurve("expression", tuple(range(0, 200, 5)), (0.53, 0.73) * 20)
@@ -99,7 +99,7 @@ def test_the_levels_that_a_program_wrote_are_known_and_those_of_a_curve_or_a_han
 
 @pytest.mark.parametrize(("kind", "velocity"), [("accent", 96), ("marcato", 104)])
 def test_accents_in_a_row_of_a_score_are_no_dynamic(kind: str, velocity: int) -> None:
-    """A passage without a dynamic, then a forte."""
+    """A passage without a dynamic is followed by a forte."""
     velocities = [80] * 8 + [velocity] * 4 + [80] * 12 + [96] * 24
     notes = tuple(Note(f"1:{n}", 10 * n, 10, 60, struck) for n, struck in enumerate(velocities))
     marks = tuple(Mark(kind, f"1:{n}") for n in range(8, 12))

@@ -1,4 +1,4 @@
-"""A motion made by several copies of a process: the same bits, whatever becomes of the copies."""
+"""Motion computed by several copies of a process is equal to the bit, even if copies are killed."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def test_without_free_cores_or_for_few_frames_nothing_is_copied() -> None:
 
 
 def compare_copies() -> None:
-    """Compare a motion with that of copies that work and that are killed."""
+    """Compare a motion with that of copies, with working ones and with killed ones."""
     maps = bundled_maps()
     score = read_midi(ROOT / "resources" / "examples" / "quartet.mid", maps=map_choices(maps.values()))
     performance = Performance(project_from_score(score, maps))

@@ -1,4 +1,4 @@
-"""Fingerings set by hand in an older version are played as they were, also where the tables have changed since."""
+"""Fingerings set by users in older versions are played unchanged, although tables have changed."""
 
 from __future__ import annotations
 

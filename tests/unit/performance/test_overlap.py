@@ -1,4 +1,4 @@
-"""The hips lead, the chest follows them, and the head the chest: measured on the bundled quartet's motion."""
+"""The hips lead, the chest follows them, and the head follows the chest: measured on the bundled quartet's motion."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ MAPS = bundled_maps()
 
 
 def aside_rad(turns: np.ndarray) -> np.ndarray:
-    """Return the angle by which a joint leans aside from its mean pose in each frame, between 0.15 and 3 Hz."""
+    """Sideways lean of a joint relative to its mean pose in each frame in radians, filtered from 0.15 to 3 Hz."""
     rotations = Rotation.from_quat(turns)
     aside = -(rotations * rotations.mean().inv()).as_rotvec()[:, 2]
     return sosfiltfilt(butter(2, (0.15, 3.0), "band", fs=FPS, output="sos"), aside)
@@ -43,7 +43,7 @@ def lag_ms(one: np.ndarray, other: np.ndarray) -> float:
 
 @pytest.mark.parametrize("weight_shift", [0.0, 1.3])
 def test_the_chest_follows_the_hips_and_the_head_the_chest(weight_shift: float) -> None:
-    """However much of the weight's way to a foot is in the hips: it begins at other times than the sway."""
+    """Holds for any share of the hips in shifts of weight, which begin at other times than the sway."""
     project = project_from_score(read_midi(QUARTET, maps=map_choices(MAPS.values())), MAPS)
     # Not the slide, nor gestures of single joints.
     trumpets = [player.id for player in project.players[:2]]

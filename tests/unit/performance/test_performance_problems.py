@@ -1,5 +1,6 @@
-"""Test how many frames a report looks at: as many in all usual pieces, few in hours with little in them, and what it
-says of that."""
+"""Number of frames examined for a report: equal for all usual pieces, lower for hours with few notes, and the report
+about it.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +31,7 @@ from tests.support.doubled import flutist
 
 
 def piece(quarters: int, players: int = 1) -> Project:
-    """Trumpets with a few notes, and a last one after so many quarters of a second each."""
+    """Trumpets with a few notes, and a last one after a number of quarter seconds each."""
     project = base(players)
     parts = [
         msgspec.structs.replace(part, notes=(*part.notes, Note(f"9{at}:1", quarters * 480, 480, 64, 80)))
@@ -43,7 +44,7 @@ def piece(quarters: int, players: int = 1) -> Project:
 
 @pytest.fixture
 def rates(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Fraction, int]]:
-    """Frame rate and number of the frames that are made."""
+    """Frame rate and number of the computed frames."""
     found: list[tuple[Fraction, int]] = []
 
     class Counted:
@@ -146,7 +147,7 @@ def test_everyone_is_looked_at_in_known_pieces(players: int, notes: int, seconds
 
 
 def of_length(seconds: float, fps: Fraction) -> Performance:
-    """Return a stand-in for a performance, with the frame rate and the length that are read from one."""
+    """Replacement for a performance with a frame rate and a length."""
     return cast(Performance, SimpleNamespace(project=SimpleNamespace(fps=fps), time_frame=TimeFrame(0.0, seconds)))
 
 

@@ -1,4 +1,4 @@
-"""Someone who plays now: in place soon after every onset, on the contacts, without a jump, for hours."""
+"""A live player: fingers in place soon after every onset, contacts kept, no jumps, for hours."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def run(instrument_id: str) -> Played:
 
 @cache
 def offline_motion(instrument_id: str) -> Motion:
-    """The same notes, as a performance has them."""
+    """Motion of the same notes as a performance."""
     seen = run(instrument_id)
     return seen.playing.motion(Fraction(FPS), 0, seen.motion.frames)
 
@@ -209,7 +209,7 @@ def test_where_the_breath_pauses_long_enough_one_breathes_in_and_shuts_the_mouth
 
 
 def strokes(step_s: float, velocities: list[int]) -> list[tuple[float, float, float]]:
-    """Return the heights of the tongue's tip and back and the push of the breath in each of some attacked notes."""
+    """Heights of the tongue's tip and back and the push of the breath in each of some attacked notes."""
     breath, found = breathing(), list[tuple[float, float, float]]()
     for place, velocity in enumerate(velocities):
         onset_s = 1.0 + place * step_s
@@ -247,7 +247,7 @@ def test_in_a_long_pause_the_mouth_shuts_after_the_breath_and_at_last_the_lips_l
 
 
 def test_a_breath_that_is_cut_short_brings_little_air() -> None:
-    """After it the next short pause is breathed in, after a whole one it is not."""
+    """The player inhales in the next short pause after an interrupted breath, but not after a complete one."""
     opened = []
     for length_s in (0.15, 1.0):
         breath = breathing()

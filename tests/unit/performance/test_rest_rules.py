@@ -1,4 +1,4 @@
-"""Test what the bundled rules place in long rests, by instrument, style and seed."""
+"""Gestures placed by the bundled rules in long rests, by instrument, style and seed."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ REST_QUARTERS = 36
 
 
 def plans(instrument_id: str, rest: int = REST_QUARTERS, **parameters: object) -> list[PlayerPlan]:
-    """A player's plans with several seeds: 20 s of playing, a rest, and 4 s."""
+    """Plans of a player with several seeds: 20 s of playing, a rest, and 4 s."""
     steps = [*range(40), *range(40 + rest, 48 + rest)]
     bare = performance_of(instrument_id, [(QUARTER * step, QUARTER - 40, _pitch(instrument_id)) for step in steps])
     project = set_parameters(bare.project, ("1.1.1",), **parameters) if parameters else bare.project

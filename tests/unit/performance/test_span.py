@@ -1,4 +1,4 @@
-"""A cut shows frames that the whole has, at the whole's times."""
+"""An excerpt has frames of the whole performance, at the same times."""
 
 from __future__ import annotations
 

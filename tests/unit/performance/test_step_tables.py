@@ -1,4 +1,4 @@
-"""Test that steps read values of their types, which the type checker cannot see through a table of names."""
+"""Steps receive values of their declared types, which the type checker cannot verify through tables of names."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ ABSTRACT = (collections.abc.Sequence, collections.abc.Mapping, collections.abc.C
 
 
 def hints(function: Any) -> dict[str, Any]:
-    """Return the types of the parameters of a function or a class, and of what it returns."""
+    """Types of the parameters and of the result of a function or class."""
     if isinstance(function, partial):
         return hints(function.func)
     if inspect.isclass(function):
@@ -47,7 +47,7 @@ def hints(function: Any) -> dict[str, Any]:
 
 
 def made_by(table: StepTable, name: str) -> Any:
-    """Return the type of a result; None where it is given."""
+    """Type of a step's result; None for an input."""
     if name in table.paths:
         base, *attributes = table.paths[name].split(".")
         found = made_by(table, base)
@@ -64,7 +64,7 @@ def made_by(table: StepTable, name: str) -> Any:
 
 
 def fits(made: Any, read: Any) -> bool:
-    """Return whether a value of one type may be read as another."""
+    """Return whether a value of one type may be used as another."""
     if read is Any or read is object or made == read or isinstance(read, type(Any)) or "~" in str(read) + str(made):
         return True
     if get_origin(read) in (Union, UnionType):

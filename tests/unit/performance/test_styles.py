@@ -1,4 +1,4 @@
-"""Regions of a style: what is shown in them, at their edges and outside, and what they outlive."""
+"""Regions of a style: motion inside, at the edges and outside, and edits that they survive."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def plain() -> Project:
 
 @pytest.fixture(scope="module")
 def span(plain: Project) -> tuple[int, int]:
-    """The third and fourth bar of the first player's notes."""
+    """Third and fourth bar of the first player's notes."""
     metres, notes = plain.metre_map, plain.part(plain.players[0]).notes
     bars = metres.bars(notes[0].onset_tick, notes[-1].end_tick)
     return int(bars[2]), int(bars[4])

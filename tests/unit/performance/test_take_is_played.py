@@ -1,4 +1,4 @@
-"""From what a wind controller sent to what the player does."""
+"""Motion of a player from the messages of a wind controller."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Window and workers load tables at the same time."""
+"""Window and workers load tables simultaneously."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test what style, habits, variation and the section's intensity make of a player's amounts."""
+"""A player's amounts from style, habits, variation and the section's intensity."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Problems in reports: by place, and once for each kind."""
+"""Problems in reports: by place, and once per kind."""
 
 from __future__ import annotations
 

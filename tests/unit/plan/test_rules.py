@@ -1,4 +1,4 @@
-"""Rules: when the music does this, the player shows or does that; every condition against its plain meaning."""
+"""Rules that make players react to the music, with every condition compared with its definition."""
 
 from __future__ import annotations
 
@@ -223,7 +223,7 @@ def test_bundled_rules_leave_a_usual_player_alone() -> None:
 
 
 def shown(*rules: Rule, line: MonophonicPart = LINE) -> list[tuple[str, float]]:
-    """Ids and strengths of what is shown beside the neutral face."""
+    """Ids and strengths of the visible expressions except the neutral face."""
     return [(event.id, event.strength) for event in plan(*rules, line=line).expressions[1:]]
 
 

@@ -1,4 +1,4 @@
-"""Small projects for tests, with something of everything a project can hold."""
+"""Small projects for tests, with examples of everything a project can contain."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def small_project() -> Project:
 
 
 def full_project(folder: str = "/music") -> Project:
-    """Every field of every kind of value is used, none at its default."""
+    """Project in which every field of every kind of value has another value than its default."""
     small = small_project()
     score = small.score
     curve = ControllerCurve("breath", (0, 240, 480), (0.0, 0.1 + 0.2, 1.0))

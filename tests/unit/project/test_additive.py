@@ -1,4 +1,4 @@
-"""Edits of additive curves, what a file may not hold of them, and what becomes of them when a piece is re-imported."""
+"""Edits of additive curves, invalid stored curves, and curves after a re-import of the piece."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PATH = Path("/nowhere/piece.suisou")
 
 @pytest.fixture
 def project() -> Project:
-    """Project with nothing but one curve of the first player."""
+    """Project with a single curve of the first player."""
     bare = full_project("/nowhere")
     player = bare.players[0].id
     bare = edit.delete_curves(bare, player, [curve.name for curve in edit.curves_of(bare, player)])

@@ -1,4 +1,4 @@
-"""Unsaved work survives a crash, and only a crash."""
+"""Unsaved work survives a crash, but not a regular end."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def document(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def editor(folder: Path) -> Iterator[Editor]:
-    """Editors of one computer; whatever the test does with them, their files are closed after it."""
+    """Start editors of one computer, whose files are closed after the test."""
     presences: list[Presence] = []
 
     def start() -> Autosave:
@@ -65,7 +65,7 @@ def later(project: Project) -> Project:
 
 
 def made(autosave: Autosave, writing: Writing, now_s: float) -> AutosaveResult:
-    """Run a writing that is due, as the shell does, and return its result."""
+    """Perform a due autosave like the shell, and return its result."""
     try:
         written = writing.run()
     finally:
@@ -85,7 +85,7 @@ def open_in(autosave: Autosave, document: Path) -> Project:
 
 
 def recover(item: Recoverable, autosave: Autosave) -> Project:
-    """Take over recovered work, as the shell does, and return its project."""
+    """Restore recovered work like the shell, and return its project."""
     project, base = load_work(item)
     autosave.opened(item.document, base, item.facts, item.autosave)
     autosave.changed(project, 0.0)
@@ -93,7 +93,7 @@ def recover(item: Recoverable, autosave: Autosave) -> Project:
 
 
 class Disks:
-    """Folders that refuse to be written into, as of a user who may not do everything."""
+    """Folders that refuse writing, as for a user without permission."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.refusing: dict[Path, int] = {}
@@ -380,7 +380,7 @@ def test_a_writing_that_was_held_up_and_then_refused_does_not_replace_a_newer_on
 
 
 def test_a_folder_of_unsaved_work_that_refuses_costs_nothing_else(tmp_path: Path, document: Path, disks: Disks) -> None:
-    """Neither the start, nor the autosave beside the file."""
+    """Neither the start nor the autosave beside the file fails."""
     blocked = tmp_path / "state"
     blocked.write_text("no folder")
     presence = Presence(blocked / "recovery")
@@ -499,12 +499,12 @@ def test_killed_in_mid_write(editor: Editor, folder: Path, document: Path, after
 
 
 def crash(autosave: Autosave) -> None:
-    """End without a word, as far as the others can see."""
+    """End an editor without notice to the others."""
     autosave.presence._stream.close()
 
 
 def left_behind(editor: Editor, document: Path | None, project: Project) -> None:
-    """A crash with unsaved work."""
+    """End an editor with unsaved work by a crash."""
     autosave = editor()
     autosave.opened(document, "" if document is None else file_hash(document))
     autosave.changed(project, 0.0)
@@ -547,7 +547,7 @@ def test_work_that_is_in_the_file_is_not_offered_and_goes(editor: Editor, folder
 
 
 def test_autosaves_of_older_versions_still_work(editor: Editor, folder: Path, document: Path) -> None:
-    """They hold the project and nothing else, and the note beside them names the file."""
+    """They contain only the project, and a note beside them names the file."""
     project = later(load(document))
     left_behind(editor, document, project)
     autosave_path(document).write_bytes(encode(project, autosave_path(document)))
@@ -617,7 +617,7 @@ def test_a_damaged_file_does_not_hide_the_work_on_it(editor: Editor, folder: Pat
 
 
 def test_rubbish_in_the_folder_is_no_work_and_is_kept(folder: Path) -> None:
-    """Another version of the program may know what to do with it."""
+    """Another version of the program may be able to use it."""
     folder.mkdir(parents=True)
     (folder / "a.suisou").write_bytes(b"rubbish")
     (folder / "a.lock").touch()
@@ -629,7 +629,7 @@ def test_rubbish_in_the_folder_is_no_work_and_is_kept(folder: Path) -> None:
 
 
 def test_an_autosave_says_nothing_that_becomes_a_path(editor: Editor, folder: Path, document: Path) -> None:
-    """Beside a file, which may be a stranger's: whose work it is follows from where it lies."""
+    """An autosave beside a file may come from a stranger: its project is determined by its location only."""
     left_behind(editor, document, later(load(document)))
     beside = autosave_path(document)
     raw = msgspec.json.decode(beside.read_bytes())
@@ -652,7 +652,7 @@ def test_work_whose_lock_is_gone_is_still_offered(editor: Editor, folder: Path) 
 
 @pytest.mark.skipif(os.name != "posix", reason="links of POSIX")
 def test_a_link_beside_a_file_leads_nowhere(editor: Editor, document: Path, tmp_path: Path) -> None:
-    """A folder may come from anywhere: what lies there under the name of unsaved work may lead to the user's own."""
+    """A folder may come from anywhere, and a link with an autosave's name may lead to the user's own files."""
     own, link = tmp_path / "own.suisou", autosave_path(document)
     save(small_project(), own)
     before = own.read_bytes()

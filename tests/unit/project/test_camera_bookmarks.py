@@ -1,4 +1,4 @@
-"""Bookmarks of cameras: edits, and what a file may hold of them."""
+"""Camera bookmarks: edits, and valid stored values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Characters, places and amplitudes: chosen alike in every run, different between players."""
+"""Characters, places and amplitudes are reproducible and differ between players."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Values that would not come back from a file are found in every field of a project, however deep they lie."""
+"""Values that a file would not restore are found in every field of a project at any depth."""
 
 from __future__ import annotations
 

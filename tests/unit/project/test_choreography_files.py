@@ -1,4 +1,4 @@
-"""Names of bundled choreographies and paths of files cannot be taken for each other."""
+"""Names of bundled choreographies and paths of files are distinguishable."""
 
 from __future__ import annotations
 

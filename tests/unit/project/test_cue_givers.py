@@ -1,4 +1,4 @@
-"""Another player gives an entry: an edit that can be taken back, and arrows that show it."""
+"""Choosing another player for a cue: an edit that can be undone, and the arrows that show it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TRUMPET, TROMBONE = "1.1.1", "2.1.1"
 
 
 def given(project: Project) -> dict[str, tuple[str, tuple[str, ...]]]:
-    """Id and takers of each player's cue."""
+    """Id and receivers of each player's cue."""
     plans = Performance(project).plans
     return {player: (cue.id, cue.takers) for player, plan in plans.items() for cue in plan.cues}
 

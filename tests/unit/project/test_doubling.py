@@ -1,4 +1,4 @@
-"""One musician who plays several instruments: what belongs to the musician, joining, separating and what is refused."""
+"""One musician with several instruments: data of the musician, joining, separating, and refused cases."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def test_how_long_lines_sound_at_once_counts_every_moment_once() -> None:
 
 
 def test_six_instruments_by_turns_are_compared_in_the_order_of_time() -> None:
-    """Comparing every note with all that follow takes minutes for 60,000 notes."""
+    """Comparing every note with all later ones takes minutes for 60,000 notes."""
     clock = TempoMap(QUARTER)
     lines = [[Note(f"{line}:{at}", (6 * at + line) * 10, 10, 60, 80) for at in range(20_000)] for line in range(6)]
     start_s = time.process_time()

@@ -1,4 +1,4 @@
-"""Edits of dancers and of what was corrected of their dances."""
+"""Edits of dancers and of corrections of their dances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Controller curves: set, and corrected by hand."""
+"""Controller curves: set and corrected by the user."""
 
 from __future__ import annotations
 

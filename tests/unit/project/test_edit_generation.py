@@ -1,4 +1,4 @@
-"""Another performance changes what is left to chance, where it was asked for, and nothing that was corrected."""
+"""Another performance changes random choices within its range, and no correction."""
 
 from __future__ import annotations
 

@@ -135,7 +135,7 @@ def test_a_player_may_be_given_another_part(trio: Project) -> None:
 
 
 def test_an_instrument_that_is_not_there_is_assigned_to_no_one(trio: Project) -> None:
-    """The same words for a player in a project and for a track of a file."""
+    """The message is the same for a player in a project and for a track of a file."""
     first = trio.players[0]
     assert edit.assign(trio, [first.id], instrument_id="flute").player(first.id).instrument_id == "flute"
     with pytest.raises(AppError, match=r"assign\.instrument_unknown") as caught:

@@ -1,4 +1,4 @@
-"""An edit of an event: the plan made afterwards shows exactly that, and taking it back restores the generator's."""
+"""After an edit of an event the new plan has exactly this change, and undoing it restores the generated plan."""
 
 from __future__ import annotations
 
@@ -52,19 +52,19 @@ def piece() -> Project:
 
 @cache
 def generated() -> Performance:
-    """The piece as generated."""
+    """Piece as generated."""
     performance = Performance(piece())
     performance.prepare()
     return performance
 
 
 def made() -> PlayerPlan:
-    """The first player's plan as generated."""
+    """First player's generated plan."""
     return generated().plan(piece().players[0])
 
 
 def plan_of(project: Project) -> PlayerPlan:
-    """The first player's plan, as an editor makes it after an edit of the piece as generated."""
+    """First player's plan after an edit, updated like in the editor."""
     return Performance(project, generated()).plan(project.players[0])
 
 
@@ -81,7 +81,7 @@ def event(plan: PlayerPlan, event_id: str) -> Event:
 
 
 def same_but(one: PlayerPlan, other: PlayerPlan, *event_ids: str) -> bool:
-    """Return whether two plans have the same events but for these."""
+    """Return whether two plans have the same events except for some."""
     first, second = edit.events_of(one), edit.events_of(other)
     return {key: value for key, value in first.items() if key not in event_ids} == {
         key: value for key, value in second.items() if key not in event_ids
@@ -406,7 +406,7 @@ prepared_breaths = st.sampled_from(
 
 
 def _led_to(plan: PlayerPlan, breath_id: str) -> tuple[BreathEvent, BreathEvent]:
-    """Return a breath and its preparation."""
+    """A breath and its preparation."""
     breath, before = event(plan, breath_id), event(plan, breath_id.replace("breath", "preparation"))
     assert isinstance(breath, BreathEvent)
     assert isinstance(before, BreathEvent)
@@ -437,7 +437,7 @@ def test_a_breath_drawn_out_at_its_start_keeps_its_preparation_before_it(event_i
 
 
 def test_an_instrument_lowered_by_hand_is_raised_as_much_sooner_as_its_breath() -> None:
-    """A lowering by the generator ends before the breath wherever that goes; one that a hand put there does not."""
+    """A generated lowering ends before the breath wherever it is moved; one added by the user does not."""
     for lowered in placed(GestureEvent):
         breath_id = lowered.id.replace("lower_instrument", "breath")
         if not lowered.id.startswith("lower_instrument:") or breath_id not in breath_ids:

@@ -1,4 +1,4 @@
-"""Whatever handles parameters handles every one that is declared."""
+"""Code that handles parameters handles every declared one."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def is_players(parameter: Parameter) -> bool:
 
 
 def with_value(project: Project, parameter: Parameter, value: object) -> Project:
-    """The project whose first player or dancer has a value, whether it may or not."""
+    """Project whose first player or dancer has a value, valid or not."""
     if is_players(parameter):
         first, *rest = project.players
         changed = msgspec.structs.replace(first.parameters, **{parameter.name: value})

@@ -1,4 +1,4 @@
-"""Frame rates as they are typed and shown."""
+"""Frame rates as typed and displayed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ignored problems go with their player, stay with the music, and leave the reports."""
+"""Ignored problems stay with their player and the music, and are excluded from reports."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ MAPS = bundled_maps()
 
 
 def _project() -> Project:
-    """A clarinet whose third and sixth notes are far too high."""
+    """Clarinet whose third and sixth notes are far too high."""
     project = performance_of("clarinet_Bb", NOTES).project
     notes = project.score.parts[0].notes
     return move(project, {notes[2].id, notes[5].id}, 0, 48)
@@ -72,7 +72,7 @@ def test_another_name_keeps_them() -> None:
 
 @pytest.mark.parametrize("resolution", [1, 2])
 def test_a_file_read_again_keeps_them_where_the_music_is(resolution: int) -> None:
-    """Four bars come in before everything, in ticks of another length."""
+    """Four bars are inserted at the beginning, with another resolution."""
     project = _project()
     player_id, before = project.players[0].id, project.score
     beat = before.ticks_per_quarter

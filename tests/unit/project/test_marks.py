@@ -1,4 +1,4 @@
-"""Marks written by hand: in the project, in the plan, and kept."""
+"""Marks added by the user: in the project, in the plan, and stored."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ QUARTER = 480
 
 
 def _piece(marks: tuple[Mark, ...] = (), source: Source = "sound", count: int = 16, gate: float = 0.9) -> Project:
-    """One trumpet that plays a scale of quarters without rests."""
+    """Trumpet that plays a scale of quarters without rests."""
     notes = tuple(
         Note(f"0:{index}", index * QUARTER, round(gate * QUARTER), 60 + index % 8, 80) for index in range(count)
     )

@@ -1,4 +1,4 @@
-"""The piece as a MIDI file, under its players' names."""
+"""The piece as a MIDI file with its players' names."""
 
 from __future__ import annotations
 

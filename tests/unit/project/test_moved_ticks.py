@@ -1,4 +1,4 @@
-"""Places between notes after a file was read again."""
+"""Positions between notes after a changed file is read again."""
 
 from __future__ import annotations
 

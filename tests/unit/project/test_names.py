@@ -1,4 +1,4 @@
-"""Names from a MIDI file stay texts; file names hold on every system."""
+"""Names from a MIDI file stay plain texts; file names are valid on every system."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Edits of notes against a slow oracle: one flat list of plain tuples, edited the obvious way."""
+"""Edits of notes compared with a slow reference: one flat list of tuples."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files of a project on another computer are left alone: when it is opened, saved, performed and exported."""
+"""Files of a project on another computer are not accessed when it is opened, saved, performed and exported."""
 
 from __future__ import annotations
 

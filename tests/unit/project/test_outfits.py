@@ -1,4 +1,4 @@
-"""Outfits of a piece: those chosen for its kind, those of who comes later, and those asked for in words."""
+"""Outfits of a piece: chosen by its kind, for players added later, and requested on the command line."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ MAPS = bundled_maps()
 
 
 def contents_with(programs: list[int], drums: bool = True) -> PieceContents:
-    """The quartet with further tracks of these programs, silent as they are, and with a track of drums."""
+    """The quartet with additional silent tracks of these programs and a track of drums."""
     contents = read_contents(QUARTET)
     first = contents.channels[0]
     others = [

@@ -1,4 +1,4 @@
-"""Test what the user may set, and what is said when it is wrong."""
+"""Valid values of parameters, and messages about invalid ones."""
 
 from __future__ import annotations
 

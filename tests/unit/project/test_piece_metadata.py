@@ -1,4 +1,4 @@
-"""Test a piece's acting metadata: saved, loaded, compared."""
+"""Acting metadata of a piece: saved, loaded, compared."""
 
 from __future__ import annotations
 

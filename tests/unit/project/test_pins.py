@@ -1,4 +1,4 @@
-"""Beats pinned to the recording: what moves, what stays, what is refused."""
+"""Beats pinned to the recording: moved beats, unchanged beats, refused pins."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def bar(project: Project, number: int) -> int:
 
 
 def beats_s(project: Project) -> np.ndarray:
-    """Return the place of every quarter in the recording, s."""
+    """Time in seconds of every quarter in the recording."""
     ticks = np.arange(0, project.score.end_tick, project.score.ticks_per_quarter)
     return np.asarray(project.score.tempo_map.seconds(ticks) - project.audio.offset_s)
 

@@ -1,4 +1,4 @@
-"""Sections of players: by the family of their instruments, whatever these are."""
+"""Sections of players by instrument family, for any instruments."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Presets and expressions that the user keeps: whatever they are called, and whatever else lies in the folder."""
+"""The user's presets and expressions, with any names and any other files in the folder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test what reading a changed MIDI file again keeps, brings and leaves behind."""
+"""Content kept, added and removed when a changed MIDI file is read again."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def read(path: Path) -> Project:
 
 
 def from_file(score: Score, **changes: object) -> Score:
-    """Notes like those of a file: ids counted again."""
+    """Notes like those of a file, with ids counted from the start."""
     parts = tuple(
         msgspec.structs.replace(
             part,
@@ -90,7 +90,7 @@ def corrections_of(project: Project, player: str, kind: type[Correction]) -> lis
 
 
 def test_parts_read_as_written_pitches_are_read_so_again() -> None:
-    """The file's trumpet is written a tone higher than it sounds; then it gets one more note."""
+    """The file's trumpet is notated a tone higher than it sounds; then it gets one more note."""
     contents = read_contents(LUTKIN)
     choices = map_choices(MAPS.values())
 
@@ -362,7 +362,7 @@ def test_twenty_thousand_notes() -> None:
 
 
 def by_hand(project: Project, index: int, change: dict[int, dict[str, int] | None]) -> Project:
-    """Notes of a part, by number, changed (or erased: None) as the user does it."""
+    """Notes of a part changed by number (None: deleted) as by the user."""
     part = project.score.parts[index]
     notes = []
     for number, note in enumerate(part.notes):
@@ -419,7 +419,7 @@ def test_what_a_hand_did_to_notes_stays_where_the_file_did_not_touch_them() -> N
 
 
 def test_an_edit_of_the_only_note_of_a_line_moves_with_it() -> None:
-    """A second player may have the one chord in a line; no note beside it says that the file moved the line."""
+    """A second player may have only one chord note in a line; no other note reveals that the file moved the line."""
     project = small_project()
     score = with_notes(project.score, 1, [project.score.parts[1].notes[0]])
     only = score.parts[1].notes[0]
@@ -511,7 +511,9 @@ def test_markers_are_those_of_the_file_and_edits_of_tempo_and_metre_leave_them(t
 
 
 def test_metres_that_a_file_does_not_state_stay_as_they_were_read_and_edited(tmp_path: Path) -> None:
-    """A minuet without a time signature, of a project from before metres were assumed and of one with an edited one."""
+    """A minuet without a time signature, in a project from before metres were guessed, and in one with an
+    edited metre.
+    """
     path = tmp_path / "minuet.mid"
     file = mido.MidiFile(MIDI / "ensemble" / "trumpet_duet_bach_minuet.mid")
     for track in file.tracks:

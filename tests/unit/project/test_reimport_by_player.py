@@ -1,4 +1,4 @@
-"""A changed file that is taken for some players only, and the changes that are listed before."""
+"""A changed file that is applied to some players only, and the list of changes shown before."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ SAME = Fraction(1)
 
 
 def both_later(project: Project) -> Score:
-    """The file with a bar more before the third note of both players."""
+    """File with a bar inserted before the third note of both players."""
     score = project.score
     for index in range(2):
         score = with_notes(score, index, later(score.parts[index].notes, 960, BAR))

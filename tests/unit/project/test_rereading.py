@@ -1,4 +1,4 @@
-"""A MIDI file read again is played by those who were chosen at its import, whatever became of its tracks."""
+"""Instruments chosen at the import of a MIDI file are kept when the file is read again with changed tracks."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ BAR = 4 * 480
 
 
 def tracks(names: Sequence[str] = NAMES, shift_ticks: int = 0) -> list[mido.MidiTrack]:
-    """Five melodies that differ, in tracks without programs."""
+    """Five different melodies in tracks without programs."""
     result = []
     for number, (name, lowest) in enumerate(zip(names, (74, 69, 60, 52, 40), strict=True)):
         track = mido.MidiTrack()
@@ -71,7 +71,7 @@ def assert_nothing_lost(before: Project, outcome: Reimport) -> None:
 
 @pytest.fixture(params=["kept", "an older program's"])
 def project(request: pytest.FixtureRequest, tmp_path: Path) -> Project:
-    """A quintet with corrections; one whose file does not say what was decided at its import."""
+    """A quintet with corrections, whose decisions at its import may be missing."""
     result = quintet(written(tmp_path / "quintet.mid", tracks()))
     for player in result.players:
         note = result.part(player).notes[4]
@@ -228,7 +228,9 @@ def test_tempo_metre_and_dynamics_edited_here_stay_while_the_file_has_its_own(tm
 
 
 def test_usual_decisions_are_kept_too(tmp_path: Path) -> None:
-    """A gesture at a tick and one player of each usual row, after the file's name changed what silent tracks are."""
+    """A gesture at a tick and one player of each row with default choices, after the file's name changed
+    silent tracks.
+    """
     path = written(tmp_path / "brass quintet.mid", tracks(("", "", "", "", "")))
     contents = read_contents(path)
     project = import_project(contents, usual_rows(contents, MAPS), MAPS, str(path))
@@ -260,8 +262,9 @@ CASES = Path(__file__, "../../../data/import_cases").resolve()
 def test_a_project_of_an_earlier_version_keeps_its_players(
     stem: str, apart: list[tuple[int, int]], maps: list[str], kept: bool
 ) -> None:
-    """Earlier versions chose other players by the same words; here they are chosen by hand, and the choice is taken out
-    of what is stored."""
+    """Earlier versions chose other players by default; the test chooses them explicitly and removes the choice from the
+    stored project.
+    """
     (path,) = CASES.glob(f"{stem}_*.mid")
     contents = read_contents(path, apart=apart)
     rows = [ImportRow(PartAssignment((place,), map_id, solos=False)) for place, map_id in enumerate(maps)]

@@ -1,4 +1,4 @@
-"""Test that a value that cannot be saved takes nothing else with it."""
+"""A value that cannot be saved does not affect other values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A score that is read again: notes are recognised, corrections stay, and its marks are those that it has now."""
+"""A score that is read again: notes are recognised, corrections stay, and marks are updated."""
 
 from __future__ import annotations
 
@@ -68,7 +68,9 @@ def test_a_bar_and_marks_come_in_and_what_was_done_by_hand_stays(path: Path) -> 
 
 
 def test_marks_by_hand_stay_when_the_score_of_a_midi_piece_comes(path: Path, tmp_path: Path) -> None:
-    """A slur, a breath mark and a dynamic written over the MIDI; the score has other marks, and one more bar before."""
+    """A slur, a breath mark and a dynamic were added to the MIDI; the score has other marks, and one more bar at the
+    beginning.
+    """
     played = imported(path)
     midi = tmp_path / "piece.mid"
     export_midi(played, midi, MAPS)

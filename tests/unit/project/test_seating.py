@@ -1,4 +1,4 @@
-"""Test who sits where: sections in a band's rows, and no one's instrument in a neighbour."""
+"""Seating: sections in a band's rows, and no overlap of instruments with neighbours."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MAPS = list(bundled_maps().values())
 
 
 def corners(place: StagePosition, taken: Footprint) -> np.ndarray:
-    """The rectangle of body and instrument on the stage, (4, 2): left is +X before the turn."""
+    """Corners (4, 2) on the stage of the rectangle of body and instrument; left is +X before the rotation."""
     left, right = max(taken.left_m, ELBOW_M), max(taken.right_m, ELBOW_M)
     box = np.array([[left, -BACK_M], [left, taken.ahead_m], [-right, taken.ahead_m], [-right, -BACK_M]])
     cosine, sine = math.cos(place.turn_rad), math.sin(place.turn_rad)
@@ -26,7 +26,7 @@ def corners(place: StagePosition, taken: Footprint) -> np.ndarray:
 
 
 def apart(one: np.ndarray, other: np.ndarray) -> bool:
-    """Return whether a line parts two rectangles: along a side of either."""
+    """Return whether two rectangles are separated by a line along a side of either."""
     for box in (one, other):
         for side in (box[1] - box[0], box[2] - box[1]):
             normal = np.array([-side[1], side[0]])

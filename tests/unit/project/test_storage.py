@@ -1,4 +1,4 @@
-"""Project files: what they look like, what they refuse and how, and that saving never costs what was there."""
+"""Project files: format, refused content with messages, and saving that never loses the previous file."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ VERSIONS = sorted(int(path.stem.removeprefix("version_")) for path in SAMPLES.gl
 
 
 def changed(project: Project, **fields: object) -> bytes:
-    """The bytes of a file with some fields, by key path, put to other values."""
+    """Bytes of a file with some values replaced by key path."""
     whole = json.loads(encode(project, Path("/music/piece.suisou")))
     for path, value in fields.items():
         place = whole

@@ -1,4 +1,4 @@
-"""Takes become parts, span by span, and nothing by hand is lost."""
+"""Takes become parts, span by span, without loss of the user's corrections."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""T6 of the thesis at its boundary values, through tempi, tempo changes, thresholds and felt beats; catch breaths."""
+"""Rule T6 of the thesis at its thresholds, with various tempi, tempo changes and felt beats; catch breaths."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def with_rest(rest_tick: int, start: int = 4 * Q) -> tuple[PlainNote, ...]:
 
 
 def with_velocities(notes: tuple[PlainNote, ...], *velocities: int) -> tuple[PlainNote, ...]:
-    """The notes with these velocities in turn."""
+    """Line with these velocities in turn."""
     return tuple(
         dataclasses.replace(note, velocity=velocity)
         for note, velocity in zip(notes, itertools.cycle(velocities), strict=False)
@@ -271,7 +271,7 @@ def test_in_endless_quick_notes_weak_notes_are_left_out(bpm: float, left_out: in
 
 
 def test_no_note_is_left_out_right_after_the_rest_that_is_breathed_in() -> None:
-    """Its place and the rest before it would be two breaths that overlap."""
+    """The omitted note and the rest before it would be two overlapping breaths."""
     notes = line_of(*((60 * step, 60, 65) for step in range(9)), (780, 60, 65), (840, 1920, 67))
     made = plan(notes, PlainClock(((0, 100.0),)), lung_s=2.0)
     assert [event.id for event in made.breaths if event.kind == "breath"] == ["breath:1:1", "breath:1:10"]

@@ -1,4 +1,6 @@
-"""Test where players breathe when no rest comes in time: against engraved marks, and the single reasons for a place."""
+"""Places of catch breaths if no rest comes in time, compared with engraved marks, and individual reasons
+for a place.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,7 @@ Q = 480
 
 
 def catches(notes: tuple[PlainNote, ...], lung_s: float, bpm: float = 120.0, need: float = 0.35) -> list[float]:
-    """Quarters from the start at which breaths after the first one end."""
+    """Ends of the breaths after the first one, in quarters from the start."""
     clock = PlainClock(((0, bpm),))
     line = MonophonicPart("p", notes, valves(), PlayerParameters(lung_s=lung_s, breath_need=need))
     plan = make_plans(piece_of(clock, (Metre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
@@ -37,7 +39,7 @@ def test_most_breaths_are_where_engravers_mark_them(held_out: bool, least: float
 
 @pytest.mark.parametrize(("dearer", "chosen"), [(0.1, 0), (0.02, 1)])
 def test_a_clearer_end_is_chosen_though_air_is_left(dearer: float, chosen: int) -> None:
-    """Two places in a stretch of 12 s: after 5 s, and after 8 s of lungs that last 10 s, where a breath costs more."""
+    """Two places in a passage of 12 s: after 5 s, and, with a higher cost, after 8 s of lungs that last 10 s."""
     at_s = np.array([0.0, 5.0, 8.0, 12.0]).tobytes()
     cost, drawn_s = np.array([3.0, 3.0 + dearer]).tobytes(), np.array([8.0, 8.0]).tobytes()
     assert cheapest_chain(at_s, at_s, cost, drawn_s, 1.0, 10.0, 3.5) == ((chosen,), True)
@@ -66,7 +68,7 @@ def test_running_notes_are_breathed_between_after_the_first_of_a_bar() -> None:
 
 
 def test_no_upbeat_is_left_out_for_a_breath() -> None:
-    """Eighths too short to take a breath from; the first of each beat but the last is slurred to the second."""
+    """Eighths too short for a breath; the first of each beat except the last is slurred to the second."""
     slur = (10, 0, 10, 0, 10, 0, 0, 0)
     notes = line_of(*((step * Q // 2, Q // 2 + slur[step % 8], 65 + step % 2) for step in range(256)))
     found = catches(notes, lung_s=9.0, bpm=150.0)
@@ -75,7 +77,9 @@ def test_no_upbeat_is_left_out_for_a_breath() -> None:
 
 
 def test_nothing_comes_between_the_upbeat_after_a_rest_and_its_downbeat() -> None:
-    """An eighth's rest fills half the lungs, and the upbeat is longer than the sixteenths around: no phrase's end."""
+    """An eighth rest fills half the lungs, and the upbeat is longer than the surrounding sixteenths; it still ends no
+    phrase.
+    """
     runs = [(at * Q // 4, Q // 4, 65 + at % 5) for at in range(44)]
     after = [(12 * Q + at * Q // 4, Q // 4, 65 + at % 5) for at in range(48)]
     found = catches(line_of(*runs, (12 * Q - Q // 2, Q // 2, 72), *after), lung_s=7.0)
@@ -108,7 +112,7 @@ def test_a_played_line_is_breathed_in_where_the_written_one_is(seed: int) -> Non
 
 
 def test_a_line_that_overlaps_throughout_is_breathed_in_where_a_detached_one_is() -> None:
-    """Play legato like a wind controller or a keyboard: only repeated notes do not overlap."""
+    """Legato as on a wind controller or keyboard, where only repeated notes do not overlap."""
     lengths = [1, 1, 0.5, 0.5, 1, 1.5, 0.5, 1, 1] * 8
     onsets = [round(sum(lengths[:place]) * Q) for place in range(len(lengths))]
     rows = list(zip(onsets, (round(length * Q) for length in lengths), strict=True))
@@ -137,7 +141,7 @@ def test_a_breath_between_long_notes_takes_more_than_the_gap_of_an_early_release
 
 @pytest.mark.parametrize("seed", range(4))
 def test_no_breath_parts_a_dotted_note_from_its_short_one(seed: int) -> None:
-    """Dotted quarters and eighths, some before a bar line, among quarters: in a file without slurs."""
+    """Dotted quarters with eighths, some before a bar line, among quarters, in a file without slurs."""
     by_chance = random.Random(seed)
     lengths: list[float] = []
     while sum(lengths) < 96:
@@ -176,7 +180,7 @@ def sung(times: int) -> tuple[PlainNote, ...]:
 
 
 def test_a_phrase_end_is_breathed_at_while_there_is_air() -> None:
-    """The song takes 16 s, the lungs last 20."""
+    """The song lasts 16 s, the lungs 20 s."""
     assert catches(sung(1), lung_s=20.0) == [16.0]
     assert catches(sung(1), lung_s=20.0, need=1.0) == []
     assert catches(sung(1), lung_s=20.0, need=0.0) == []
@@ -188,7 +192,7 @@ def test_what_is_nearly_over_is_not_breathed_in_for_a_phrase_end() -> None:
 
 @pytest.mark.parametrize("lung_s", [6.0, 9.0, 14.0])
 def test_a_song_is_breathed_in_at_its_phrase_ends(lung_s: float) -> None:
-    """Lines of the text are four bars long, its halves two."""
+    """Lines of the text have four bars, half lines two."""
     found = catches(sung(4), lung_s)
     assert len(found) >= 7
     assert all(place % 8 == 0 for place in found)
@@ -196,7 +200,7 @@ def test_a_song_is_breathed_in_at_its_phrase_ends(lung_s: float) -> None:
 
 @pytest.mark.parametrize("seed", range(6))
 def test_no_breath_is_taken_among_staccato_notes(seed: int) -> None:
-    """Rows of 4 to 12 staccato notes of one length or two, between notes that are held on."""
+    """Rows of 4 to 12 staccato notes of one or two lengths, between held notes."""
     by_chance = random.Random(seed)
     rows: list[tuple[int, int, int]] = []
     within: set[float] = set()
@@ -219,7 +223,7 @@ def test_no_breath_is_taken_among_staccato_notes(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 def test_no_breath_follows_another_within_a_second_of_playing(seed: int) -> None:
-    """Loud runs and long notes on small lungs, with silences too short for a breath."""
+    """Loud fast and long notes with small lungs, and silences too short for a breath."""
     by_chance = random.Random(seed)
     rows: list[tuple[int, int, int, int]] = []
     at = 0.0
@@ -237,6 +241,6 @@ def test_no_breath_follows_another_within_a_second_of_playing(seed: int) -> None
 
 
 def breathed_before(notes: tuple[PlainNote, ...]) -> list[int]:
-    """Places of the notes that catch breaths come before."""
+    """Positions of the notes after catch breaths."""
     ends = {note.onset_tick / Q: place for place, note in enumerate(notes)}
     return [ends[tick] for tick in catches(notes, lung_s=7.0)]

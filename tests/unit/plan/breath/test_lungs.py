@@ -1,4 +1,4 @@
-"""Test how full the lungs are: never more than full, never owing air."""
+"""The air in the lungs is never more than full and never negative."""
 
 from __future__ import annotations
 

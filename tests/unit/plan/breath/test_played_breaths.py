@@ -1,4 +1,4 @@
-"""Someone who plays a line breathes where its score says: not elsewhere because of a few milliseconds."""
+"""A live performance has breaths where its score has them, despite deviations of a few milliseconds."""
 
 from __future__ import annotations
 
@@ -34,7 +34,9 @@ def score() -> tuple[PlainNote, ...]:
 
 
 def as_played(notes: Iterable[PlainNote], seed: int) -> tuple[PlainNote, ...]:
-    """Each note up to 15 ms early or late, and released 25 ms and a part of its length before the next."""
+    """Line with each note up to 15 ms early or late, and released 25 ms and a part of its length before the
+    next one.
+    """
     chance = random.Random(seed)
     per_s = Q * BPM / 60.0
     result = []
@@ -92,7 +94,7 @@ def test_the_mark_nearest_to_a_loudness() -> None:
 @pytest.mark.parametrize("early_s", [0.035, 0.05])
 @pytest.mark.parametrize("lung_s", [6.0, 6.5])
 def test_rests_after_notes_let_go_early_serve_as_written_ones(early_s: float, lung_s: float) -> None:
-    """The rest that is breathed in and the air that it brings are read from the score."""
+    """The rest used for a breath and the air gained follow from the score."""
     lengths, sounds = (1.5, 1, 0.25, 0.75, 0.5, 1, 1, 1, 1) * 10, (1.5, 1, 0.25, 0, 0.5, 1, 1, 0.5, 1) * 10
     onsets = np.concatenate(([0.0], np.cumsum(lengths)))
     rows = [
@@ -143,7 +145,7 @@ def test_rests_of_a_line_with_short_gates_are_those_of_its_score(seed: int) -> N
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("bpm", [50.0, 72.0])
 def test_long_notes_released_as_early_as_all_others_have_no_rests_after_them(seed: int, bpm: float) -> None:
-    """A chorale: a tenth to a fifth of three seconds is silence that can be heard, and no rest of the score."""
+    """A chorale in which a tenth to a fifth of each three-second note is audible silence, but no rest of the score."""
     chance = random.Random(seed)
     lengths, rests = (1, 1, 1, 1, 2, 1, 0.5, 0.5, 1, 3) * 6, (0, 0, 0, 0, 0, 0, 0, 0, 0, 1) * 6
     written, as_played_, at = [], [], 0.0
@@ -156,7 +158,7 @@ def test_long_notes_released_as_early_as_all_others_have_no_rests_after_them(see
 
 
 def test_half_a_second_after_a_long_note_is_a_rest_in_a_played_line_too() -> None:
-    """Notes of three seconds and 0.55 s of silence lie on no grid."""
+    """Notes of three seconds and silences of 0.55 s are on no grid."""
     notes = [(round(index * 3.55 * Q), 3 * Q, 65) for index in range(6)]
     times = line_times(MonophonicPart("p", line_of(*notes), valves()), PlainClock(((0, 60.0),)))
     score = notated(times, piece_of(PlainClock(((0, 60.0),))))
@@ -168,7 +170,7 @@ def test_half_a_second_after_a_long_note_is_a_rest_in_a_played_line_too() -> Non
 def test_a_beat_of_silence_is_a_rest_however_early_the_notes_of_the_line_are_released(
     length: int, felt_beat: int
 ) -> None:
-    """Every note ends a fifth of its step early; after the longest that is a beat, and nobody says which is meant."""
+    """Every note ends a fifth of its step early; after the longest note this is a beat, which is ambiguous."""
     chance = random.Random(length)
     rows, rests, at = [], set(), 7
     for index, step in enumerate((2, 1, 1, 0.5, 0.5, 1, 0, 2, 1, 0, 1, 1) * 4):

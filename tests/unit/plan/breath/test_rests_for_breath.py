@@ -1,4 +1,4 @@
-"""Test which rests are breathed in: by seconds, playing and air."""
+"""Selection of rests for breaths by their seconds, the playing before them and the air left."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ LUNG_S = 9.0
 
 
 def line(*pairs: tuple[float, float]) -> tuple[PlainNote, ...]:
-    """Notes and the rests after them, in quarters."""
+    """Notes with the rests after them in quarters."""
     at, rows = 0.0, []
     for length, rest in pairs:
         rows.append((round(at * Q), round(length * Q), 65))
@@ -42,12 +42,12 @@ def planned(
 
 
 def breathed(plan: PlayerPlan) -> list[int]:
-    """Numbers of the notes before which a breath is taken, after the first."""
+    """Numbers of the notes preceded by a breath, after the first."""
     return [int(event.id.split(":")[-1]) for event in plan.breaths if event.kind == "breath"][1:]
 
 
 def is_enough(rest_s: float, played_s: float, spent: float, need: float) -> bool:
-    """Decide about one rest by the list of the issue, without arrays."""
+    """Decide about one rest by the specified rules without arrays."""
 
     def scaled(figure: float, most: float) -> float:
         return figure * need / 0.35 if need <= 0.35 else figure + (most - figure) * (need - 0.35) / 0.65
@@ -132,13 +132,13 @@ def test_longer_rests_never_need_more_and_a_greater_need_never_less(rest_s: floa
     ],
 )
 def test_the_list_of_the_defaults(rest_s: float, played_s: float, expected: bool) -> None:
-    """At 60 a quarter is a second; rests under half a beat do not count by `breath_min_beats`, so it is 120."""
+    """At 60, a quarter is a second; since `breath_min_beats` excludes rests below half a beat, the tempo is 120."""
     notes = line((2 * played_s, 2 * rest_s), (1, 0))
     assert breathed(planned(notes, 120.0)) == ([2] if expected else [])
 
 
 def test_adagio_rests_of_two_seconds_are_all_breathed_in() -> None:
-    """Seven rests of a quarter at 30, among long and short notes, one right after another."""
+    """Seven quarter rests at 30 among long and short notes, one immediately after another."""
     notes = line((2, 1), (0.5, 0), (0.5, 0), (1, 1), (1, 1), (0.25, 1), (0.25, 1), (4, 1), (1, 1), (2, 0))
     assert breathed(planned(notes, 30.0)) == [2, 5, 6, 7, 8, 9, 10]
 
@@ -147,7 +147,7 @@ GROWING = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0]
 
 
 def test_rests_of_a_quarter_beat_to_two_beats() -> None:
-    """Two beats at 96 before each: 1.25 s of playing."""
+    """Two beats at 96 before each rest: 1.25 s of playing."""
     notes = line(*((2, rest) for rest in GROWING), (2, 0))
     trumpet = bundled_maps()["trumpet_Bb"]
     assert [GROWING[number - 2] for number in breathed(planned(notes, 96.0, trumpet))] == [0.75, 1.5, 2.0]
@@ -186,7 +186,7 @@ def test_only_long_rests_are_breathed_in_while_there_is_air() -> None:
 
 
 def test_a_rest_that_is_not_used_shows_no_preparation() -> None:
-    """Two beats at 160 are 0.75 s; half a second was played before the second one."""
+    """Rests of two beats at 160 are 0.75 s; before the second one there was half a second of playing."""
     notes = line((4, 2), (1.25, 2), (4, 2), (1, 0))
     plan = planned(notes, 160.0)
     assert breathed(plan) == [2, 4]
@@ -197,7 +197,7 @@ def test_a_rest_that_is_not_used_shows_no_preparation() -> None:
 
 
 def test_a_rest_caught_for_want_of_air_keeps_its_preparation() -> None:
-    """Half a second of playing, two beats of rest that need a second of it, and then more than is left of the air."""
+    """Half a second of playing, two beats of rest that require a second of it, and then more than the air left."""
     notes = line((16, 2), (1, 2), (23, 2), (1, 0))
     plan = planned(notes, 160.0, breath_need=1.0)
     caught = [event for event in plan.breaths if event.reason.arguments.get("why") == "breath.why_short"]
@@ -207,14 +207,14 @@ def test_a_rest_caught_for_want_of_air_keeps_its_preparation() -> None:
 
 
 def test_a_slow_rest_of_few_beats_counts() -> None:
-    """An eighth at 40 is 0.75 s, but less than the player's least rest."""
+    """An eighth at 40 is 0.75 s, but less than the player's minimum in beats."""
     notes = line((3, 0.5), (1, 0))
     assert breathed(planned(notes, 40.0, breath_min_beats=1.0)) == [2]
     assert breathed(planned(notes, 44.0, breath_min_beats=1.0)) == []
 
 
 def test_a_ritardando_makes_no_rest_longer() -> None:
-    """Half a beat at 100 is 0.3 s; at the half of that it would be 0.6 s."""
+    """Half a beat at 100 is 0.3 s; at half the tempo it would be 0.6 s."""
     notes = line(*[(1.5, 0), (1.5, 1)] * 16, (1.5, 0), (1.5, 0.5), (1, 0.5), (2, 0))
     part, clock = MonophonicPart("p", notes, valves()), PlainClock(((0, 100.0), (64 * Q, 50.0)))
     slowing = make_plans(piece_of(clock), (part,), time_frame((part,), clock))["p"]
@@ -239,7 +239,7 @@ def test_every_reason_is_true_and_readable() -> None:
 
 
 def test_playing_is_reported_since_the_last_breath_in_a_rest() -> None:
-    """Catch breaths lie between, but the rest was chosen before they were: its reason must not deny them."""
+    """Catch breaths are planned after the rest was chosen; the reason for the rest must not contradict them."""
     plan = planned(line(*[(2, 0)] * 15, (1, 1), (2, 0)), 60.0)
     *_, catch, rest = [event for event in plan.breaths if event.kind == "breath"]
     assert (catch.reason.id, rest.reason.id) == ("breath.catch", "breath.last_beat")
@@ -250,7 +250,7 @@ def test_playing_is_reported_since_the_last_breath_in_a_rest() -> None:
 
 
 def test_one_beat_is_no_beats() -> None:
-    """In every figure of a reason: of the rest itself and of the thresholds."""
+    """Singular in every number of a reason: of the rest itself and of the thresholds."""
     plan = planned(line((2, 1), (2, 0.5), (2, 2), (2, 0)), 60.0)
     english = [text(event.reason, "en") for event in plan.breaths]
     assert any("rest of 1 beat (1 s)" in one for one in english)
@@ -261,7 +261,7 @@ def test_one_beat_is_no_beats() -> None:
 
 
 def test_small_lungs_make_no_one_gasp_after_every_note() -> None:
-    """A tuba at fortissimo, a quarter of the lungs a second."""
+    """A tuba at fortissimo uses a quarter of the lungs per second."""
     tuba = bundled_maps()["tuba_BBb"]
     notes = tuple(
         PlainNote(note.id, note.onset_tick, note.duration_tick, 41, 112) for note in line(*[(1, 0.4)] * 12, (1, 0))

@@ -1,4 +1,4 @@
-"""Players who play the same breathe one after another: in part of a piece, in octaves, and within held notes."""
+"""Players in unison breathe at different times: in part of a piece, in octaves, and within held notes."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ TUNE = (60, 62, 64, 65, 67, 65, 64, 62)
 
 
 def joined(own: int, shift: int) -> list[Row]:
-    """Quarters without a rest: between the 16th and the 80th the same tune, around it one of the player's own."""
+    """Quarters without a rest: the common tune between the 16th and the 80th, individual notes elsewhere."""
     pitches = [
         TUNE[place % 8] + shift if 16 <= place < 80 else TUNE[(place * own) % 8] + own - 1 for place in range(96)
     ]
@@ -57,7 +57,7 @@ def joined(own: int, shift: int) -> list[Row]:
 
 
 def caught(plan: PlayerPlan) -> set[float]:
-    """Quarters before which catch breaths end."""
+    """Positions in quarters at which catch breaths end."""
     return {round(event.end_tick * 4 / Q) / 4 for event in plan.breaths if event.reason.id == "breath.catch"}
 
 
@@ -138,7 +138,7 @@ SCALE = (60, 62, 64, 65, 67, 69, 71, 72, 74, 76, 77, 79, 81, 83, 84)
 
 
 def sixteenths(above: int = 0, seed: int = 3) -> list[Row]:
-    """Forty seconds without a rest at 120, so many steps of the scale above the tune."""
+    """Forty seconds without a rest at 120, a number of scale steps above the tune."""
     by_chance, step, rows = random.Random(seed), 3, []
     for place in range(320):
         step = min(max(step + by_chance.choice((-2, -1, -1, 1, 1, 2)), 0), 7)
@@ -147,7 +147,7 @@ def sixteenths(above: int = 0, seed: int = 3) -> list[Row]:
 
 
 def left_out(plan: PlayerPlan) -> set[int]:
-    """Sixteenths that a player leaves out."""
+    """Sixteenths that a player omits."""
     counts = {"breath.catch_dropped": 1, "breath.catch_dropped_two": 2}
     ends = [(event.end_tick * 4 // Q, counts.get(event.reason.id, 0)) for event in plan.breaths]
     return {end - back for end, count in ends for back in range(1, count + 1)}
@@ -168,7 +168,7 @@ def test_players_in_one_fast_line_leave_out_different_notes(above: tuple[int, ..
 
 
 def test_where_there_are_more_players_than_places_few_leave_out_one_note() -> None:
-    """Sixteen in unison, who leave out two notes each about every eight seconds."""
+    """Sixteen players in unison, who omit two notes each about every eight seconds."""
     missing = [left_out(plan) for plan in plans(*[sixteenths()] * 16)]
     together = Counter(note for each in missing for note in each)
     assert max(together.values()) <= 3
@@ -186,7 +186,7 @@ def test_players_in_thirds_breathe_together_where_no_note_is_left_out() -> None:
 
 
 def test_who_is_corrected_is_kept_clear_of() -> None:
-    """The first player's breath is removed, so that it comes elsewhere; the other breathes around it."""
+    """The first player's breath is removed and thus moves; the other player avoids the new place."""
     rows = sixteenths()
     plain = plans(rows, rows)
     place = min(left_out(plain[0])) + 2
@@ -282,7 +282,7 @@ def test_a_pedal_is_held_on_by_breaths_no_further_apart_than_the_lungs(
 
 
 def test_four_who_hold_a_pedal_for_a_minute_breathe_four_or_five_times_each() -> None:
-    """53 s on lungs of 12 s, as clarinets of a band hold it."""
+    """The note lasts 53 s, the lungs 12 s, as for clarinets in a band."""
     made = plans(*[[(0, 107 * Q, 62)]] * 4, lung_s=12.0)
     assert all(4 <= len(within(plan)) <= 5 for plan in made)
     times = sorted(time for plan in made for time in within(plan))
@@ -303,7 +303,7 @@ def test_a_later_breath_in_a_held_note_is_removed_and_set_by_its_number() -> Non
 
 
 def held(tempo: float) -> list[PlayerPlan]:
-    """Three bars of quarters, a note that all hold for a bar at another tempo, and again quarters."""
+    """Three bars of quarters, a note held by all for a bar at another tempo, and quarters again."""
     clock = PlainClock(((0, 120.0), (12 * Q, tempo), (16 * Q, 120.0)))
     rows = [*running(0, 12), (12 * Q, 4 * Q, 60), *running(16, 12)]
     lines = tuple(

@@ -1,4 +1,4 @@
-"""Breath marks and slurs of the score: where a player breathes for them, and where not."""
+"""Breath marks and slurs of the score: breaths that they cause and prevent."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def plans(
 
 
 def ends(plan: PlayerPlan) -> list[float]:
-    """Quarters from the start at which breaths after the first one end."""
+    """Ends of the breaths after the first one, in quarters from the start."""
     return [event.end_tick / Q for event in plan.breaths if event.kind == "breath"][1:]
 
 
@@ -52,7 +52,7 @@ def test_a_breath_mark_is_a_breath_where_no_one_would_breathe(kind: str, source:
 
 
 def test_a_rest_after_a_breath_mark_gives_the_breath() -> None:
-    """Half a second after two notes, which no one would breathe in."""
+    """Half a second after two notes, which would not be used for a breath otherwise."""
     notes = line_of((0, Q, 65), (Q, Q, 67), (3 * Q, Q, 65), (4 * Q, Q, 67))
     assert not ends(plans(notes)[0])
     [plan] = plans(notes, Mark("breath", "1:2"))
@@ -110,7 +110,7 @@ def test_a_rest_under_a_slur_is_breathed_in_rather_than_the_slur_is_broken() -> 
     [(384, {"breath.slur_broken"}), (3, {"breath.slur_begins_late", "breath.slur_ends_early"})],
 )
 def test_notes_of_slurs_that_are_left_out_for_a_breath_are_reported(length: int, reasons: set[str]) -> None:
-    """Notes so short that two are left out for a breath, all of them slurred."""
+    """All notes are slurred and so short that two are omitted for a breath."""
     notes = line_of(*((step * 80, 80, 65 + step % 2) for step in range(384)))
     slurs = [Mark("slur", f"1:{first}", f"1:{first + length - 1}") for first in range(1, 385, length)]
     [plan] = plans(notes, *slurs)
@@ -121,7 +121,7 @@ def test_notes_of_slurs_that_are_left_out_for_a_breath_are_reported(length: int,
 
 @pytest.mark.parametrize(("length", "lasts_ms"), [(30, 21), (60, 52), (120, 115), (200, 198), (205, None), (480, None)])
 def test_a_mark_after_a_note_too_short_for_a_breath_is_reported(length: int, lasts_ms: int | None) -> None:
-    """A breath takes 200 ms; of the note before it 10 ms at least are left."""
+    """A breath takes 200 ms; at least 10 ms of the previous note remain."""
     notes = line_of((0, Q, 65), (Q, length, 67), (Q + length, Q, 65), (2 * Q + length, Q, 67))
     [plan] = plans(notes, Mark("breath", "1:2"))
     [breath] = [event for event in plan.breaths if event.id == "breath:1:3"]

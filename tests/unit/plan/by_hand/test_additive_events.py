@@ -1,4 +1,4 @@
-"""Curves of the animator's: what they are between keys, what they never are, and what is reported of them."""
+"""The user's curves: values between keys, limits, and reported problems."""
 
 from __future__ import annotations
 
@@ -144,7 +144,7 @@ def test_every_channel_has_limits_on_every_instrument() -> None:
 
 
 def test_a_key_beyond_all_music_costs_no_more_than_one_nearby() -> None:
-    """Looking at every frame up to the last possible tick took 10 GB."""
+    """Examining every frame up to the last possible tick would take 10 GB."""
     far = AdditiveCurve("far", "bell.up", (CurveKey(0, 1.0), CurveKey(2**31 - 2, 500.0)))
     assert len(looked_at_s(rows(segments(far, CLOCK)), 1 / 60, 240)) < 1000
     (_,), (problem,) = plan_additive((far,), TRUMPET, STANDING, CLOCK)
@@ -153,7 +153,7 @@ def test_a_key_beyond_all_music_costs_no_more_than_one_nearby() -> None:
 
 
 def test_what_is_too_fast_is_seen_in_a_long_segment() -> None:
-    """Each handle reaches to the other key: in the middle the curve is as steep as a step."""
+    """Each handle extends to the other key, so that the curve is as steep as a step in the middle."""
     length = 60 * 960
     keys = CurveKey(0, -90.0, leave=Tangent(length, 0.0)), CurveKey(length, 90.0, arrive=Tangent(length, 0.0))
     gentle = CurveKey(0, -90.0), CurveKey(length, 90.0)

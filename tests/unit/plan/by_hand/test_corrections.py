@@ -1,4 +1,4 @@
-"""Corrections survive regenerating, win over the rules, and say so when their place is gone."""
+"""Corrections survive regenerating, have priority over rules, and are reported if their place is gone."""
 
 from __future__ import annotations
 

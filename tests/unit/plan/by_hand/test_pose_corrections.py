@@ -1,4 +1,4 @@
-"""Pose corrections become events within what a body does, with fades that no joint minds."""
+"""Pose corrections become events within the body's limits, with sufficiently slow fades."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Small pieces and the cues that musicians expect in them.
+"""Small pieces with the cues that musicians expect. Half of the rows (``HELD_OUT``) were written together with the
+others and not used for developing the rules.
 
 Half of the rows (``HELD_OUT``) were written with the others and not looked at while the rules were made.
 """
@@ -23,14 +24,14 @@ Notes = list[tuple[float, float, int]]
 
 
 def run(start: float, beats: int, pitch: int, step: float = 1.0) -> Notes:
-    """Notes of one length in a row, up and down a tone."""
+    """Consecutive notes of one length, alternating by a tone."""
     count = round(beats / step)
     return [(start + step * index, step, pitch + (0, 2, 4, 2)[index % 4]) for index in range(count)]
 
 
 @dataclass(frozen=True)
 class Row:
-    """A piece: players in score order as (name, map, notes), tempi as (quarter, beats a minute)."""
+    """A piece: players in score order as (name, map, notes), and tempi as (quarter, beats per minute)."""
 
     name: str
     players: tuple[tuple[str, str, Notes], ...]

@@ -1,4 +1,4 @@
-"""Test who leads, when the nod comes, and after which rests."""
+"""Leaders, times of nods, and rests that require cues."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test how much of the head turns with a glance: more of it only while the instrument is down."""
+"""The head's share of a glance: larger only while the instrument is lowered."""
 
 from __future__ import annotations
 

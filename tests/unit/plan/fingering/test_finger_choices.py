@@ -1,4 +1,4 @@
-"""Test what players of each family choose, worked out by hand: little fingers in turn, forked F, trill keys, thumb."""
+"""Choices by players of each family, determined by hand: alternating little fingers, forked F, trill keys, thumb."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ SLOW, EASY, FAST = 960, 240, 120
 def keys(
     pitches: list[int], instrument: InstrumentMap, step_tick: int = EASY, bpm: float = 120.0, sounds: float = 1.0
 ) -> list[frozenset[str]]:
-    """Return the controls held on each note of an even line in which a note sounds for a part of its step."""
+    """Controls held on each note of an even line whose notes sound for a share of their step."""
     notes = line_of(*((at * step_tick, round(sounds * step_tick), pitch) for at, pitch in enumerate(pitches)))
     times = line_times(MonophonicPart("p", notes, instrument), PlainClock(((0, bpm),)))
     return [frozenset(event.controls) for event in plan_fingerings(notes, times, instrument, {})[0]]
 
 
 def little(held: list[frozenset[str]]) -> list[str]:
-    """The little fingers' keys of a clarinet, note by note."""
+    """Keys of the little fingers of a clarinet, note by note."""
     return [" ".join(sorted(keys & {"LE", "LF", "LFs", "RE", "RF", "RFs", "RGs"})) for keys in held]
 
 

@@ -1,4 +1,6 @@
-"""Short phrases, trills and tremolos against what teachers accept (``tests/data/fingerings/contexts.csv``)."""
+"""Short phrases, trills and tremolos compared with fingerings that teachers accept
+(``tests/data/fingerings/contexts.csv``).
+"""
 
 from __future__ import annotations
 

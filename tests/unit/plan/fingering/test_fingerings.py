@@ -1,4 +1,4 @@
-"""Fingerings: the thesis's table, the search against what players do, corrections, and flags."""
+"""Fingerings: the thesis's table, the search compared with players' practice, corrections, and flags."""
 
 from __future__ import annotations
 
@@ -222,7 +222,7 @@ def test_events_carry_their_notes_times_and_ids() -> None:
 
 
 def test_a_bassoon_flicks_at_the_attack_and_holds_the_note_without() -> None:
-    """Short notes are vented throughout, and so is a note whose fingering is set by hand."""
+    """Short notes are vented throughout, and so are notes with a fingering set by the user."""
     notes = line_of((0, 480, 50), (480, 900, 57), (1920, 960, 60), (3840, 100, 57), (4320, 960, 45))
     instrument = bundled_maps()["bassoon"]
     times = line_times(MonophonicPart("p", notes, instrument), PlainClock())

@@ -1,4 +1,4 @@
-"""Fingerings a wind player would miss: pedal notes, a trombone's valve that is kept, trills to their end, top notes."""
+"""Fingerings that wind players expect: pedal notes, a trombone's valve kept pressed, complete trills, highest notes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Q = 480
 
 
 def labels(instrument: str, notes: list[tuple[float, float, int]], bpm: float = 120.0) -> list[str]:
-    """Labels for notes of (onset, length) in quarters and concert pitch; none may be out of range."""
+    """Labels for notes of (onset, length) in quarters and sounding pitch; none may be out of range."""
     made, played = line_of(*((round(at * Q), round(long * Q), pitch) for at, long, pitch in notes)), bundled_maps()
     times = line_times(MonophonicPart("p", made, played[instrument]), PlainClock(((0, bpm),)))
     fingerings, problems = plan_fingerings(made, times, played[instrument], {})

@@ -1,4 +1,4 @@
-"""Gestures: on the beat, seeded by player and place, the instrument down only where there is time for it."""
+"""Gestures: on the beat, seeded by player and place, with the instrument lowered only if there is time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Coming up from rest, what is done in long rests, and after the last note; followers answer the leader's cue."""
+"""Raising the instrument from rest, gestures in long rests and after the last note; followers answer the
+leader's cue.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,7 @@ PLACES = {"high": StagePlace(-1.0, 0.0, 0.3), "low": StagePlace(0.0, -0.4, 0.0),
 
 
 def lines(corrections: tuple[Correction, ...] = ()) -> tuple[MonophonicPart, ...]:
-    """Two begin, all rest for 30 s, and all come in again."""
+    """Lines of which two begin, all rest for 30 s, and all enter again."""
     return (
         MonophonicPart("high", line_of((0, 4 * Q, 72), (64 * Q, Q, 70), track=1), valves(), corrections=corrections),
         MonophonicPart("low", line_of((0, 4 * Q, 60), (64 * Q, Q, 75), track=2), valves()),

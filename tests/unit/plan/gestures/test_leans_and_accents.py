@@ -1,4 +1,4 @@
-"""Phrases, leans, accents, stillness and what feet do: where they are planned, and whom they belong to."""
+"""Phrases, leans, accents, stillness and foot gestures: planned places and differences between players."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def of_kind(plan: PlayerPlan, *kinds: str) -> list[GestureEvent]:
 
 
 def song(phrases: int = 12) -> tuple[PlainNote, ...]:
-    """Phrases of 14 beats that rise to the tenth, a rest of two beats after each."""
+    """Phrases of 14 beats that rise to the tenth, with a rest of two beats after each."""
     rows = []
     for phrase in range(phrases):
         for beat in range(14):

@@ -1,4 +1,4 @@
-"""Test where the instrument is off the lips, asked span by span and all at once."""
+"""Spans in which the instrument is off the lips, requested one by one and all together."""
 
 from __future__ import annotations
 

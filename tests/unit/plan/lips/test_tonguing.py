@@ -1,4 +1,4 @@
-"""Strokes of the tongue: single as long as the tip can, then double and triple; and what articulation asks for."""
+"""Strokes of the tongue: single up to the tip's limit, then double and triple; effects of articulation."""
 
 from __future__ import annotations
 
@@ -95,7 +95,9 @@ def test_articulation_is_read_from_length_and_loudness() -> None:
 
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_a_short_forte_is_no_accents_where_the_level_is_known(count: int) -> None:
-    """MuseScore's piano, forte and accent on piano (49, 96, 58): without a level all that is louder is accented."""
+    """MuseScore's piano, forte and accent on piano (49, 96, 58): without a known level everything louder would be
+    accented.
+    """
     louds = [0.386] * 8 + [0.756] * count + [0.386] * 8
     levels = tuple(louds)
     louds[4] = 0.546
@@ -113,7 +115,7 @@ def test_a_short_forte_is_no_accents_where_the_level_is_known(count: int) -> Non
 
 @pytest.mark.parametrize(("bpm", "kind"), [(46.0, "tongued"), (100.0, "staccato")])
 def test_a_slow_eighth_before_an_eighths_rest_is_not_staccato(bpm: float, kind: str) -> None:
-    """A phrase of Mozart's K. 315 ends so: 0.65 s are no short note; at 100 it may be a quarter with a dot."""
+    """A phrase of Mozart's K. 315 ends in this way: 0.65 s is no short note; at 100 it may be a dotted quarter."""
     notes = line_of(
         (0, Q, 67, 80), (Q, Q, 65, 80), (2 * Q, Q // 2, 64, 80), (3 * Q, 3 * Q // 2, 67, 80), (5 * Q, Q, 65, 80)
     )

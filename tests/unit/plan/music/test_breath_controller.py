@@ -1,4 +1,4 @@
-"""Breaths that were blown: gaps against a slow second finder, and takes whose breaths are known."""
+"""Blown breaths: gaps compared with a slow second method, and takes with known breaths."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ def plan_of(part: Part, corrections: tuple[object, ...] = (), **parameters: floa
 
 
 def breaths(plan: PlayerPlan) -> list[BreathEvent]:
-    """Those after the first."""
+    """Breaths after the first."""
     return [event for event in plan.breaths if event.kind == "breath" and event.reason.id != "breath.first"]
 
 
 def slow_gaps(at_s: list[float], values: list[float], until_s: float) -> BoolArray:
-    """Return whether someone blows, millisecond by millisecond."""
+    """Gaps found millisecond by millisecond."""
     blows, result = False, []
     for millisecond in range(int(until_s * 1000)):
         value = None

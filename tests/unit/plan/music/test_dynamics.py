@@ -1,4 +1,6 @@
-"""Bodies follow the dynamics: larger when loud, little when soft, up with accents, and as before where nothing says."""
+"""Motion follows the dynamics: larger when loud, smaller when soft, raised with accents, and unchanged without
+dynamics.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +51,7 @@ def sizes(plan: PlayerPlan, kind: str, start_s: float, end_s: float) -> float:
 
 
 def motion(plan: PlayerPlan, start_s: float, end_s: float) -> dict[str, float]:
-    """Return the range of each layer of the body's motion within a span, before the player's amplitude is applied."""
+    """Range of each layer of the body's motion within a time span, before the player's amplitude is applied."""
     times_s = np.arange(start_s, end_s, 0.02)
     levels = layers_of(plan).sample(times_s)
     return {name: float(np.ptp(getattr(levels, name))) for name in ("sway", "height", "lean")}

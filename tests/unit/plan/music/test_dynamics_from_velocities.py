@@ -1,4 +1,4 @@
-"""Dynamics from velocities: what each notation program writes is read back as the marks it was written for."""
+"""Dynamics from velocities: the output of each notation program is read back as the original marks."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def read(parts: Iterable[tuple[np.ndarray, int | None]]) -> VelocityReading:
 
 @st.composite
 def scores(draw: st.DrawFn) -> tuple[list[tuple[np.ndarray, int | None]], list[list[str]]]:
-    """Some parts written by one program, with passages at several marks; and those marks, by note."""
+    """Parts written by one program with passages at several marks, and those marks by note."""
     name = draw(st.sampled_from(sorted({name for name, _ in WRITTEN})))
     tables = [(program, row) for (one, program), row in WRITTEN.items() if one == name]
     parts, truth = [], []
@@ -140,7 +140,7 @@ def test_a_hairpin_rises_from_mark_to_mark() -> None:
 
 
 def test_after_a_stress_the_level_returns() -> None:
-    """LilyPond plays all that follows a *sf* as loud as it; players stress one note."""
+    """LilyPond plays everything after a *sf* as loud as it; players stress a single note."""
     velocities = np.array([69] * 8 + [127] * 6 + [95] * 8 + [69] * 8)
     assert velocity_marks(velocities)[:14] == ("p",) * 14
     assert int(velocity_loudness(velocities)[:14].argmax()) == 8
@@ -162,7 +162,7 @@ def test_notes_without_a_mark_are_as_loud_as_their_mark() -> None:
 
 
 def test_lilyponds_range_of_another_instrument_is_known() -> None:
-    """A flute's part that was written for a voice: 69 is *piano*, 95 *forte*."""
+    """A flute's part that was written as a voice: 69 is *piano*, 95 *forte*."""
     velocities = np.array([69] * 12 + [95] * 12 + [101] * 12 + [69] * 8)
     assert velocity_marks(velocities, 73) == ("p",) * 12 + ("f",) * 12 + ("ff",) * 12 + ("p",) * 8
 
@@ -170,7 +170,7 @@ def test_lilyponds_range_of_another_instrument_is_known() -> None:
 @pytest.mark.parametrize(("low", "high"), [(0.2, 0.8), (0.4, 0.9), (0.2, 0.9)])
 @pytest.mark.parametrize("program", [73, 60, 57])
 def test_a_range_that_a_score_sets_itself_is_known(program: int, low: float, high: float) -> None:
-    """``midiMinimumVolume`` and ``midiMaximumVolume``: LilyPond places its volumes of the marks between them."""
+    """LilyPond places its marks between ``midiMinimumVolume`` and ``midiMaximumVolume``."""
     volumes = {"pp": 0.49, "p": 0.55, "mf": 0.68, "f": 0.75, "ff": 0.8}
     truth = ["p", "f", "pp", "mf", "p", "ff"]
     velocities = np.repeat([int(127 * (low + (high - low) * volumes[mark])) for mark in truth], 12)
@@ -178,7 +178,9 @@ def test_a_range_that_a_score_sets_itself_is_known(program: int, low: float, hig
 
 
 def test_what_lilypond_wrote_for_no_instruments_keeps_its_marks_under_any_programs() -> None:
-    """Four voices whose staves were given winds afterwards; *p* 69, and hairpins that lead to no mark end at 41, 98."""
+    """Four voices that were assigned to winds afterwards; *p* is 69, and hairpins that lead to no mark end at 41 and
+    98.
+    """
     lines = [[69] * 40 + [55] * 8 + [41] * 30, [69] * 40 + [41] * 25 + [61, 60, 65], [69] * 30 + [98] * 6 + [69] * 12]
     parts = [(np.array(line), program) for line, program in zip(lines, (73, 71, 70), strict=True)]
     reading = read(parts)
@@ -189,20 +191,20 @@ def test_what_lilypond_wrote_for_no_instruments_keeps_its_marks_under_any_progra
 
 
 def test_a_mark_is_no_articulation_of_notes_without_one() -> None:
-    """A flute's *f* is 66, a staccato of a voice without a mark too."""
+    """A flute's *f* is 66, and so is a staccato of a voice without a mark."""
     velocities = np.array([48] * 12 + [66, 66, 62, 62, 66, 62, 66, 66] + [48] * 6)
     assert velocity_marks(velocities, 73) == ("p",) * 12 + ("f",) * 8 + ("p",) * 6
 
 
 def test_a_voice_that_lilypond_made_in_no_instruments_range_keeps_the_mark() -> None:
-    """A bassoon's *fff* is 70; a second voice of its staff may have 90, as where there is no instrument."""
+    """A bassoon's *fff* is 70; a second voice of its staff may have 90, as without an instrument."""
     velocities = np.array([41] * 12 + [90, 90, 94, 90] + [60] * 12)
     assert velocity_marks(velocities, 70) == ("p",) * 16 + ("ff",) * 12
 
 
 @pytest.mark.parametrize(("program", "default"), [(73, 62), (60, 66), (60, 90), (57, 90)])
 def test_notes_without_a_mark_are_as_loud_as_the_mark_before_them(program: int, default: int) -> None:
-    """Whatever LilyPond's default is in the range of the instrument, or of none."""
+    """Holds for LilyPond's default in every instrument's range and without an instrument."""
     piano = {73: 48, 60: 54, 57: 69}[program]
     velocities = np.array([piano] * 12 + [default] * 12 + [piano] * 12)
     assert velocity_loudness(velocities, program) == pytest.approx(
@@ -220,7 +222,7 @@ def test_strokes_of_one_level_are_mezzoforte(level: int, spread: int, seed: int)
 
 @pytest.mark.parametrize("softer", [0, 12])
 def test_played_phrases_are_read_by_the_pieces_own_distribution(softer: int) -> None:
-    """Whoever plays on soft keys plays no softer music."""
+    """A keyboard with a soft touch does not make the music soft."""
     rng = np.random.default_rng(3)
     truth = ["p"] * 60 + ["f"] * 60 + ["mf"] * 60
     levels = np.repeat([49, 96, 80], 60) - softer
@@ -233,7 +235,7 @@ def test_played_phrases_are_read_by_the_pieces_own_distribution(softer: int) -> 
 
 
 def hairpins(rng: np.random.Generator, notes: int) -> tuple[np.ndarray, list[str]]:
-    """A line of LilyPond's that hardly stays at a level: single notes at marks, and hairpins between them."""
+    """LilyPond's line with hardly any constant level: single notes at marks, and hairpins between them."""
     row = WRITTEN["LilyPond", 73]
     mark, velocities, truth = 2, list[int](), list[str]()
     while len(velocities) < notes:
@@ -255,14 +257,14 @@ def test_a_line_of_hairpins_is_written_not_played(seed: int) -> None:
 
 
 def test_levels_between_marks_do_not_hide_the_ladder() -> None:
-    """LilyPond's written-out diminuendo may stay for bars at levels that are no marks, as in a dance from a ballet."""
+    """LilyPond's written-out diminuendo may stay at levels without marks for bars, as in a dance from a ballet."""
     dance = [level + more for level in (90, 84, 73, 67) for more in [0, 0, 0, 4, 4, 4, 20, 0, 4] * 4]
     velocities = np.array(dance + [95, 95, 95, 99, 99] * 12)
     assert velocity_marks(velocities)[len(dance) :] == ("f",) * 60
 
 
 def test_players_of_one_staff_read_one_mark() -> None:
-    """LilyPond writes the marks into the voice that has them, and 62 into the other voice of the flutes."""
+    """LilyPond applies marks only to the voice that contains them, and writes 62 in the flutes' other voice."""
     onsets = np.arange(0, 36 * 480, 480)
     first, second = np.array([48] * 12 + [66] * 12 + [48] * 12), np.full(36, 62)
     second[:3] = 71
@@ -289,7 +291,7 @@ def test_no_notes_have_no_dynamics() -> None:
 
 
 def test_an_accent_of_musescore_is_a_fifth_louder() -> None:
-    """`Instrument::updateVelocity` of MuseScore 3: the velocity times 120 / 100, in whole numbers."""
+    """`Instrument::updateVelocity` of MuseScore 3: the velocity times 120 / 100 in integers."""
     for velocity, louder in ((33, 39), (49, 58), (64, 76), (80, 96), (96, 115)):
         assert [velocity + more for more, _ in articulated(ladder_of("MuseScore", None), velocity)] == [
             velocity,

@@ -1,4 +1,4 @@
-"""Loudness through the notes, as hairpins and sforzandi say."""
+"""Loudness within notes according to hairpins and sforzandi."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test where bars are felt to begin in files that do not mark their pickups."""
+"""Felt beginnings of bars in files without marked pickups."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def piece_in(numerator: int, denominator: int) -> Piece:
 
 
 def waltz(pickup: int, late_ticks: int = 0) -> LineTimes:
-    """Bars of a half and two eighths, after some quarters; every other note comes late."""
+    """Bars of a half and two eighths after some quarters; every other note is late."""
     notes = [(beat * TICKS, TICKS, 67) for beat in range(pickup)]
     for bar in range(16):
         start = (pickup + 3 * bar) * TICKS
@@ -48,7 +48,9 @@ def test_bars_begin_after_the_pickup(pickup: int, late_ticks: int) -> None:
 
 
 def test_bars_may_be_late_by_grace_notes_that_come_before_the_first() -> None:
-    """A notation program puts three small notes before the first bar, and all that follows comes a sixth too late."""
+    """A notation program places three small notes before the first bar, so that everything after them is a sixth too
+    late.
+    """
     late = TICKS // 6
     notes = [(0, late, 64), *((late + beat * TICKS, TICKS, 60 + beat % 4) for beat in range(48))]
     felt = with_felt_bars(piece_in(2, 4), (times_of(*notes),))
@@ -96,7 +98,7 @@ def test_a_known_pickup_and_changes_of_metre_are_left_alone() -> None:
 
 
 def test_engraved_pieces_are_never_moved_away_from_their_bars() -> None:
-    """Read as MIDI files are: the first metre begins with the first note."""
+    """Read like MIDI files, with the first metre beginning at the first note."""
     pieces = defaultdict(list)
     for row in marked_lines():
         pieces[row["source"]].append(row)

@@ -1,4 +1,4 @@
-"""Fermatas as notation programs and sequencers write them: the tempo drops and comes back."""
+"""Fermatas as written by notation programs and sequencers: the tempo drops and returns."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Rows = list[tuple[float, float]]
 
 
 def steps(start: float, end: float, step: float = 1.0, gate: float = 0.95) -> Rows:
-    """Notes of one length in a row."""
+    """Consecutive notes of one length."""
     return [(start + step * index, gate * step) for index in range(round((end - start) / step))]
 
 
@@ -39,7 +39,7 @@ def found(tempi: list[tuple[float, float]], *lines: Rows, heard: Rows | None = N
 
 
 def places(tempi: list[tuple[float, float]], *lines: Rows, heard: Rows | None = None) -> list[tuple[float, float]]:
-    """Quarters where fermatas begin, and of the entries after them."""
+    """Positions in quarters of fermatas, and of the entries after them."""
     return [(one.start_tick / Q, one.entry_tick / Q) for one in found(tempi, *lines, heard=heard)]
 
 

@@ -1,4 +1,4 @@
-"""Notes that cannot sound together: the highest of a chord is played, the rest is reported."""
+"""Notes that cannot sound together: the highest of a chord is played, the others are reported."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Scoops and falls, and vibrato and a channel out of tune beside them."""
+"""Scoops and falls, distinguished from vibrato and a detuned channel."""
 
 from __future__ import annotations
 

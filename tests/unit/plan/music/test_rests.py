@@ -1,4 +1,4 @@
-"""Test what is a rest of the score, and what the end of a detached note."""
+"""Rests of the score are distinguished from the ends of detached notes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def rests(notes: tuple[PlainNote, ...], bpm: float = 120.0) -> list[int]:
 
 
 def line(*pairs: tuple[float, float]) -> tuple[PlainNote, ...]:
-    """Notes and the silences after them, in quarters."""
+    """Notes with the silences after them in quarters."""
     at, rows = 0.0, []
     for length, silence in pairs:
         rows.append((round(at * Q), round(length * Q), 65))
@@ -62,7 +62,7 @@ def test_notes_of_any_length_that_keep_the_habit_of_the_line_have_no_rests() -> 
 @pytest.mark.parametrize("gate", [0.3, 0.5, 0.7])
 @pytest.mark.parametrize("steps", [(1.0,), (0.5,), (0.5, 0.5, 1.0), (0.75, 0.25, 1.0), (1.0, 0.5)])
 def test_a_staccato_run_at_one_gate_has_no_rests(steps: tuple[float, ...], gate: float, bpm: float) -> None:
-    """Alone, and of equal steps also among other notes; the last note of a run may have a rest."""
+    """Alone, and with equal steps also among other notes; the last note of a run may have a rest."""
     run = [(gate * step, (1.0 - gate) * step) for step in steps * 8]
     assert not any(rests(line(*run, (1, 0)), bpm))
     if len(steps) == 1:
@@ -78,12 +78,12 @@ def test_a_few_slow_notes_with_half_a_second_of_rest_each_are_no_staccato_run(co
 @pytest.mark.parametrize("bpm", [48.0, 72.0, 96.0])
 @pytest.mark.parametrize("count", [3, 8, 30])
 def test_equal_rests_after_long_notes_are_rests(bpm: float, count: int) -> None:
-    """A beat and a half and half a beat of rest: no one holds a staccato note for 0.8 s."""
+    """One and a half beats and half a beat of rest: a staccato note does not last 0.8 s."""
     assert rests(line(*[(1.5, 0.5)] * count, (1, 0)), bpm) == [Q // 2] * count
 
 
 def test_rests_that_grow_between_equal_notes_are_no_run() -> None:
-    """Steps that differ little from the next, and much from the last."""
+    """Each step differs little from the next, and much from the last."""
     silences = [0.4, 0.45, 0.5, 0.6, 0.7, 0.8, 0.9]
     found = rests(line(*((0.5, silence) for silence in silences), (0.5, 0)))
     assert found == [round(silence * Q) for silence in silences]

@@ -1,4 +1,4 @@
-"""Rests are judged by their seconds, wherever the grid of the file has its lines."""
+"""Rests are judged by their seconds, independently of the file's grid."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _rests_s = st.one_of(st.just(0.0), st.floats(0.76, 1.49), st.floats(1.51, 3.0))
 
 
 def breathed(rows: list[tuple[float, float]], bpm: float) -> set[int]:
-    """Return the numbers of the notes before which a breath is taken in the line of these lengths and rests, s."""
+    """Numbers of the notes preceded by a breath in the line with these lengths and rests in seconds."""
     at_s, notes = 0.0, []
     per_s = Q * bpm / 60.0
     for index, (length_s, rest_s) in enumerate(rows):

@@ -1,4 +1,4 @@
-"""Test which notes are slurred, by the habit of the line."""
+"""Slurred notes according to the habit of the line."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from app.plan.music.piece import slurs_next
 
 
 def slurred(gates: Sequence[float], note_ticks: int = 480) -> list[bool]:
-    """Return whether each of some notes in a row, which last so much of the time to the next one, is slurred to it."""
+    """Return for each of some consecutive notes, which sound for a share of the time to the next one, whether it is
+    slurred.
+    """
     onsets = np.arange(len(gates)) * note_ticks
     found = slurs_next(onsets, onsets + np.rint(np.array(gates) * note_ticks).astype(np.int64))
     return [bool(one) for one in found[:-1]]

@@ -1,4 +1,4 @@
-"""Glissandi and bends in a score: what slide and lips do."""
+"""Glissandi and bends in a score: motion of slide and lips."""
 
 from __future__ import annotations
 

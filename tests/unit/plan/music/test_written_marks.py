@@ -1,4 +1,4 @@
-"""Slurs, articulations, breath marks and dynamics that a score has, by note."""
+"""Slurs, articulations, breath marks and dynamics of a score, by note."""
 
 from __future__ import annotations
 

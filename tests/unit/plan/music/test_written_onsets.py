@@ -1,4 +1,4 @@
-"""Test the written place of a played note in its bar."""
+"""Written position in its bar of a played note."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_written_onsets_are_kept_to_the_tick() -> None:
 
 
 def test_a_silence_is_no_longer_than_the_written_step() -> None:
-    """Two notes 40 ms apart that share a place in the score, among notes off the grid."""
+    """Two notes 40 ms apart with the same written position, among notes off the grid."""
     onsets = [11, 490, 530, 1013, 1451, 1931]
     clock = PlainClock()
     line = MonophonicPart("p", line_of(*((onset, 10, 65) for onset in onsets)), valves())
@@ -43,7 +43,7 @@ def test_a_silence_is_no_longer_than_the_written_step() -> None:
 
 
 def test_a_played_note_stands_at_the_simplest_place_near() -> None:
-    """At a fast tempo a few milliseconds are a large part of a beat: no 12th of a quarter is meant."""
+    """At a fast tempo a few milliseconds are a large part of a beat, but not a twelfth of a quarter."""
     clock = PlainClock(((0, 200.0),))
     late_s = [0.0, 0.012, -0.013, 0.011, -0.012, 0.0, 0.013, 0.01]
     onsets = [round(QUARTER * (place + 1 + late * 200.0 / 60.0)) for place, late in enumerate(late_s)]
@@ -95,8 +95,7 @@ def test_simplest_places_are_the_first_of_a_slow_search(rows: list[tuple[int, in
 def test_what_a_line_divides_a_quarter_by_is_what_its_early_notes_are(
     parts: tuple[float, ...], bar: int, seed: int
 ) -> None:
-    """No one of 48 quarters of sixteenths, in bars that begin between quarters, is a triplet, nor the other way
-    round."""
+    """In 48 quarters of sixteenths, in bars that begin between quarters, none is a triplet, and vice versa."""
     chance = Random(seed)
     written = np.concatenate(([0.0], np.cumsum(parts * 48)))
     played = np.rint((written + [chance.uniform(-0.05, 0.05) for _ in written]) * 480).astype(np.int64)
@@ -105,7 +104,7 @@ def test_what_a_line_divides_a_quarter_by_is_what_its_early_notes_are(
 
 
 def test_a_rest_before_a_note_that_came_late_is_one() -> None:
-    """A quarter of a beat of silence; the note after it stands a twelfth sooner in the score."""
+    """A quarter of a beat of silence; the following note is a twelfth earlier in the score."""
     clock = PlainClock(ticks_per_quarter=1024)
     rows = ((0, 1536), (1536, 513), (2048, 512), (2900, 342), (5120, 341), (5717, 44), (6801, 86), (7402, 512))
     line = MonophonicPart("p", line_of(*((onset, ticks, 61) for onset, ticks in rows)), valves())
