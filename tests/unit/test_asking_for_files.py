@@ -1,4 +1,4 @@
-"""Test that the code asks for files in a way that cannot raise."""
+"""The code checks for files only with functions that cannot raise."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ RAISES = re.compile(r"\.(is_file|is_dir|is_symlink|exists)\(\)")
 
 
 def test_nothing_asks_by_pathlib() -> None:
-    """Until Python 3.14 its methods raise where a name is too long or a folder refuses; those of `os.path` do not."""
+    """Before Python 3.14 its methods raise if a name is too long or a folder cannot be read; those of
+    `os.path` do not.
+    """
     found = [
         f"{path.relative_to(ROOT)}: {line.strip()}"
         for root in ROOTS

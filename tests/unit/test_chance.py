@@ -1,4 +1,4 @@
-"""Chances and seeds by name: golden numbers, since a seed must give the same performance in every version."""
+"""Random values and seeds by name equal stored values, since a seed must give the same performance in every version."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Processes of our own run our own code."""
+"""Child processes of the program run the program's own code."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def test_what_lies_where_it_is_started_is_not_run(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="process groups of POSIX")
 def test_ctrl_c_in_the_terminal_is_not_sent_to_them() -> None:
-    """A terminal sends it to every process of the group in front."""
+    """A terminal sends it to every process of the foreground group."""
     with subprocess.Popen(
         stdin=subprocess.PIPE, stdout=subprocess.PIPE, **own_process("app.audio.render_process")
     ) as child:

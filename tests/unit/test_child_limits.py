@@ -1,4 +1,4 @@
-"""Limits of child processes, and that every process which the program starts has a row."""
+"""Limits of child processes; every process that the program starts has a row."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def test_the_structures_of_windows_have_their_sizes() -> None:
 
 
 def windows(refuses: bool = False) -> tuple[SimpleNamespace, list[str]]:
-    """The part of Windows that a job needs, and the calls that it got."""
+    """Fake of the part of Windows that a job needs, which records its calls."""
     calls: list[str] = []
 
     def create(security: None, name: None) -> int:

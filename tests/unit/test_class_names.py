@@ -1,4 +1,4 @@
-"""A public class has a name of its own, so that a reader who searches for it finds one class."""
+"""Names of public classes are unique, so that searching for one finds one class."""
 
 from __future__ import annotations
 

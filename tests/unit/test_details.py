@@ -1,4 +1,4 @@
-"""Test that errors in tables of acting are worded in Japanese too."""
+"""Errors in tables of acting also have Japanese texts."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ FOLDERS = ("app", "instrument_maps", "metadata")
 
 
 def worded(node: ast.expr) -> Iterator[str]:
-    """The texts that an expression may be, every field filled with a number."""
+    """Possible texts of an expression, with every field filled with a number."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         yield node.value
     elif isinstance(node, ast.JoinedStr):

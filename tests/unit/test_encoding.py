@@ -1,4 +1,4 @@
-"""Names of files that are not UTF-8: kept without loss, shown readably."""
+"""File names that are not UTF-8 are preserved and displayed readably."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_any_text_comes_back(text: str) -> None:
 
 
 def test_a_path_of_another_system_stays_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Windows has no names that are no text."""
+    """On Windows all names are texts."""
 
     def decode(name: bytes) -> str:
         return name.decode()

@@ -1,4 +1,4 @@
-"""Results are kept by the identity of their inputs, and only so many."""
+"""Results are cached by the identity of their inputs, up to a number."""
 
 from __future__ import annotations
 

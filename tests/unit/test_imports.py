@@ -1,4 +1,4 @@
-"""No module imports itself by way of others, not even inside a function or for types only."""
+"""No module imports itself through others, not even within a function or for types only."""
 
 from __future__ import annotations
 

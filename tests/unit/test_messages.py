@@ -1,4 +1,4 @@
-"""Every message id in the program has an English template that its arguments fill, and no template is left over."""
+"""Every message id in the program has an English template for its arguments, and no template is unused."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ def nodes(path: Path) -> tuple[ast.Call | ast.Constant, ...]:
 
 
 def calls(path: Path) -> Iterator[tuple[ast.Call, str, set[str] | None]]:
-    """Every call that makes a message or an error of our family with a literal id: call, id, names of its arguments.
+    """Calls that make a message or one of the program's errors with a literal id: call, id, names of the arguments,
+    which are None if not all are written in the call.
 
     The names are None where the arguments are not all written out at the call.
     """
@@ -60,7 +61,7 @@ def message_arguments(node: ast.Call) -> set[str] | None:
 
 @cache
 def found() -> list[tuple[str, ast.Call, str, set[str] | None]]:
-    """Those of every file."""
+    """Such calls in every file."""
     return [(path.relative_to(ROOT).as_posix(), *call) for path in SOURCES for call in calls(path)]
 
 
@@ -114,7 +115,7 @@ def test_messages_are_found_at_all() -> None:
 
 
 def test_every_id_has_a_template() -> None:
-    """An id may also be handed to whoever makes the message: every string that looks like one of ours counts."""
+    """Ids may also be passed to other functions, so every string that looks like an id is checked."""
     handed_on = {
         string
         for string in strings("app", "widgets") - action_ids() - step_paths()
@@ -147,7 +148,7 @@ def test_the_arguments_fill_the_templates() -> None:
 
 
 def test_no_template_counts_bars_and_beats_by_itself() -> None:
-    """A position is written by the metre map of the score, 12.1.096, and comes whole."""
+    """A position is formatted by the score's metre map as 12.1.096 and passed as a whole."""
     assert [id for id, wording in WORDINGS.items() if fields(wording[0]) & {"bar", "beat", "tick_in_bar"}] == []
 
 
@@ -160,7 +161,7 @@ def test_one_is_not_many(count: int, reported: str) -> None:
 
 
 def test_no_template_counts_one_of_many() -> None:
-    """Notified of one thing, no message says "1 notes"."""
+    """No message has a plural with the number one, such as "1 notes"."""
     for id, (template, _) in WORDINGS.items():
         if "count" in fields(template):
             arguments = dict.fromkeys(fields(template), 2) | {"count": 1}

@@ -1,4 +1,4 @@
-"""The code knows no instrument: whatever is particular to one stands in its map."""
+"""The code is independent of particular instruments, whose properties are in their maps."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FILES = sorted(path for room in ("app", "widgets") for path in (ROOT / room).rgl
 
 
 def texts(tree: ast.Module) -> list[tuple[int, str]]:
-    """The strings of a module with their lines; docstrings, which may mention instruments, are left out."""
+    """Strings of a module with their lines, except for docstrings, which may mention instruments."""
     docstrings = {
         id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
     }

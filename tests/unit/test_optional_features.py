@@ -1,4 +1,4 @@
-"""Each row of `app.optional_features`, with the folders that are called like it, can be left out."""
+"""Each feature in `app.optional_features`, with the folders of the same name, can be removed."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ exec(statements)
 
 
 def run_without(feature: str, statements: str, cwd: Path) -> str:
-    """Return the text that a program without a feature's row and folders prints."""
+    """Text printed by a program without a feature's row and folders."""
     command = [sys.executable, "-c", LEFT_OUT, feature, statements]
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "QT_QPA_PLATFORM": "offscreen"}
     done = subprocess.run(command, capture_output=True, text=True, cwd=cwd, env=environment, timeout=300)

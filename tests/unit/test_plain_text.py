@@ -1,4 +1,4 @@
-"""No text is HTML: nothing in the program shows HTML or lets Qt guess whether a text is HTML."""
+"""The program never displays HTML, and never lets Qt guess whether a text is HTML."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ ALLOWED = {
 
 
 def names(tree: ast.AST) -> Iterator[tuple[int, str]]:
-    """Every name a module uses, with its line: of classes, methods, enumerators and imports."""
+    """Every name used in a module with its line: classes, methods, enumerators and imports."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Name):
             yield node.lineno, node.id
@@ -59,7 +59,7 @@ def names(tree: ast.AST) -> Iterator[tuple[int, str]]:
 
 
 def faults(source: str, allowed: set[str]) -> list[str]:
-    """Return the uses of names that a module must not use, each with the name to use instead."""
+    """Uses of names that a module must not use, each with the name to use instead."""
     if not MENTIONED.search(source):
         return []
     found = {(line, name) for line, name in names(ast.parse(source)) if name in INSTEAD and name not in allowed}

@@ -1,4 +1,4 @@
-"""The set-up of ``./run`` asks at a terminal before it installs packages of the system; without one it never asks."""
+"""The set-up of ``./run`` asks at a terminal before installing system packages, and never asks without one."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="packages of Deb
 
 
 def at_terminal(asks: str, typed: bytes) -> str:
-    """Run the script at a terminal at which this is typed; return its output."""
+    """Run the script at a pseudo-terminal with typed input and return its output."""
     import pty
 
     child, terminal = pty.fork()
@@ -64,7 +64,7 @@ def test_the_checks_do_not_ask() -> None:
 
 
 def test_the_options_of_the_checks_are_shown_without_a_set_up() -> None:
-    """An exported variable changes nothing either: it is unset."""
+    """An exported variable has no effect, since it is unset."""
     text = (ROOT / "test").read_text("utf-8")
     shown = subprocess.run([ROOT / "test", "--help"], capture_output=True, text=True, timeout=30, check=True)
     assert shown.stderr == ""

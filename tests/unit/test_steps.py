@@ -1,4 +1,4 @@
-"""StepTable are wired by names, and done again only where what they read has changed."""
+"""Steps are connected by names, and repeated only if their inputs have changed."""
 
 from __future__ import annotations
 

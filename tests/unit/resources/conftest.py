@@ -1,4 +1,4 @@
-"""Modules of the scripts that build characters, imported by their bare names as in the Python that runs them."""
+"""Imports modules of the scripts that build characters, by the bare names that the scripts use."""
 
 from __future__ import annotations
 

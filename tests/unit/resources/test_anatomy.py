@@ -1,4 +1,4 @@
-"""The committed bodies are people: every length within two standard deviations of published tables."""
+"""Committed bodies have human proportions: every length is within two standard deviations of published tables."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def character(request: pytest.FixtureRequest) -> Character:
 
 @cache
 def child() -> Character:
-    """The child, made of a finished body, as if it came from a file."""
+    """The child, made from a bundled body, as if read from a file."""
     made = finished_character(CHILD, character_named)
     names, places = made.skeleton.names, rest_positions(made.skeleton)
     moves = made.joint_from_mesh.copy()
@@ -64,13 +64,13 @@ def _mesh(mesh: Mesh, moves: np.ndarray) -> MeshData:
 
 
 def apart_m(character: Character, *joints: str) -> float:
-    """Length of a way from joint to joint."""
+    """Length in metres of a path along joints."""
     places = np.array([character.joints[joint] for joint in joints])
     return float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
 
 
 def eye(character: Character, side: str) -> tuple[np.ndarray, float]:
-    """Middle and radius of an eyeball, in the pose of the meshes."""
+    """Centre and radius of an eyeball in the pose of the meshes."""
     joint = character.joint_names.index(side + "Eye")
     ball = character.meshes["eyes"]
     own = ball.positions[ball.weights[:, joint] > 0.5]
@@ -79,7 +79,7 @@ def eye(character: Character, side: str) -> tuple[np.ndarray, float]:
 
 
 def lids(character: Character, side: str, aside_m: float = 0.0, **shapes: float) -> tuple[float, float]:
-    """Heights of both lids' edges over the middle of an eye."""
+    """Heights of both lids' edges relative to the centre of an eye."""
     body = character.meshes["body"]
     centre, radius = eye(character, side)
     points = body.positions + sum((weight * body.morphs[name] for name, weight in shapes.items()), np.zeros(3))
@@ -89,7 +89,7 @@ def lids(character: Character, side: str, aside_m: float = 0.0, **shapes: float)
 
 
 def lengths_mm(character: Character) -> dict[str, float]:
-    """Every length of the table, by its name there."""
+    """Every length of the table by its name there."""
     body, joints = character.meshes["body"], character.joints
     head = body.positions[body.weights[:, character.joint_names.index("head")] > 0.6]
     eyes = (eye(character, "left")[0] + eye(character, "right")[0]) / 2
@@ -179,7 +179,9 @@ def test_lids_rest_open_and_close_wholly(character: Character, side: str) -> Non
 
 
 def test_both_sides_of_a_hand_lie_about_its_knuckles(character: Character) -> None:
-    """A finger bends in the palm, not in the web: its first joint lies well before where fingers part."""
+    """A finger bends in the palm and not in the web: its first joint is well before the place where fingers
+    separate.
+    """
     for finger in FINGERS[1:]:
         knuckle, first = (character.joints[f"left{finger}{name}"] for name in ("Proximal", "Intermediate"))
         pad = character.at(f"left.{finger.lower()}.pad_proximal").mean(axis=0)

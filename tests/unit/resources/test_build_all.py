@@ -1,4 +1,4 @@
-"""The command that makes the generated files again, and the table that says which they are."""
+"""The command that rebuilds generated files, and the table that lists them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Assets of MakeHuman on a body: bindings, skin weights and shapes against sums written out vertex by vertex."""
+"""MakeHuman's assets on a body: bindings, skin weights and shapes compared with sums vertex by vertex."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def _body(shapes: int = 2) -> tuple[SimpleNamespace, SimpleNamespace]:
 
 
 def _slow_place(vertices: np.ndarray, vertex: int) -> list[float]:
-    """A bound vertex's place, written out."""
+    """Position of a bound vertex, calculated directly."""
     corners, shares, offset = BOUND[vertex]
     place = []
     for axis in range(3):

@@ -1,4 +1,6 @@
-"""Pictures of the bundled characters: noise that tiles, the skin's layout, eyes, strands, and how a file holds them."""
+"""Textures of the bundled characters: noise that tiles, the skin's layout, eyes, strands, and their storage
+in a file.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +59,7 @@ def test_pictures_are_sampled_spread_and_stored_alike(build_module: Module) -> N
 
 
 def _squares(spots: list[tuple[float, float]], half: float) -> tuple[np.ndarray, np.ndarray]:
-    """One quad around each spot."""
+    """One square around each point."""
     corners = np.array([(-half, -half), (half, -half), (half, half), (-half, half)])
     uvs = np.concatenate([np.asarray(spot) + corners for spot in spots])
     return uvs, np.arange(len(uvs)).reshape(-1, 4)

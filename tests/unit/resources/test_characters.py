@@ -1,4 +1,4 @@
-"""The character files keep the contract that rig, motion and export build on. Read with pygltflib and numpy alone."""
+"""Character files satisfy the requirements of rig, motion and export. They are read with pygltflib and numpy only."""
 
 from __future__ import annotations
 
@@ -288,7 +288,7 @@ def test_skin_weights(character: Character) -> None:
 
 
 def test_no_one_is_undressed(character: Character) -> None:
-    """The body's skin is only head, neck and hands; below the collar it is gone, not hidden."""
+    """The body's skin consists of head, neck and hands; skin below the collar is removed and not only hidden."""
     skin = character.meshes["body"].t_pose
     beyond_cuff = np.abs(skin[:, 0]) > character.joints["leftHand"][0] - 0.06
     above_collar = skin[:, 1] > character.joints["leftShoulder"][1] - 0.02
@@ -317,7 +317,9 @@ def test_the_52_face_shapes(character: Character) -> None:
 
 
 def _girth_m(character: Character, height_m: float, weight: float) -> float:
-    """Round the trunk at a height, over the clothes: the hull of a slab of what neither arms nor hands carry."""
+    """Girth of the trunk at a height over the clothes: hull of a slab of vertices that belong to neither arms nor
+    hands.
+    """
     points = []
     for name in ("body", "shirt", "trousers"):
         mesh = character.meshes[name]

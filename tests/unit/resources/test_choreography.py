@@ -1,4 +1,4 @@
-"""The bundled choreography is what today's reader makes of its captures, and nothing in it is damaged."""
+"""The bundled choreography equals what the current reader makes of its captures, and contains no damage."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Parts of woodwinds: keys turn the way they are pressed, cups close or open, rings go level with their holes."""
+"""Parts of woodwinds: keys rotate in the direction of pressing, cups close or open, rings become level with their
+holes.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,7 @@ def _body() -> Wall:
 
 
 def _turned(points: np.ndarray, motion: dict[str, object]) -> np.ndarray:
-    """Points after the whole motion of a key (Rodrigues)."""
+    """Points after the complete motion of a key (Rodrigues)."""
     axis, pivot = np.asarray(motion["axis"]), np.asarray(motion["pivot_m"])
     angle, off = float(motion["angle_rad"]), points - pivot
     turned = (

@@ -1,4 +1,4 @@
-"""The outfits keep their contract: bound to VRM's joints, few materials, one set of pictures."""
+"""Outfits satisfy their requirements: bound to VRM's joints, few materials, one set of textures."""
 
 from __future__ import annotations
 

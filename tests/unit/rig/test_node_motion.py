@@ -1,4 +1,4 @@
-"""The same motion in FBX, GLB and BVH files is the same motion, whatever turns the bones have at rest."""
+"""A motion is read identically from FBX, GLB and BVH files, with any rest rotations of bones."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ IDENTITY = np.array((0.0, 0.0, 0.0, 1.0))
 
 
 def scene_of(clip: MotionClip, seed: int, animated: bool = True) -> Scene:
-    """The clip on bones that have turns of their own at rest, below a root that lies on its back."""
+    """Clip on bones with rest rotations, below a root that lies on its back."""
     names = ("Armature", *SEGMENTS, *(f"{name}_end" for name in ENDS))
     parents = [-1, 0, *(1 + SEGMENTS.index(above) for above in list(PARENT_OF.values())[1:])]
     parents += [1 + SEGMENTS.index(name) for name in ENDS]
@@ -59,7 +59,7 @@ def scene_of(clip: MotionClip, seed: int, animated: bool = True) -> Scene:
 
 
 def plain_bvh(clip: MotionClip) -> BvhClip:
-    """The clip on bones without turns of their own at rest."""
+    """Clip on bones without rest rotations."""
     return BvhClip(
         names=tuple(SEGMENTS),
         parents=(-1, *(SEGMENTS.index(above) for above in list(PARENT_OF.values())[1:])),
@@ -72,7 +72,7 @@ def plain_bvh(clip: MotionClip) -> BvhClip:
 
 
 def least_alike(one: FloatArray, other: FloatArray) -> float:
-    """The cosine of half the greatest angle between rotations (F, S, 4)."""
+    """Cosine of half the greatest angle between rotations (F, S, 4)."""
     return float(np.abs(np.einsum("fsi,fsi->fs", one, other)).min())
 
 
@@ -137,7 +137,7 @@ def test_more_motion_than_memory_is_refused(tmp_path: Path, monkeypatch: pytest.
 
 
 def test_the_last_channel_of_a_node_holds(tmp_path: Path) -> None:
-    """A file that names a target again and again is sampled once."""
+    """A file that names a target repeatedly is sampled once."""
     data = encode_glb(scene_of(CLIP, 1))
     length = struct.unpack_from("<I", data, 12)[0]
     document = json.loads(data[20 : 20 + length])
@@ -153,7 +153,7 @@ def test_the_last_channel_of_a_node_holds(tmp_path: Path) -> None:
 
 
 def test_scaled_armatures_are_multiplied_out(tmp_path: Path) -> None:
-    """Blender writes a file that it had from FBX so: a root of a hundredth, its bones a hundred times as large."""
+    """Blender writes imported FBX files in this way: a root scaled by 0.01, with bones a hundred times as large."""
     data = encode_glb(scene_of(CLIP, 3))
     length = struct.unpack_from("<I", data, 12)[0]
     document = json.loads(data[20 : 20 + length])
@@ -198,7 +198,7 @@ def test_an_animation_that_is_too_long_is_not_sampled(tmp_path: Path, seconds: f
 
 
 def test_bones_of_a_vrm_animation_are_those_that_it_says_and_its_face_is_no_bone(tmp_path: Path) -> None:
-    """Names of nodes say nothing; values of expressions and the gaze move no body."""
+    """Names of nodes have no meaning; values of expressions and gaze move no body."""
     character = character_named("woman_adult")
     motion = random_motion(character)
     motion = replace(motion, morphs={"jawOpen": np.linspace(0.0, 1.0, motion.frames, dtype=np.float32)})

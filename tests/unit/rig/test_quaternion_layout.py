@@ -1,4 +1,4 @@
-"""Quaternions are the same to the bit wherever they lie in memory, and however many are computed at once."""
+"""Quaternions are equal to the bit regardless of memory layout and of how many are computed at a time."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_values_do_not_depend_on_memory(name: str) -> None:
 
 
 def test_many_lie_component_after_component() -> None:
-    """Arithmetic with one component of many then runs along the memory."""
+    """Arithmetic with one component of many then accesses consecutive memory."""
     for made in (quaternion.multiply(Q, R), quaternion.rotate(Q, V), quaternion.columns(ANGLES, 0.0, ANGLES)):
         assert made[:, 0].flags.c_contiguous
     repeated = quaternion.repeated(np.array([1.0, 2.0, 3.0]), 5)

@@ -1,4 +1,4 @@
-"""MIDI files written by hand, byte by byte, for tests of the reader."""
+"""MIDI files written byte by byte for tests of the reader."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def score_of(
 
 
 def one_track(events: bytes, *, format_: int = 1, division: int = 96) -> Score:
-    """A file with one track, which ends properly."""
+    """File with one track and a regular end."""
     return score_of(header(format_, 1, division) + chunk(b"MTrk", events + END))
 
 
@@ -54,5 +54,5 @@ def notes_of(score: Score) -> list[tuple[int, int, int]]:
 
 
 def ids(score: Score) -> list[str]:
-    """The ids of the score's warnings."""
+    """Ids of the score's warnings."""
     return [warning.id for warning in score.warnings]

@@ -37,7 +37,7 @@ DRUM_NAMES = ("", "", "ドラム", "Drums", "DR", "リズム", "Perc", "トラ�
 
 @dataclass
 class Part:
-    """A melody, a drum part or effects: its notes as (tick, pitch)."""
+    """A melody, a drum part or effects, with notes as (tick, pitch)."""
 
     kind: str
     channel: int
@@ -52,7 +52,7 @@ class Part:
 
 @dataclass
 class ModuleFile:
-    """A file and what is in it."""
+    """A file and its content."""
 
     data: bytes
     melodies: list[tuple[str, list[tuple[int, int]]]]
@@ -61,7 +61,7 @@ class ModuleFile:
 
 
 def module_file(seed: int) -> ModuleFile:
-    """One of the files; every 4 of them have the systems GS, XG, GM2 and General MIDI in turn."""
+    """Make one of the files, with the systems GS, XG, GM2 and General MIDI in turn."""
     random = Random(seed)
     system = ("gs", "xg", "gm2", "gm")[seed % 4]
     several_ports = system != "gm2" and random.random() < 0.25
@@ -104,7 +104,7 @@ def module_file(seed: int) -> ModuleFile:
 
 
 def _reset(system: str, random: Random) -> bytes:
-    """The message that begins a system."""
+    """Message that starts a system."""
     device = random.choice((0x10, 0x10, 0x10, 0x00, 0x1F, 0x7F))
     if system == "gs":
         mode = random.choice((b"\x40\x00\x7f\x00", b"\x40\x00\x7f\x00", b"\x00\x00\x7f\x01"))
@@ -134,7 +134,7 @@ def _mode(system: str, channel: int, value: int, random: Random) -> bytes:
 
 
 def _bank(channel: int, msb: int, lsb: int, program: int, at: int, random: Random) -> list[tuple[int, bytes]]:
-    """Bank select and program change, some ticks apart as some programs have them."""
+    """Bank select and program change, some ticks apart as written by some programs."""
     apart = random.choice((0, 0, 1, 5))
     rows = [(at, bytes([0xB0 | channel, 0, msb])), (at + apart, bytes([0xB0 | channel, 32, lsb]))]
     if random.random() < 0.2:
@@ -170,7 +170,7 @@ def _line(random: Random, program: int, first_bar: int = 1) -> list[tuple[int, i
 def _beat(
     random: Random, system: str, kit: int, first_bar: int = 1
 ) -> tuple[list[tuple[int, int]], list[tuple[int, int]]]:
-    """Notes of a kit, and what they are in General MIDI 2."""
+    """Notes of a kit, and their meaning in General MIDI 2."""
     notes, heard = [], []
     timpani = kit == 48 and system in ("gs", "gm2")
     brushes = kit == 40 and system == "gs"
@@ -213,7 +213,7 @@ def _drums(random: Random, system: str, port: int, channel: int, common: list[tu
 
 
 def _effects(random: Random, system: str, port: int, channel: int, common: list[tuple[int, bytes, int]]) -> Part:
-    """Applause, helicopters and the like: by a program of General MIDI, a bank or a kit."""
+    """Effects such as applause or helicopters: by a program of General MIDI, a bank or a kit."""
     way = random.choice(("program", "kit", "bank"))
     program, bank = random.randint(120, 127), {"gm2": 121}.get(system, 0)
     if way == "kit" and system == "gs":
@@ -228,7 +228,7 @@ def _effects(random: Random, system: str, port: int, channel: int, common: list[
 
 
 def _turncoat(random: Random, system: str, port: int, channel: int, common: list[tuple[int, bytes, int]]) -> list[Part]:
-    """Drums for four bars, then a melody on the same channel, in one track (their names are the same)."""
+    """Drums for four bars, then a melody on the same channel in one track (with equal names)."""
     drums = _drums(random, system, port, channel, common)
     program = random.choice(sorted(WINDS))
     tune = _line(random, program, first_bar=7)
@@ -251,7 +251,7 @@ def _number(value: int) -> bytes:
 
 
 def _track(random: Random, rows: list[tuple[int, int, bytes]], running: bool = False) -> bytes:
-    """A track of (tick, order, event); an event of system exclusive data is written in pieces now and then."""
+    """Track of (tick, order, event); some system-exclusive events are written in pieces."""
     data, at, status = bytearray(), 0, 0
     for tick, _, event in sorted(rows, key=lambda row: row[:2]):
         data += _number(tick - at)

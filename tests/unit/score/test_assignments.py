@@ -1,4 +1,4 @@
-"""Test the assignment of a file's tracks."""
+"""Assignment of a file's tracks to instruments."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test which bars of a piece a recording has, and how sure that is."""
+"""Bars of a piece contained in a recording, and the confidence of the result."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ METRES = MetreMap(QUARTER)
 
 
 def following(beats: int, doubtful: tuple[int, ...]) -> Following:
-    """Beats in 4/4, of which some are doubtful; the last is where the piece ends."""
+    """Beats in 4/4, some of which are uncertain; the last is the end of the piece."""
     confidence = np.ones(beats)
     confidence[list(doubtful)] = 0.1
     return Following(np.arange(beats) * QUARTER, np.arange(beats) * 0.5, confidence)

@@ -1,4 +1,4 @@
-"""Pitch bends in semitones, whatever range the file sets."""
+"""Pitch bends in semitones for any range set by the file."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def set_to(*controls: tuple[int, int], channel: int = 0) -> bytes:
 
 
 def semitones(score: Score, part: int = 0) -> list[float]:
-    """The bends of a part, in semitones."""
+    """Bends of a part in semitones."""
     curve = next(curve for curve in score.parts[part].curves if curve.kind == "pitch_bend")
     return [2.0 * value for value in curve.values]
 
@@ -94,7 +94,7 @@ def exclusive(*message: int) -> bytes:
 
 
 def gs(*address_and_value: int) -> bytes:
-    """Data set to a GS address, with Roland's checksum."""
+    """Message that writes data to a GS address, with Roland's checksum."""
     return exclusive(0x41, 0x10, 0x42, 0x12, *address_and_value, -sum(address_and_value) % 128)
 
 

@@ -1,4 +1,4 @@
-"""Takes of wind controllers: faults that were put into a clean melody are taken out again, and what is music stays."""
+"""Takes of wind controllers: faults inserted into a clean melody are removed, and the music is kept."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ BLOWN, SAMPLED_S = 0.63, 0.01
 
 
 def played(rows: Rows, dips: Sequence[float] = (), breath: bool = True, noise: float = 0.02) -> Played:
-    """The notes with a breath that lasts from the first note of each legato to its last; it falls at the ``dips``."""
+    """Notes with a breath from the first note of each legato to its last, which falls at the ``dips``."""
     rows = sorted(rows)
     curves = {}
     if breath:
@@ -42,7 +42,7 @@ def cleaned_rows(notes: Played) -> list[tuple[float, int]]:
 
 
 def melody(pitches: list[int], lasts_s: float = 0.3, overlap_s: float = 0.008) -> Rows:
-    """A legato; a note that is repeated is tongued, 80 ms apart."""
+    """Legato melody; repeated notes are tongued, 80 ms apart."""
     rows: Rows = []
     for place, pitch in enumerate(pitches):
         repeated = place + 1 < len(pitches) and pitches[place + 1] == pitch
@@ -122,7 +122,7 @@ MUSIC: dict[str, Rows] = {
 
 
 def slurred_grace(off: int, grace_s: float, step_s: float) -> Rows:
-    """Legato notes of one length, and before the fourth an ornament of it or of the third, out of the third's time."""
+    """Equal legato notes, and before the fourth an ornament of it or of the third, which shortens the third."""
     pitches = (60, 62, 64, 65, 67, 69, 67, 65)
     rows = melody(list(pitches), step_s)
     at = rows[3][0]
@@ -168,7 +168,7 @@ def test_a_swelling_note_is_joined_and_a_tongue_is_not_needed_for_another_pitch(
 
 
 def strokes(velocities: Sequence[int], gap_s: float, steps_s: Sequence[float]) -> Rows:
-    """Notes of one pitch between others, struck again without the breath: the gaps are as long as a retrigger's."""
+    """Notes of one pitch between others, struck again without the breath, with gaps as long as those of a retrigger."""
     rows: Rows = [(0.0, 0.404, 62, 90)]
     at = 0.4
     for velocity, step_s in zip(velocities, steps_s, strict=True):
@@ -207,7 +207,7 @@ def test_a_player_who_detaches_all_notes_without_the_breath_strikes_repeated_one
 
 
 def test_a_breath_that_was_sent_as_the_velocity_is_no_stroke() -> None:
-    """A note that began before the breath was there, and sprang back when it was: softer first, as the breath."""
+    """A note that began before the breath and jumped back after it: softer first, like the breath."""
     rows: Rows = [(0.0, 0.25, 65, 60), (0.28, 0.8, 65, 90), (0.8, 1.2, 67, 90)]
     times = np.arange(-0.2, 1.5, SAMPLED_S)
     notes = played(rows, breath=False)

@@ -1,4 +1,4 @@
-"""Notes that others cover, counted in one pass: as when each is compared with all before it."""
+"""Notes that overlap others, counted in one pass, compared with counting all pairs."""
 
 from __future__ import annotations
 

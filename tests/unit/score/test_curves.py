@@ -1,4 +1,4 @@
-"""Test which controllers of a file are dynamics."""
+"""Recognition of the controllers in a file that represent dynamics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Players who change to another instrument within a track, and sounds that are no change."""
+"""Players who change to another instrument within a track, and sounds that are no such change."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files as notation programs write them, and the players a musician reads in them."""
+"""Files from notation programs, with the players that a musician would recognise."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def test_ensembles_without_names_get_their_usual_instruments(
 
 
 def unnamed(lines: list[list[int]], program: int | None) -> bytes:
-    """A file of one track for each line, in even notes, that says nothing of itself."""
+    """File with a track of even notes for each line, without names."""
     tracks = []
     for channel, pitches in enumerate(lines):
         chosen = bytes([0, 0xC0 | channel, program]) if program is not None else b""
@@ -137,7 +137,7 @@ def test_lines_that_use_the_whole_compass_are_known_by_it() -> None:
 
 
 def test_chords_in_one_of_several_unnamed_tracks_of_pianos_leave_them_pianos() -> None:
-    """Three lines of the program that means none are an ensemble of winds; what has chords is meant as it says."""
+    """Three lines with the default program are an ensemble of winds; with chords, the program is meant as piano."""
     lines = [line(70, 8), line(60, 9), line(51, 9)]
     assert len(score_of(unnamed(lines, 0), maps=CHOICES).parts) == 3
     chords = bytes([0, 0xC3, 0]) + b"".join(
@@ -152,7 +152,7 @@ def test_chords_in_one_of_several_unnamed_tracks_of_pianos_leave_them_pianos() -
 
 
 def line(median: int, half: int) -> list[int]:
-    """Pitches up and down about a median."""
+    """Pitches up and down around a median."""
     return [
         median,
         median + half // 2,

@@ -1,4 +1,4 @@
-"""Test which map plays a part: keys and sizes of one instrument, names in five languages, what the title says."""
+"""Choice of the map for a part: keys and sizes of an instrument, names in five languages, the title."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def score(
     maps: tuple[MapChoice, ...] = BAND,
     program: int = -1,
 ) -> Score:
-    """A file of named tracks with these notes."""
+    """File of named tracks with these notes."""
     chunks = [chunk(b"MTrk", meta(3, title.encode()) + END)]
     for channel, (name, pitches) in enumerate(tracks):
         events = meta(3, name.encode())

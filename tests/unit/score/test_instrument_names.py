@@ -1,4 +1,4 @@
-"""Test what instruments are called, in many languages."""
+"""Names of instruments in many languages."""
 
 import tomllib
 import unicodedata
@@ -121,7 +121,7 @@ def test_names_as_notation_programs_have_them_in_many_languages(id_: str) -> Non
 
 
 def unmarked(name: str) -> str:
-    """A name as it is written where its marks cannot be typed."""
+    """Name without accents, as typed without them."""
     letters = unicodedata.normalize("NFD", name.translate(str.maketrans("łŁøØı", "lLoOi")))
     return "".join(letter for letter in letters if not unicodedata.combining(letter))
 
@@ -132,7 +132,7 @@ def test_every_instrument_with_a_map_has_names_in_many_languages() -> None:
 
 
 def test_what_is_easy_on_an_instrument_is_what_its_map_says() -> None:
-    """At concert pitch."""
+    """Compared at sounding pitch."""
     for instrument, compass in vocabulary().ranges.items():
         assert compass.low <= compass.easy_low < compass.easy_high <= compass.high
         for one in all_maps().values():

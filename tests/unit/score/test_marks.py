@@ -1,4 +1,4 @@
-"""Marks stay with their notes: through sharing a staff, a project's file, a copy of a player and another reading."""
+"""Marks stay with their notes: when a staff is shared, a project saved, a player copied and a file read again."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def parts_of(one: TrackChannel, split: str = "sustained") -> tuple[Part, ...]:
 
 
 def marked(project: Project) -> Project:
-    """A project whose first part has a mark of every kind."""
+    """Project whose first part has a mark of every kind."""
     part = project.score.parts[0]
     notes = [note.id for note in part.notes]
     marks = tuple(
@@ -80,8 +80,9 @@ def test_a_line_keeps_its_marks() -> None:
 
 
 def test_players_of_one_staff_have_the_marks_of_their_own_notes() -> None:
-    """Four chords and a note of both: the slur from the upper note of the first chord to the common note is the slur of
-    both, for both play the common note."""
+    """Four chords and a common note: the slur from the first chord's upper note to the common note belongs to both
+    players, since both play that note.
+    """
     chords = [(2 * place, 2 * place + 2, pitch) for place in range(4) for pitch in (60, 67)]
     marks = (
         Mark("slur", "1:1", "1:3"),

@@ -1,4 +1,4 @@
-"""The metre of files without time signatures: what real music is in, and nothing where it is not clear."""
+"""Metres of files without time signatures: correct for real music, and none in unclear cases."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Q = 480
 
 
 def without_metres(name: str, to: Path, jitter_s: float = 0.0) -> Path:
-    """Write a piece without its time signatures, each note moved by chance."""
+    """Write a piece without time signatures, with each note shifted randomly."""
     file, chance = mido.MidiFile(MIDI / name, clip=True), random.Random(name)
     reach = round(jitter_s * 2 * file.ticks_per_beat)
     for track in file.tracks:
@@ -78,7 +78,7 @@ def test_music_in_two_or_four_stays_in_four(name: str) -> None:
 
 
 def _notes(path: Path) -> tuple[list[Line], int]:
-    """Return the lines of a file, and its ticks in a quarter."""
+    """Lines of a file, and its ticks per quarter."""
     contents = read_contents(path)
     lines = [Line(stream.onset_ticks, stream.end_ticks, stream.pitches) for stream in contents.channels]
     return lines, contents.tempo_map.ticks_per_quarter
@@ -119,7 +119,7 @@ def test_chance_on_the_grid_seldom_looks_like_a_metre() -> None:
 
 
 def test_metres_of_an_earlier_version_are_kept(tmp_path: Path) -> None:
-    """In the ticks of the new version, whatever its notes say; without a note where it is the standard's metre."""
+    """Kept in the new version's ticks, whatever its notes suggest; the standard's metre needs no guess."""
     path = without_metres("ensemble/trumpet_duet_bach_minuet.mid", tmp_path)
     quarter = mido.MidiFile(path).ticks_per_beat
     before = Assumed((Metre(0, 5, 8), Metre(2 * quarter, 5, 8)), 2 * quarter, 2 * quarter)

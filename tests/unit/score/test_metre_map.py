@@ -1,4 +1,4 @@
-"""Bars, beats and felt beats of ticks, against counting them out one by one."""
+"""Bars, beats and felt beats of ticks compared with counting them one by one."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def test_places_are_written_and_read(tick: int, text: str) -> None:
 
 
 def test_ticks_have_the_digits_of_the_longest_beat() -> None:
-    """A quarter of 1920 ticks: a position is as long at the beginning of a beat as at its end."""
+    """In a quarter of 1920 ticks a position has as many digits at the beginning of a beat as at its end."""
     fine = MetreMap(1920, (Metre(0, 4, 4), Metre(15360, 6, 8)))
     assert [fine.label(tick) for tick in (0, 96, 1919, 15361)] == ["1.1.0000", "1.1.0096", "1.1.1919", "3.1.0001"]
     assert fine.tick_of_label("1.1.0096") == fine.tick_of_label("1.1.96") == 96
@@ -58,7 +58,7 @@ def test_the_beats_of_a_pickup_are_counted_back_from_the_bar_line() -> None:
 
 
 class Counted:
-    """The bars and beats of a map, counted out with fractions, from the first metre to a tick."""
+    """Bars and beats of a map, counted with fractions from the first metre to a tick."""
 
     def __init__(self, given: MetreMap, end_tick: int) -> None:
         stops = [*(metre.tick for metre in given.metres[1:]), end_tick]
@@ -90,8 +90,9 @@ class Counted:
 
 @st.composite
 def maps(draw: st.DrawFn) -> MetreMap:
-    """Metres that change anywhere, also inside a bar or a beat; with or without a pickup, at divisions that no bar
-    fits."""
+    """Metres that change anywhere, also within a bar or beat; with or without a pickup, at resolutions that
+    fit no bar.
+    """
     ticks_per_quarter = draw(st.sampled_from([1, 5, 24, 96, 480]))
     ticks = sorted({0, *draw(st.lists(st.integers(1, 60 * ticks_per_quarter), max_size=4))})
     kinds = st.tuples(st.integers(1, 13), st.sampled_from([1, 2, 4, 8, 16]))
@@ -172,7 +173,7 @@ def test_counted_beats_are_the_felt_ones_where_they_divide_the_bar(given_map: Me
 
 
 def test_a_long_file_is_mapped_at_once() -> None:
-    """A million bars, a metre for each of ten thousand: exact to the last one, and no longer loop than over metres."""
+    """A million bars and a hundred metres: exact to the last bar, with loops over metres only."""
     metres = tuple(Metre(1920 * 100 * index + index, 4 + index % 3, 4) for index in range(10_000))
     long = MetreMap(480, metres)
     bars = np.arange(1, 1_000_000, dtype=np.int64)

@@ -91,7 +91,7 @@ SYSTEM: Final = {
 
 
 def events_with(*messages: mido.Message) -> TrackEvents:
-    """A track in which a note sounds at the messages, and another follows."""
+    """Track in which a note sounds during the messages, and another one follows."""
     return gather(
         [
             mido.Message("note_on", note=60, velocity=64),
@@ -109,7 +109,7 @@ PLAIN: Final = events_with()
 
 
 def changed(events: TrackEvents, plain: TrackEvents = PLAIN) -> set[str]:
-    """The fields in which events differ from those of the plain track; controls each by its kind."""
+    """Fields in which events differ from those of the plain track; controls by kind."""
     fields = {name for name in TrackEvents.__struct_fields__ if getattr(events, name) != getattr(plain, name)}
     if "controls" in fields:
         fields = fields - {"controls"} | {"controls", *(kind for _, kind in events.controls)}
@@ -133,7 +133,7 @@ def test_every_meta_event_is_read_or_left_out_by_name() -> None:
 
 
 def _gathered(data: bytes) -> TrackEvents:
-    """The events of a track that begins with some bytes, as mido reads it."""
+    """Events of a track that begins with some bytes, as read by mido."""
     file = header() + chunk(b"MTrk", data + note(60) + END)
     return gather(mido.MidiFile(file=io.BytesIO(file)).tracks[0], 0, 1920)
 
@@ -181,7 +181,7 @@ def test_a_system_message_of_any_status_harms_no_note(running: bool) -> None:
 
 
 def _kinds(raw: bytes, mapping: ControllerMapping) -> set[str]:
-    """Return the kinds of a take's message: its curves, and "end" if it ends a note that sounds on its channel."""
+    """Kinds of a take's message: its curves, and "end" if it ends a sounding note on its channel."""
     message = decoded(raw.hex())
     if message is None:
         return set()

@@ -1,4 +1,4 @@
-"""A melody that goes through several channels is one player's, and its curves are those of the notes that sound."""
+"""A melody spread over several channels belongs to one player, with the curves of the sounding notes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Event = tuple[int, bytes]
 
 
 def track(events: Sequence[Event], before: bytes = b"") -> bytes:
-    """Events at ticks below 128 * 128, in order of time."""
+    """Events at ticks below 128 * 128 in order of time."""
     data, at = bytearray(before), 0
     for tick, message in sorted(events, key=lambda event: event[0]):
         delta = tick - at
@@ -159,7 +159,7 @@ def test_both_zones_are_a_player_each() -> None:
 
 
 def test_a_zone_of_several_sounds_is_none() -> None:
-    """A whole band in one track, in which a sequencer wrote that channel 1 may be a zone."""
+    """A whole band in one track, in which a sequencer declared channel 1 as a zone."""
     programs = bytes([0, 0xC1, 56, 0, 0xC2, 57])
     assert len(scored(track(rotating(channels=(1, 2)), ZONE + programs), b"").parts) == 2
 
@@ -167,7 +167,7 @@ def test_a_zone_of_several_sounds_is_none() -> None:
 def spread(
     channels: Sequence[int], zone: bytes = b"", name: str = "Trumpet", program: bool = True, more: Sequence[Event] = ()
 ) -> Score:
-    """The scale with every channel on a track of its own, behind a track of settings."""
+    """Scale with every channel on its own track, after a track of settings."""
     events = rotating(channels=channels, more=more)
     tracks = [zone + (b"" if program else bytes([0, 0xC0 | (15 if 14 in channels else 0), 56]))]
     for channel in channels:

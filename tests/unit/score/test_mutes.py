@@ -1,4 +1,4 @@
-"""Mutes are kept as spans of a part, whatever says so: program, name or text."""
+"""Mutes are stored as spans of a part, whether given by program, name or text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test what parts are called in scores of seven languages: a table written before the vocabulary was extended."""
+"""Names of parts in scores of seven languages, from a table written before the vocabulary was extended."""
 
 from __future__ import annotations
 

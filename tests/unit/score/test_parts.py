@@ -1,4 +1,4 @@
-"""Test which tracks are played, by which instrument map, and why the others are not."""
+"""Played tracks with their instrument maps, and the reasons for others not being played."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def one_part(
     channel: int = 0,
     maps: tuple[MapChoice, ...] = MAPS,
 ) -> Score:
-    """A score of one track of players."""
+    """Score with one track of players."""
     events = meta(3, name.encode()) + meta(4, instrument.encode())
     if program is not None:
         events += bytes([0, 0xC0 | channel, program])

@@ -1,4 +1,4 @@
-"""A file that was played has the players of the engraved one; key switches and the counting names of sections."""
+"""A played file has the same players as the engraved one; key switches, and names of sections with numbers."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def test_what_two_players_on_a_staff_have_alone_is_played_by_both() -> None:
 
 
 def switch(pitch: int) -> bytes:
-    """A short note just before the next one."""
+    """Short note just before the next one."""
     return note(pitch, ticks=6)
 
 
@@ -131,7 +131,7 @@ def test_low_notes_that_are_music_stay() -> None:
 @pytest.mark.parametrize("name", ["Zugpfeife", "Lead", "Take 3", "旋律"])
 @pytest.mark.parametrize("program", [b"", bytes([0, 0xC0, 0])])
 def test_an_unknown_name_is_asked_about(name: str, program: bytes) -> None:
-    """Also where its program is 0, a piano's, which many write for none."""
+    """Also with program 0 (piano), which many programs write by default."""
     score = named(name, program + note(60) + note(62))
     assert score.parts == ()
     assert [(part.name, part.reason.id) for part in score.unplayed] == [(name, "score.unknown_instrument")]

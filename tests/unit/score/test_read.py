@@ -1,4 +1,4 @@
-"""Test what bytes mean, and what happens to those that mean nothing."""
+"""Meaning of MIDI bytes, and treatment of meaningless ones."""
 
 from __future__ import annotations
 
@@ -155,7 +155,7 @@ def test_format_0_is_split_by_channel() -> None:
     ids=["in turns", "a tick together", "under a long note"],
 )
 def test_channels_of_an_instruments_track_are_one_player_where_they_take_turns(events: bytes, players: int) -> None:
-    """Notation programs give a player's muted notes a channel of their own."""
+    """Notation programs use a separate channel for a player's muted notes."""
     track = chunk(b"MTrk", meta(3, b"Trumpet") + events + END)
     assert len(score_of(header(1, 2) + chunk(b"MTrk", END) + track).parts) == players
 
@@ -555,7 +555,7 @@ def test_a_file_with_notes_in_one_track_is_no_file_without_notes() -> None:
 @pytest.mark.parametrize("system", [b"", bytes([0, 0xF2, 1, 2])])
 @pytest.mark.parametrize("ends", [1, 3])
 def test_notes_after_an_early_end_of_the_track_are_read_with_a_warning(system: bytes, ends: int) -> None:
-    """Also where the track needs repair before or after it."""
+    """Also if the track needs other repairs before or after it."""
     for events in (system + END * ends + SCALE_BYTES, END * ends + SCALE_BYTES[:8] + system + SCALE_BYTES[8:]):
         score = one_track(events)
         assert notes_of(score) == SCALE_NOTES

@@ -1,4 +1,4 @@
-"""Tracks that follow one another are regions of one player's track."""
+"""Consecutive tracks are regions of one player's track."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PITCHES = (60, 62, 64, 65)
 
 
 def region(bar: int, name: str = "Trumpet", channel: int = 0, program: int = 56, more: bytes = b"") -> bytes:
-    """Four quarters in a bar of their own, on 96 ticks each; ``more`` goes before them."""
+    """Four quarters of 96 ticks in a bar of their own; ``more`` precedes them."""
     bars = meta(1, b"", 127) * 3 * bar + meta(1, b"", 3) * bar
     played = b"".join(
         note(pitch, ticks=90, channel=channel, delta=6 if index else 0) for index, pitch in enumerate(PITCHES)

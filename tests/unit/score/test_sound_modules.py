@@ -1,4 +1,6 @@
-"""Rhythm parts, melodies on channel 10 and sound effects of GS, XG and GM2, ports, and what is made of them."""
+"""Rhythm parts, melodies on channel 10 and sound effects of GS, XG and GM2, and ports, with the parts made
+from them.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,7 @@ def read(path: Path, data: bytes) -> Score:
 
 
 def lines_of(score: Score) -> list[tuple[str, list[tuple[int, int]]]]:
-    """Every part's instrument and its notes as (tick, pitch)."""
+    """Instrument and notes (tick, pitch) of every part."""
     return [(part.instrument or "", [(note.onset_tick, note.pitch) for note in part.notes]) for part in score.parts]
 
 
@@ -69,8 +71,7 @@ def bank(msb: int, channel: int = 10) -> bytes:
 
 
 def found(*tracks: bytes) -> tuple[int, int, list[str]]:
-    """Return the number of notes of all players, the number of percussion hits, and the ids of the reasons for parts
-    without a player."""
+    """Number of all players' notes, number of percussion hits, and ids of the reasons for parts without a player."""
     score = score_of(header(1, len(tracks)) + b"".join(chunk(b"MTrk", events + END) for events in tracks))
     played = sum(len(part.notes) for part in score.parts)
     return played, len(score.percussion), [part.reason.id for part in score.unplayed]
@@ -162,7 +163,7 @@ def test_sounds_of_kits_have_the_numbers_of_general_midi() -> None:
 
 
 def test_a_hundred_kilobytes_of_settings_are_read_at_once() -> None:
-    """Many tracks on one channel, and a track of settings for them all."""
+    """Many tracks on one channel, and a track of settings for all of them."""
     settings = b"".join(bank(0, 0) + bytes([0, 0xC0, 56]) + b"\0" + RHYTHM_11 for _ in range(4500))
     tracks = [settings, *([note(60)] * 200)]
     begin = process_time()
@@ -184,7 +185,7 @@ def test_drums_before_a_melody_on_one_channel_can_be_played_too(tmp_path: Path) 
 
 
 def test_one_track_may_have_more_than_sixteen_channels() -> None:
-    """A file of format 0 with a port before what is sent to it: the channels of two ports are not one another's."""
+    """File of format 0 with port events before the messages; equal channels of two ports are different."""
     events = meta(3, b"Song")
     for port, program in ((0, 56), (1, 57)):
         events += meta(0x21, bytes([port])) + bytes([0, 0xC0, program])

@@ -1,4 +1,4 @@
-"""A pitch that is struck again while it sounds: one rule for files, takes and journals."""
+"""A pitch that is struck again while it sounds is treated equally in files, takes and journals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Notes that a stuck key or a lost cable leaves sounding for hours."""
+"""Notes that sound for hours because of a stuck key or a lost connection."""
 
 from __future__ import annotations
 

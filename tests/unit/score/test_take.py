@@ -1,4 +1,4 @@
-"""Test what was played in a take, and what of it was meant."""
+"""Content of a take, and the notes that were intended."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Test which tracks of MIDI files are takes, and that they are imported clean and, where requested, as they were
-played."""
+"""Tracks of MIDI files that are takes are recognised, and imported cleaned or, on request, unchanged."""
 
 from __future__ import annotations
 

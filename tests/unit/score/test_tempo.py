@@ -1,4 +1,4 @@
-"""The tempo map against sums done the slow way."""
+"""The tempo map compared with slow sums."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from app.score.tempo import TempoChange, TempoMap
 
 
 def slow_seconds(tempo_map: TempoMap, tick: int) -> float:
-    """Tick by tick, as the definition says."""
+    """Seconds calculated tick by tick according to the definition."""
     tempo = tempo_map.changes[0].microseconds_per_quarter
     if tick < 0:
         return tick * tempo / 1e6 / tempo_map.ticks_per_quarter

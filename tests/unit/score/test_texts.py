@@ -1,4 +1,4 @@
-"""Texts whose encoding no one wrote down."""
+"""Texts of unknown encoding."""
 
 import pytest
 from hypothesis import given
@@ -8,7 +8,7 @@ from app.score.texts import TextDecoder
 
 
 def decoded(data: bytes, encoding: str | None = None) -> str:
-    """A text that stands alone."""
+    """Decoded form of a single text."""
     return TextDecoder([data], encoding=encoding).read(data)
 
 

@@ -1,4 +1,4 @@
-"""Test who plays what in a track that players share."""
+"""Assignment of notes to players in a shared track."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_a_line_is_one_voice() -> None:
 
 
 def scale(count: int, length: float = 1.0) -> list[tuple[float, float, int]]:
-    """Notes in a row that touch, as (onset, duration in quarters, pitch)."""
+    """Consecutive notes without gaps, as (onset, duration in quarters, pitch)."""
     return [(index * length, length, 60 + index % 8) for index in range(count)]
 
 
@@ -60,7 +60,7 @@ def test_legato_throughout_is_one_player(overlap_s: float, length: float) -> Non
 @pytest.mark.parametrize("beats_per_minute", [60, 90, 100, 120, 133, 140, 152])
 @pytest.mark.parametrize(("length", "overlap"), [(480, 120), (120, 60)])
 def test_a_legato_of_just_the_longest_is_one(beats_per_minute: float, length: int, overlap: int) -> None:
-    """A quarter of longer notes, half of short ones: whatever rounding seconds does at their ticks."""
+    """A quarter of longer notes, half of short ones, regardless of rounding of seconds at their ticks."""
     tempo = TempoMap.of_changes(480, [TempoChange(0, round(60_000_000 / beats_per_minute))])
     longest_s = min(max(length / 4, tempo.ticks(LEGATO_LEAST_S)), length / 2, tempo.ticks(0.2))
     line = [Note(f"1:{index}", index * (length - overlap), length, 60 + index % 7, 80) for index in range(200)]

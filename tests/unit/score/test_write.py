@@ -1,4 +1,4 @@
-"""Test that values a MIDI file cannot hold are reported, and bounds are kept."""
+"""Values that a MIDI file cannot contain are reported, and limits are respected."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def test_every_curve_comes_back_within_a_step(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("widest", [1.0, 1.5, 6.0, 24.0, 63.5])
 def test_wide_bends_are_written_with_their_range(widest: float, tmp_path: Path) -> None:
-    """Two parts on one channel: the range of the one is not that of the other."""
+    """Two parts on one channel have different ranges."""
     values = tuple(widest * (number / 10 - 1.0) for number in range(20))
     wide = ControllerCurve("pitch_bend", tuple(range(20)), values)
     usual = ControllerCurve("pitch_bend", (0, 5), (0.5, -1.0))

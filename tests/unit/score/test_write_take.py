@@ -1,4 +1,4 @@
-"""A take as a MIDI file: what was played is in it, in time, and no note hangs."""
+"""A take as a MIDI file contains everything played at its time, without hanging notes."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def file_of(
 
 
 def played(file: mido.MidiFile) -> list[tuple[float, str]]:
-    """Everything on the second track: seconds and text."""
+    """Times in seconds and texts of everything on the second track."""
     tick, found = 0, []
     tempo = file.tracks[0][0].tempo
     for message in file.tracks[1]:

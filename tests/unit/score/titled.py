@@ -1,4 +1,4 @@
-"""Pieces whose title says what their file's name does: what the file is called changes nothing."""
+"""Pieces with a title derived from their file's name, since the program ignores the file's name."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ _HEADER = 14
 
 
 def titled(data: bytes, title: str) -> bytes:
-    """The bytes of a MIDI file with this title: another name of its first track, before any that it has."""
+    """Bytes of a MIDI file with this title: an additional name of its first track, before any others."""
     name = title.encode()
     start = data.index(b"MTrk", _HEADER) + 8
     length = int.from_bytes(data[start - 4 : start], "big")
@@ -17,7 +17,7 @@ def titled(data: bytes, title: str) -> bytes:
 
 
 def titled_copy(source: Path, folder: Path) -> Path:
-    """A copy of a MIDI file whose title is what the file is called, in words."""
+    """Copy of a MIDI file whose title is the file's name in words."""
     target = folder / "piece.mid"
     target.write_bytes(titled(source.read_bytes(), source.stem.replace("_", " ")))
     return target

@@ -1,4 +1,4 @@
-"""Clicks are connected by `widgets.common.clicks` alone, whose slots are typed."""
+"""Clicks are connected only by `widgets.common.clicks`, whose slots are typed."""
 
 from __future__ import annotations
 

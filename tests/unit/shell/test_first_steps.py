@@ -1,4 +1,4 @@
-"""The tour's progress: which stop is done by what, and how its buttons go on."""
+"""The tour's progress: actions that complete each stop, and the effect of its buttons."""
 
 from __future__ import annotations
 

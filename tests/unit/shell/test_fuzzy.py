@@ -1,4 +1,4 @@
-"""Test how well typed letters fit a name."""
+"""Matching of typed letters and names."""
 
 from __future__ import annotations
 

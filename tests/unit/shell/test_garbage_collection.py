@@ -1,4 +1,4 @@
-"""Cycles of Python that hold widgets die in the window's thread, whoever makes the rubbish."""
+"""Reference cycles that contain widgets are freed in the window's thread, whichever thread causes the collection."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Nothing is installed, and nothing lies in the resources, whose licence is not known."""
+"""The licence of every installed package and every resource is known."""
 
 from __future__ import annotations
 

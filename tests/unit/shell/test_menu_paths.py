@@ -1,4 +1,4 @@
-"""Menus, buttons and labels that guides and messages name are there, in both languages."""
+"""Menus, buttons and labels named in guides and messages exist, in both languages."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def labels(place: int) -> set[str]:
 
 @pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.name)
 def test_guides_name_labels_as_they_are(guide: Path) -> None:
-    """All that stands in italics is a label, in Japanese in corner brackets; what is bold may be a heading."""
+    """Every text in italics, in Japanese in corner brackets, is a label; a bold one may be a heading."""
     text = re.sub(r"^    .*$|`[^`]*`", "", guide.read_text(encoding="utf-8"), flags=re.MULTILINE)
     quoted = r"「([^」]+)」" if guide.stem.endswith("_ja") else r"(?<![\w*])\*(?![ *])([^*]+?)\*(?![\w*])"
     named = re.findall(quoted, " ".join(text.split()))

@@ -1,4 +1,4 @@
-"""Test that modules the first picture does not need are not loaded for it."""
+"""Modules that the first picture does not need are not loaded for it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every text is there in both languages, fits, and is used; every text that is used is there."""
+"""Every text exists in both languages, is valid and is used; every used text exists."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def fields(text: str) -> set[tuple[str, str]]:
 
 
 def sources() -> Iterator[ast.AST]:
-    """Every node of the program."""
+    """Every syntax node of the program."""
     for folder in ("app", "widgets"):
         for path in sorted((ROOT / folder).rglob("*.py")):
             yield from ast.walk(ast.parse(path.read_text(encoding="utf-8")))
@@ -109,7 +109,9 @@ def test_one_japanese_word_for_one_thing() -> None:
 
 
 def test_every_id_stands_in_one_table() -> None:
-    """An id stands in one table, and each table where it is read, with a text in each language and nothing else."""
+    """An id occurs in one table, each table is where it is read, and contains a text in each language and
+    nothing else.
+    """
     counted = Counter(id for table in TABLES.values() for id in table)
     assert [id for id, count in counted.items() if count > 1] == []
     of_kinds = EVENT_TEXTS.keys() | COMMAND_TEXTS.keys()

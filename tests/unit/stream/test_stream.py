@@ -1,4 +1,6 @@
-"""Poses as VMC over real UDP, read by an OSC reader of our own: the world pose comes back within a float."""
+"""Poses as VMC over real UDP, read by an independent OSC reader: the world pose is reproduced within a float's
+precision.
+"""
 
 from __future__ import annotations
 
@@ -103,7 +105,7 @@ def parent_of(bone: str) -> str:
 
 
 def turned(rotation: tuple[float, ...]) -> FloatArray:
-    """The matrix of a unit quaternion xyzw, by its textbook formula: the same in a left-handed space."""
+    """Matrix of a unit quaternion xyzw by the textbook formula, which also applies to left-handed spaces."""
     x, y, z, w = rotation
     return np.array(
         [
@@ -115,7 +117,7 @@ def turned(rotation: tuple[float, ...]) -> FloatArray:
 
 
 def world(frame: Frame) -> dict[str, tuple[FloatArray, FloatArray]]:
-    """Position and turn of every bone as a receiver composes them, mirrored back into our space."""
+    """Position and rotation of every bone as composed by a receiver, converted back to the program's space."""
     mirror = np.diag([-1.0, 1.0, 1.0])
     known: dict[str, tuple[FloatArray, FloatArray]] = {"": (np.array(frame.root[:3]), turned(frame.root[3:]))}
 
@@ -198,7 +200,7 @@ def test_what_is_received_is_the_pose(index: int) -> None:
 
 
 def test_unity_s_left_is_left_and_forward_is_forward() -> None:
-    """Neither mirrored nor turned: the left hand is at -X, what lies before one at +Z."""
+    """Neither mirrored nor rotated: the left hand is at -X, and objects in front at +Z."""
     character, pose = pose_of(0, 2.0)
     (frame,) = frames([(0.0, packet) for packet in Sent(character, "horn").datagrams(pose, 0.0)])
     assert frame.bones["LeftUpperLeg"][0] < -0.03 < 0.03 < frame.bones["RightUpperLeg"][0]
@@ -414,7 +416,7 @@ def test_loopback_is_known() -> None:
 
 
 def test_numbers_are_what_the_library_would_write() -> None:
-    """The floats that are filled in stand where python-osc itself reads them."""
+    """The floats are at the positions where python-osc itself reads them."""
     from pythonosc.osc_bundle import OscBundle
 
     character = character_named(next(iter(characters())))

@@ -1,4 +1,4 @@
-"""The measures of dances find what was put there."""
+"""The measures of dances detect synthetic properties."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""On the build machine every reader must be there: one that is missing there has lost its set-up step."""
+"""All readers are installed on the build machine; a missing one indicates a lost set-up step."""
 
 from __future__ import annotations
 

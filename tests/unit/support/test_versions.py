@@ -1,4 +1,4 @@
-"""Requirements of ``./test --versions``: the ends of the ranges in pyproject.toml."""
+"""Requirements of ``./test --versions``: ends of the ranges in pyproject.toml."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The timeline's models, without a display: where things lie, what is under the mouse, what a drag does."""
+"""Models of the timeline without a display: positions, objects under the mouse, effects of drags."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ Change = Callable[[TimeView, float, float], TimeView]
 
 
 class Desk:
-    """The part of the session that gestures need."""
+    """The part of the session that mouse gestures need."""
 
     def __init__(self) -> None:
         part = Part("1.1.1", "One", 0, 0, 0, None, None, "trumpet_Bb", (Note("1:0", 0, TPQ, 60, 80),))
@@ -136,7 +136,7 @@ def test_a_step_that_was_undone_in_the_middle_does_nothing_more() -> None:
 
 
 class Plane:
-    """A plot whose values are pixels."""
+    """Plot whose values are pixels."""
 
     def __init__(self) -> None:
         self.axis = VIEW

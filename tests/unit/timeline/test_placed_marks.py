@@ -1,4 +1,6 @@
-"""Places of marks in the piano roll: slurs clear their notes, glyphs stand on theirs, every kind has a look."""
+"""Positions of marks in the piano roll: slurs avoid their notes, glyphs are above their notes, and every kind has a
+sign.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,7 @@ ROW_PX, WIDTH_PX, HIGHEST = 8.0, 1200, 100.0
 
 
 class Roll:
-    """Eighths of these pitches with marks, in a plot of 10 s."""
+    """Eighths of these pitches with marks in a plot of 10 s."""
 
     def __init__(self, pitches: list[int], marks: list[Mark], origin: Origin = "score") -> None:
         notes = tuple(Note(f"1:{i}", i * TPQ // 2, TPQ // 2 - 20, pitch, 80) for i, pitch in enumerate(pitches))

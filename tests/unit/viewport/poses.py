@@ -26,20 +26,20 @@ def quartet() -> Project:
 
 @cache
 def live() -> LiveMotion:
-    """Its motion."""
+    """Live motion of the quartet."""
     return LiveMotion(Performance(quartet()))
 
 
 @cache
 def pose(player: int, time_s: float = AT_S) -> Pose:
-    """A player's pose."""
+    """Pose of a player."""
     result = live().pose_now(quartet().players[player].id, time_s)
     assert result is not None
     return result
 
 
 def posed_stage() -> Stage:
-    """Everyone at `AT_S`."""
+    """Stage with all players at `AT_S`."""
     project = quartet()
     stage = Stage([member_of(player, kit_of(player)) for player in project.players])
     stage.pose({player.id: pose(index) for index, player in enumerate(project.players)})

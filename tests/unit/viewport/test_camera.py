@@ -1,4 +1,4 @@
-"""The camera's arithmetic against the matrices and against what a hand expects."""
+"""The camera's calculations compared with matrices and with the expected effect of the mouse."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ CAMERAS = st.builds(
 
 
 def clip(camera: Camera, point: np.ndarray) -> np.ndarray:
-    """Pixels by the matrices that the graphics card gets."""
+    """Pixels calculated with the matrices for the graphics card."""
     x, y, _, w = camera.clip_from_world(SIZE[0] / SIZE[1]) @ [*point, 1.0]
     return np.array([(x / w + 1.0) * SIZE[0] / 2.0, (1.0 - y / w) * SIZE[1] / 2.0])
 

@@ -1,4 +1,6 @@
-"""The camera between views, flights, followed players and the user's hand, on a clock of the test's own."""
+"""The camera between views, in flights, following players, and moved by the user, with a clock controlled
+by the test.
+"""
 
 from __future__ import annotations
 

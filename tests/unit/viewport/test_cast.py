@@ -1,4 +1,4 @@
-"""Everyone's matrices against the rig's own forward kinematics and skinning, one player at a time."""
+"""Matrices of all players compared with the rig's forward kinematics and skinning, player by player."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A musician who changes instruments has one body on the stage, and stands for the instruments."""
+"""A musician with several instruments has one body on the stage, selected for any of the instruments."""
 
 from __future__ import annotations
 

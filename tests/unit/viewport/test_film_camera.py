@@ -1,4 +1,4 @@
-"""The camera of a film moves continuously or stands still."""
+"""The camera of a film moves continuously or not at all."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def posed(stage: Stage, times_s: list[float]) -> Iterator[Stage]:
 
 
 def filmed(view: View, row: int, start_s: float, end_s: float) -> list[Camera]:
-    """The camera of every picture of a film of a player."""
+    """Camera of every picture of a player's film."""
     stage = posed_stage()
     camera = steady_camera(view, posed(stage, times_looked_at(1, start_s, end_s)), [row], Camera(), ASPECT)
     shot = Shot(view, camera, (quartet().players[row].id,))
@@ -45,7 +45,7 @@ def test_it_looks_from_one_direction_and_distance(view: View, row: int) -> None:
 
 @pytest.mark.parametrize("view", VIEWS)
 def test_it_makes_no_jump(view: View) -> None:
-    """No step is much longer than the ones around it."""
+    """No step is much longer than the adjacent ones."""
     eyes_m = np.array([own.eye_m for own in filmed(view, 0, -1.5, 3.2)])
     steps_m = np.linalg.norm(np.diff(eyes_m, axis=0), axis=1)
     turned_m = np.linalg.norm(np.diff(eyes_m, 2, axis=0), axis=1)

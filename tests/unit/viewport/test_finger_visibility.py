@@ -1,4 +1,4 @@
-"""A close-up of the hands shows the fingers that play, from the side that they come to their keys from."""
+"""A close-up of the hands shows the playing fingers from the side of their keys."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ BONES = ("Proximal", "Intermediate", "Distal")
 
 @cache
 def playing(map_id: str) -> Stage:
-    """The quartet's lowest part on another instrument."""
+    """The quartet with its lowest part on another instrument."""
     maps, score = bundled_maps(), quartet().score
     part = msgspec.structs.replace(score.parts[3], map_id=map_id)
     project = project_from_score(msgspec.structs.replace(score, parts=(part,)), maps)
@@ -64,7 +64,7 @@ def test_a_bell_before_the_hands_is_gone_round(map_id: str) -> None:
     ("map_id", "least"), [("trumpet_Bb", 1.0), ("cornet_Bb", 1.0), ("clarinet_Bb", 0.75), ("flute", 0.75)]
 )
 def test_fingertips_are_nearer_to_the_eye_than_the_knuckles_that_could_hide_them(map_id: str, least: float) -> None:
-    """A fingertip behind the back of its hand is not seen: from the usual direction those of a trumpet's valves."""
+    """The back of the hand hides fingertips behind it: from the usual direction those on a trumpet's valves."""
     stage = playing(map_id)
     camera = view_camera("hands", stage, [0], Camera(), 1.6)
     hands = {control.finger.split(".")[0] for control in bundled_maps()[map_id].controls if control.role == "pitch"}
@@ -78,7 +78,7 @@ def test_fingertips_are_nearer_to_the_eye_than_the_knuckles_that_could_hide_them
 
 
 def test_the_instrument_hides_what_is_behind_it() -> None:
-    """Against a slow count: lines of sight against every vertex of the drawn model."""
+    """Compared with a slow count of lines of sight against every vertex of the drawn model."""
     stage = playing("tuba_BBb")
     turn = turn_rad(stage, 0)
     kit, held = stage.members[0].assets, stage.node_matrix(0)
@@ -103,7 +103,7 @@ def test_the_instrument_hides_what_is_behind_it() -> None:
 
 
 def hands_share(stage: Stage, camera: Camera, aspect: float) -> FloatArray:
-    """Distance of the hands of a player from the middle of the picture, of half its width and height."""
+    """Distance of a player's hands from the picture's centre, relative to half its width and height."""
     names = ["Hand", *(f"{finger}{bone}" for finger in ("Index", "Middle", "Ring", "Little") for bone in BONES)]
     joints_m = np.array([stage.joint_m(0, side + name) for side in ("left", "right") for name in names])
     away = joints_m - camera.eye_m
@@ -153,7 +153,7 @@ def test_a_slide_that_goes_far_out_later_stays_in_the_picture() -> None:
 )
 @pytest.mark.parametrize("aspect", [1.0, 2.3])
 def test_both_hands_fill_the_picture(map_id: str, aspect: float) -> None:
-    """By a projection of its own: every finger is in the picture, and the hands take most of its height or width."""
+    """By an independent projection, every finger is in the picture, and the hands take most of its height or width."""
     stage = playing(map_id)
     share = hands_share(stage, view_camera("hands", stage, [0], Camera(), aspect), aspect)
     assert share.max() < 0.95

@@ -1,4 +1,4 @@
-"""Shapes for the graphics card against the meshes they are made of."""
+"""Shapes for the graphics card compared with the original meshes."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def test_a_morph_moves_the_vertices_the_character_says_and_only_the_first_ones(n
 
 @pytest.mark.parametrize("name", CHARACTERS)
 def test_normals_follow_a_morph(name: str) -> None:
-    """Against the normals of the moved triangles, by another way: finite areas around each vertex."""
+    """Compared with normals of the moved triangles by another method: finite areas around each vertex."""
     geometry = levels(name)[0]
     face = geometry.face
     weights = np.zeros(len(face.names), np.float32)
@@ -133,7 +133,7 @@ def test_normals_follow_a_morph(name: str) -> None:
 
 @pytest.mark.parametrize("name", CHARACTERS)
 def test_what_is_seen_from_one_side_faces_outwards_and_comes_first(name: str) -> None:
-    """The backs of these triangles are left out: their normals must tell which side that is."""
+    """The backs of these triangles are not drawn, so their normals must determine the side."""
     two_sided = sum(
         int(np.array([material.double_sided for material in mesh.materials])[mesh.triangle_materials].sum())
         for mesh in character_named(name).meshes
@@ -190,7 +190,7 @@ def test_a_crowd_is_its_parts_end_to_end() -> None:
 
 @pytest.mark.parametrize("largest", [3, 2**20, 2**31 - 1])
 def test_rows_have_one_number_each_in_their_order(largest: int) -> None:
-    """Also where the product of all columns' ranges is more than a number holds."""
+    """Also if the product of all columns' ranges exceeds an integer."""
     random = np.random.default_rng(3)
     rows = random.integers(-largest, largest, (500, 6))
     rows[250:] = rows[random.integers(0, 250, 250)]

@@ -1,4 +1,4 @@
-"""Test what a drag of a handle means, from several sides."""
+"""Effect of dragging a handle, from several sides."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def handle(target: str, row: int = 0) -> Handle:
 
 
 def from_side(side_deg: float, row: int = 0) -> Camera:
-    """A level camera, so far to the player's left of their front."""
+    """Level camera at an angle to the left of the player's front."""
     stage = posed_stage()
     place = stage.members[row].world_from_player[:, 3]
     yaw = turn_rad(stage, row) + math.radians(side_deg)

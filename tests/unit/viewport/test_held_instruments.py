@@ -1,4 +1,4 @@
-"""All instruments' moving parts at once against the rig's own, one instrument at a time."""
+"""Moving parts of all instruments computed together, compared with the rig's result for each instrument."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Kit = tuple[InstrumentModel, InstrumentMap]
 
 
 def kits() -> list[Kit]:
-    """Every bundled kind, and every linked part once more where it needs all of its controls."""
+    """Every bundled instrument, and every linked part again where it needs all of its controls."""
     found: list[Kit] = []
     for instrument in bundled_maps().values():
         found.append((model_of(instrument), instrument))

@@ -1,4 +1,4 @@
-"""Places of texts over the picture."""
+"""Positions of texts over the picture."""
 
 from __future__ import annotations
 

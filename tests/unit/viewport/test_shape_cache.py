@@ -1,4 +1,4 @@
-"""Shapes that come from the user's cache."""
+"""Shapes read from the user's cache."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Textured meshes for the graphics card: looks, texture coordinates and colours from afar."""
+"""Textured meshes for the graphics card: materials, texture coordinates and colours at a distance."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SIDE = 21
 
 
 def sheet(materials: tuple[Material, ...], apart: bool = False) -> Mesh:
-    """A slanting square of a metre of 800 triangles; its right half has the second material, if there are two."""
+    """Slanting square of one metre with 800 triangles; its right half has the second material, if there are two."""
     across, up = np.meshgrid(np.linspace(0.0, 1.0, SIDE), np.linspace(0.0, 1.0, SIDE))
     points = np.stack([across.ravel(), up.ravel(), 0.6 * across.ravel()], axis=1).astype(np.float32)
     first = (np.arange(SIDE - 1)[:, None] * SIDE + np.arange(SIDE - 1)).ravel()

@@ -1,4 +1,4 @@
-"""The plug-in in a fake editor that has a project open."""
+"""The plug-in in a fake Unreal editor with an open project."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PYTHON = Path(__file__).parents[4] / "resources" / "unreal" / "Suisou" / "Conten
 
 
 class Editor:
-    """An editor with a project open; its menu is chosen from by what it says."""
+    """A fake editor with an open project; menu items are chosen by their text."""
 
     def __init__(self, folder: Path, language: str = "en") -> None:
         self.folder = folder
@@ -36,14 +36,14 @@ class Editor:
         self.start()
 
     def start(self) -> None:
-        """Start the editor: its startup script runs."""
+        """Start the editor, which runs its startup script."""
         for name in [name for name in sys.modules if name.split(".")[0] in ("suisou_import", "init_unreal")]:
             del sys.modules[name]
         sys.modules["unreal"] = self.unreal
         importlib.import_module("init_unreal")
 
     def choose(self, label: str) -> str:
-        """Choose an item of the menu; the last dialog."""
+        """Choose an item of the menu and return the last dialog."""
         shown = len(self.studio.dialogs)
         exec(self.studio.commands[label], {})
         assert len(self.studio.dialogs) > shown, "nothing was said"
@@ -57,7 +57,7 @@ class Editor:
         return self.choose("Update Performance")
 
     def pieces(self) -> set[str]:
-        """Folders of the pieces that are imported; textures are in one that they share."""
+        """Folders of the imported pieces, without the shared folder of textures."""
         return {path.split("/")[3] for path in self.studio.assets} - {"Textures"}
 
     def sequence(self, piece: str = "quartet") -> Any:
@@ -71,7 +71,7 @@ def _phrases_known(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def plugin(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """The plug-in's folder on the path, and nothing of it left afterwards."""
+    """Put the plug-in's folder on the path, and remove it and its modules afterwards."""
     monkeypatch.syspath_prepend(str(PYTHON))
     monkeypatch.setattr(sys, "dont_write_bytecode", True)
     yield
@@ -88,7 +88,7 @@ def exported(
     source: str = "quartet.mid",
     **options: Any,
 ) -> UnrealProject:
-    """Export into the Unreal project of a folder, which is made; ``options`` are further ones of the request."""
+    """Export into a new Unreal project in a folder; ``options`` are additional options of the request."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "Game.uproject").write_text('{"FileVersion": 3, "EngineAssociation": "5.6"}')
     unreal = find_project(folder)
@@ -111,7 +111,7 @@ def exported(
 
 @pytest.fixture(scope="session")
 def quartet_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """All four players of the example, two bars."""
+    """Project with all four players of the example, two bars."""
     folder = tmp_path_factory.mktemp("exported") / "Game"
     exported(folder, quartet(), ("Trumpet 1", "Trumpet 2", "Trombone 1", "Trombone 2"), last_bar=2)
     return folder
@@ -122,6 +122,6 @@ Open = Callable[[], Editor]
 
 @pytest.fixture
 def editor(plugin: None, quartet_folder: Path, tmp_path: Path) -> Editor:
-    """An editor with the quartet exported into its project."""
+    """Editor with the quartet exported into its project."""
     shutil.copytree(quartet_folder, tmp_path / "Game")
     return Editor(tmp_path / "Game")

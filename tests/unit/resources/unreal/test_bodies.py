@@ -1,4 +1,4 @@
-"""Players who share a body, in a fake editor: one mesh and one skeleton, an animation for each."""
+"""Players with the same body in a fake editor: one mesh and one skeleton, and an animation for each."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ BOTH = ("Trumpet 1", "Trombone 1")
 
 
 def cast(first: str, second: str, project: Project | None = None) -> Project:
-    """The quartet with these bodies for both players."""
+    """The quartet with these bodies for two players."""
     project = project or quartet()
     bodies = dict(zip(BOTH, (first, second), strict=True))
     players = [
@@ -92,7 +92,7 @@ def test_bones_that_are_others_make_all_who_share_them_anew(alike: Editor) -> No
 
 
 def test_actors_of_an_earlier_suisou_are_shown_with_the_body(alike: Editor) -> None:
-    """It kept its actors by meshes, of which each player had an own."""
+    """Earlier versions identified actors by meshes, of which each player had one."""
     path = alike.sequence()._path
     state = json.loads(alike.studio.metadata[path]["SuisouSequence"])
     state["figures"] = {

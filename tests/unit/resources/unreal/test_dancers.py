@@ -1,4 +1,4 @@
-"""Dancers in a fake editor: imported, updated and removed as players are, without an instrument."""
+"""Dancers in a fake editor: imported, updated and removed like players, without an instrument."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Import and update in a fake editor: what is in the project afterwards, and what the user is informed."""
+"""Import and update in a fake editor: resulting assets, and messages to the user."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ def marked(markers: tuple[Marker, ...]) -> Project:
 
 
 def own_assets(editor: Editor) -> set[str]:
-    """Return the paths of the assets named after the piece and its players: all but materials and textures."""
+    """Paths of the assets named after the piece and its players, without materials and textures."""
     surfaces = ("Material", "Texture2D")
     return {path for path, asset in editor.studio.assets.items() if type(asset).__name__ not in surfaces}
 
 
 def figure_assets(kind: str, name: str) -> set[str]:
-    """Assets of a character's animation alone: its body may be another's too."""
+    """Assets of a character's animation, without its body, which several characters may share."""
     prefixes = ("SK", "SKEL", "A") if kind == "Instruments" else ("A",)
     return {f"{ROOT}/{kind}/{name}/{prefix}_{name}" for prefix in prefixes}
 
@@ -74,7 +74,7 @@ def marks(editor: Editor) -> dict[str, int]:
 
 
 def state(editor: Editor) -> dict[str, Any]:
-    """Everything that an update may change, to compare."""
+    """Everything that an update may change, for comparison."""
     sequence = editor.sequence()
     return {
         "assets": {path: id(asset) for path, asset in editor.studio.assets.items()},
@@ -431,7 +431,7 @@ def test_channels_of_other_names_are_reported(two: Editor) -> None:
 
 
 def test_other_bones_make_a_figure_anew(two: Editor) -> None:
-    """Another instrument model may have other moving parts under the same name."""
+    """Another instrument model may have other moving parts with the same name."""
     skeleton = f"{ROOT}/Instruments/Trumpet_1_trumpet_Bb/SKEL_Trumpet_1_trumpet_Bb"
     two.studio.metadata[skeleton]["SuisouBones"] = "of before"
     before = dict(two.studio.assets)

@@ -1,4 +1,4 @@
-"""The plug-in uses only documented names, and Python that the editor's Python understands."""
+"""The plug-in uses only documented names, and syntax supported by the editor's Python."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One piece that cannot be read, one player who could not be exported: the others are imported, that one is named."""
+"""Beside an unreadable piece or a player who was not exported, the others are imported and the problem is reported."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ROOT = "/Game/Suisou/quartet"
 
 
 def copy_piece(editor: Editor, name: str) -> Path:
-    """Another piece, the quartet under another name; its description."""
+    """Copy the quartet under another name and return its description."""
     sources = editor.folder / "SuisouSource"
     shutil.copytree(sources / "quartet", sources / name)
     for path in sources.joinpath(name, "Audio").iterdir():

@@ -1,4 +1,4 @@
-"""Test that errors are reported in a dialog, before anything is changed."""
+"""Errors are reported in a dialog before anything is changed."""
 
 from __future__ import annotations
 

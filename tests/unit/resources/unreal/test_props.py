@@ -1,4 +1,4 @@
-"""Straps and chairs in a fake editor: attached to their player's actor, and gone where they are left out."""
+"""Straps and chairs in a fake editor: attached to their player's actor, and removed if excluded from the export."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def test_who_stands_up_or_is_exported_without_has_none_any_more(editor: Editor) 
 
 
 def test_a_root_bone_at_the_place_takes_the_chair_along(plugin: None, tmp_path: Path) -> None:
-    """The actors of player and chair are at the origin then, and both roots at the place."""
+    """Actors of player and chair are then at the origin, and both root bones at the place."""
     exported(tmp_path / "Game", seated("Trumpet 1"), WHO, rig=RigOptions(root_bone="place"))
     folder = tmp_path / "Game" / "SuisouSource" / "quartet"
     chair_m, player_m = (world_m(read_scene(folder / name))[0, 0] for name in (FILE, "Characters/SK_Trumpet_1.fbx"))

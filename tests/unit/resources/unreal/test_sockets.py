@@ -1,4 +1,4 @@
-"""Instruments on the bones of hands, in a fake editor: what they hang on, and where they are then."""
+"""Instruments attached to bones of hands in a fake editor: their parents and positions."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ MIRRORED = np.diag([1.0, -1.0, 1.0, 1.0])
 
 
 def hung(binding: Any) -> list[tuple[str, int | None]]:
-    """The bones that an actor hangs on, with the number of the actor whose they are."""
+    """Bones to which an actor is attached, with the number of the actor that owns them."""
     tracks = [track for track in binding._tracks if type(track).__name__ == "MovieScene3DAttachTrack"]
     assert all(section._bounded == (False, False) for track in tracks for section in track._sections)
     return [(section.attach_socket_name, section._holder) for track in tracks for section in track._sections]
@@ -58,20 +58,20 @@ def test_an_instrument_hangs_on_the_bone_of_its_player(game: Path, rig: RigOptio
 
 
 def in_unreal(place: np.ndarray) -> np.ndarray:
-    """Return the transform, in its actor, of a bone of a file: the importer turns the root and mirrors everything."""
+    """Transform of a bone of a file in its actor, after the importer has rotated the root and mirrored everything."""
     result: np.ndarray = MIRRORED @ TURNED @ place @ MIRRORED
     return result
 
 
 def skin_in_unreal(place: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Return the places (N, 3) of points on a bone in Unreal Engine, cm."""
+    """Positions (N, 3) in Unreal in cm of points on a bone."""
     homogeneous = np.concatenate([points, np.ones((len(points), 1))], axis=1)
     result: np.ndarray = (in_unreal(place) @ MIRRORED @ homogeneous.T).T[:, :3]
     return result
 
 
 def relative(values: dict[str, float]) -> np.ndarray:
-    """The transform of a section, of a roll alone, as Unreal makes its FRotationMatrix, for column vectors."""
+    """Transform of a section with a roll only, as in Unreal's FRotationMatrix, for column vectors."""
     assert values["Rotation.Y"] == values["Rotation.Z"] == 0.0
     roll = np.radians(values["Rotation.X"])
     result = np.eye(4)
@@ -81,7 +81,7 @@ def relative(values: dict[str, float]) -> np.ndarray:
 
 
 def test_it_is_where_a_free_one_is(game: Path, tmp_path: Path) -> None:
-    """By the axes that the importer makes of both files: the bell's rim is at the same place on the stage."""
+    """After the importer's conversion of both files, the bell's rim is at the same place on the stage."""
     free = imported(tmp_path / "Free", FREE)
     found: dict[str, Scene] = {}
     on_socket = imported(game, SOCKET)

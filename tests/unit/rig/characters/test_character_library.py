@@ -1,4 +1,4 @@
-"""The user's own characters: added, read again, wrong, removed; names that would be paths."""
+"""The user's own characters: added, read again, invalid, removed; names that would be paths."""
 
 import shutil
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A face's own morphs make ARKit's shapes: by their names, by the file's expressions, and as the user says."""
+"""ARKit's shapes from a face's own morphs: by names, by the file's expressions, and by the user's settings."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ CHARACTERS = Path(__file__).parents[3] / "data" / "characters"
 
 
 def words(shape: str) -> str:
-    """``eyeBlinkLeft`` as ``Eye_Blink_Left``."""
+    """Convert ``eyeBlinkLeft`` to ``Eye_Blink_Left``."""
     return "".join(f"_{letter}" if letter.isupper() else letter for letter in shape[0].upper() + shape[1:])[1:]
 
 
@@ -33,7 +33,7 @@ def short(shape: str) -> str:
 
 
 def explus(shape: str) -> str:
-    """Names with the numbers of Character Creator, which mean nothing."""
+    """Names with Character Creator's numbers, which have no meaning."""
     return f"A{ARKIT_MORPHS.index(shape) + 1:02d}_{words(shape)}"
 
 
@@ -126,7 +126,7 @@ def test_correctives_are_not_the_shapes_they_correct() -> None:
 
 
 def test_what_the_best_table_leaves_out_is_taken_from_others() -> None:
-    """A face of VRoid Studio whose file says by an expression where it looks."""
+    """A face of VRoid Studio whose file defines the gaze by expressions."""
     mapping = map_morphs(
         face_of(
             ["Fcl_MTH_A", "Fcl_MTH_U", "Fcl_EYE_Close_L", "Fcl_EYE_Close_R", "eyes up"],

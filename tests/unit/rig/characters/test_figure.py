@@ -1,4 +1,6 @@
-"""Characters of other programs come back as what they were made from, whatever bones, rest pose, unit and format."""
+"""Characters converted to the form of other programs are read back unchanged, for any bones, rest pose, unit and
+format.
+"""
 
 import contextlib
 import io
@@ -39,7 +41,7 @@ CLOSE_M = 1e-4
 
 @pytest.fixture(scope="module")
 def ours() -> Character:
-    """A character of few meshes, so that it is quick."""
+    """Bundled character with few meshes, for speed."""
     whole = character_named("man_adult")
     kept = tuple(mesh for mesh in whole.meshes if mesh.name in ("body", "teeth", "shoes"))
     return replace(whole, meshes=kept)
@@ -55,7 +57,9 @@ def made_again(figure: Figure, made: Foreign) -> Character:
 
 
 def assert_same_body(again: Character, ours: Character, pose: np.ndarray, blended: bool = True) -> None:
-    """Joints at rest and skin in a pose lie where ours do; unless ``blended`` only what one joint alone holds."""
+    """Check that joints at rest and skin in a pose equal the original's; unless ``blended`` only skin with a single
+    joint.
+    """
     rest, known = rest_positions(again.skeleton), rest_positions(ours.skeleton)
     for name in ours.skeleton.names:
         off = np.linalg.norm(rest[again.skeleton.index(name)] - known[ours.skeleton.index(name)])
@@ -76,7 +80,7 @@ def some_pose(ours: Character, seed: int = 3, size: float = 0.3) -> np.ndarray:
 
 
 def rest_pose(ours: Character, down: float, forth: float, elbow: float, curl: float, apart: float) -> np.ndarray:
-    """An A-pose in degrees: arms lowered and forward, elbows and fingers bent, legs apart on level feet."""
+    """A-pose in degrees: arms lowered and forward, elbows and fingers bent, legs apart on level feet."""
     profile, pose = load_skeleton(), still(ours)
 
     def bend(name: str, flexion: float, sideways: float = 0.0) -> None:
@@ -450,7 +454,7 @@ def test_a_figure_taller_than_any_person_is_taken_as_it_is_and_that_is_said(
 
 
 def test_weights_that_are_no_numbers_are_none_and_that_is_said(ours: Character, tmp_path: Path) -> None:
-    """Some exporters divide 0 by 0 for vertices that no bone moves; the character is not refused for it."""
+    """Some exporters divide 0 by 0 for vertices without bones; the character is accepted with a warning."""
     made = foreign(ours)
     name, weights = made.meshes[0].name, made.meshes[0].weights.copy()
     weights[:5] = np.nan

@@ -1,4 +1,6 @@
-"""Characters of other makers: their files are read and their bones are known, each looked up by hand."""
+"""Characters of other makers: their files are read and their bones recognised, with expected bones
+determined by hand.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,7 @@ def as_listed(name: str) -> dict[str, str]:
 
 
 def fingers(name: Callable[[str, int, int], str]) -> dict[str, str]:
-    """Expected finger bones by a rule of side, finger 1..5 and bone 1..3."""
+    """Expected finger bones by a function of side, finger 1..5 and bone 1..3."""
     found = {}
     for side in ("left", "right"):
         for number, part in enumerate(THUMB, 1):
@@ -39,7 +41,7 @@ def fingers(name: Callable[[str, int, int], str]) -> dict[str, str]:
 
 
 def both(left: dict[str, str]) -> dict[str, str]:
-    """Joints of the left side, and of the right with ``.R`` or ``R_`` in place of ``.L`` and ``L_``."""
+    """Joints of the left side, and of the right side with ``.R`` or ``R_`` instead of ``.L`` and ``L_``."""
     right = {joint: bone.replace(".L", ".R").replace("L_", "R_") for joint, bone in left.items()}
     return {f"left{joint}": bone for joint, bone in left.items()} | {
         f"right{joint}": bone for joint, bone in right.items()
@@ -126,7 +128,7 @@ def test_limbs_hands_and_head_are_known_by_shape_where_names_say_nothing(path: P
 
 
 def test_a_wooden_mannequin_is_known_though_its_names_mislead(tmp_path: Path) -> None:
-    """A shoulder is an upper arm there, and each wrist holds a second hand."""
+    """Its shoulder is named upper arm, and each wrist has a second hand."""
     arrays = wooden.source()
     if arrays is None:
         pytest.skip("mannequin-x is not installed (./test installs it)")

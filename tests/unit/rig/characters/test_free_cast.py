@@ -1,4 +1,4 @@
-"""Skeletons of the free casts that many begin with: legs beside the hips, arms without a hand's name, feet apart."""
+"""Skeletons of popular free characters: legs beside the hips, arms without a named hand, detached feet."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ CROSSED: Final[Bones] = {
 
 
 def figure(bones: Bones, otherwise: Bones | None = None) -> Figure:
-    """A figure of both sides without a mesh, its bones unturned; ``otherwise`` replaces bones of a side."""
+    """Figure with both sides, without a mesh and with unrotated bones; ``otherwise`` replaces bones of a side."""
     whole = dict(bones)
     for name, (parent, x, y, z) in bones.items():
         if name.endswith(".L"):

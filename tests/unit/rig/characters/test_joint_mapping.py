@@ -1,4 +1,6 @@
-"""Bones of foreign skeletons become joints: by the file's word, by names, by shape, and as the user corrects them."""
+"""Joints for the bones of foreign skeletons: by the file's own data, by names, by shape, and by the user's
+corrections.
+"""
 
 from __future__ import annotations
 
@@ -69,7 +71,7 @@ def test_a_skeleton_whose_names_say_nothing_is_known_by_its_shape(name: str) -> 
 
 @pytest.mark.parametrize("table", load_bone_names().values(), ids=lambda table: table.name)
 def test_every_table_maps_all_its_joints_on_both_sides(table: BoneNames) -> None:
-    """A skeleton with the first name of each of the table's joints, on a body of another maker."""
+    """A skeleton with the first name of each of the table's joints on another maker's body."""
     body = {bone.joint: bone for bone in listed("rigify") if bone.joint}
     firsts = {joint: names[0] for joint, names in table.keys().items()}
     for joint, own in zip(("spine", "chest", "upperChest"), (f"spine.{i}" for i in range(3)), strict=True):
@@ -112,7 +114,7 @@ def test_order_affixes_and_other_bones_change_nothing(
 
 
 def shuffled(bones: list[ListedBone], dice: random.Random) -> list[ListedBone]:
-    """Another order, a parent still before its children."""
+    """Bones in another order, with parents before their children."""
     rest, done, order = list(bones), {""}, []
     while rest:
         bone = dice.choice([bone for bone in rest if bone.parent in done])
@@ -145,7 +147,9 @@ def test_numbers_that_a_program_added_to_every_name_are_no_part_of_it() -> None:
 
 
 def test_of_a_rig_the_bones_that_move_the_skin_are_taken() -> None:
-    """Controls, mechanics and originals have the same names; Rigify's deforming bones hang below the originals."""
+    """Controls, mechanisms and original bones have the same names; Rigify's deforming bones are children of the
+    originals.
+    """
     own = listed("rigify")
     bones = [ListedBone("root", "", (0.0, 0.0, 0.0), "")]
     for bone in own:
@@ -221,7 +225,7 @@ def other_side(name: str) -> str:
 
 
 def spelt(pairs: str) -> list[ListedBone]:
-    """A body whose bones are called so."""
+    """Body with these bone names."""
     body, profile = {bone.joint: bone for bone in listed("rigify") if bone.joint}, load_skeleton()
     names: dict[str, str] = {}
     for joint, name in (pair.split("=") for pair in pairs.split()):
@@ -397,7 +401,7 @@ CASTS = {
 
 
 def cast(name: str, bones: list[ListedBone]) -> dict[str, str]:
-    """New names of a body's bones."""
+    """New names for a body's bones."""
     trunk, limbs, sides, digits = CASTS[name]
     new = dict(zip(("hips", "spine", "chest", "upperChest", "neck", "head"), trunk.split(), strict=True))
     parts = ("Shoulder", "UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toes")
@@ -414,7 +418,7 @@ def cast(name: str, bones: list[ListedBone]) -> dict[str, str]:
 
 
 def without(bones: list[ListedBone], joints: str) -> list[ListedBone]:
-    """The body without some joints; what hung on them hangs on what they hung on."""
+    """Body without some joints, whose children are attached to their parents."""
     above = {bone.name: bone.parent for bone in bones if re.search(joints, bone.joint)}
     left = []
     for bone in bones:
@@ -427,7 +431,7 @@ def without(bones: list[ListedBone], joints: str) -> list[ListedBone]:
 
 
 def hanging(bones: list[ListedBone], joint: str, name: str, step: tuple[float, float, float], count: int) -> None:
-    """Hang a chain that is no limb on a joint."""
+    """Attach a chain that is no limb to a joint."""
     parent = next(bone for bone in bones if bone.joint == joint)
     for number in range(count):
         place = tuple(value + step[axis] for axis, value in enumerate(parent.place_m))
@@ -446,7 +450,9 @@ def with_tail_and_wings(bones: list[ListedBone]) -> list[ListedBone]:
 
 
 def with_loose_feet(bones: list[ListedBone]) -> list[ListedBone]:
-    """Feet hang from the root, as in a rig whose legs are drawn by them, and each leg ends in a bone without skin."""
+    """Body with feet attached to the root, as in rigs that pull legs by the feet; each leg ends in a bone
+    without skin.
+    """
     found = [ListedBone("Rig", "", (0.0, 0.0, 0.0), "")]
     for bone in bones:
         if bone.joint.endswith("Foot"):
@@ -494,7 +500,7 @@ def test_what_names_and_shape_agree_on_is_no_guess() -> None:
 
 
 def test_hips_beside_the_legs_are_no_hips() -> None:
-    """Quaternius: Body holds both the legs and the bone called Hips, which the spine hangs from."""
+    """Quaternius: the bone Body is the parent of both legs and of the bone named Hips, which carries the spine."""
     own = {bone.joint: bone for bone in listed("game_engine")}
     bones = []
     for bone in listed("game_engine"):

@@ -1,4 +1,4 @@
-"""Landmarks found by geometry lie where our own characters' named ones are."""
+"""Landmarks found from geometry equal the bundled characters' named ones."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -19,7 +19,7 @@ TOLERANCE_M = {"thumb": 0.008, "pad": 0.006, "side": 0.006, "palm": 0.006, "lips
 
 
 def normal(character: Character, name: str, transforms: JointTransforms) -> np.ndarray:
-    """Mean outward unit normal (3,) of a landmark at the first frame."""
+    """Mean outward normal (3,) of a landmark in the first frame."""
     landmark = character.landmarks[name]
     part = patch(character, mesh_named(character, landmark.mesh), landmark.vertices)
     turns = skin_matrices(part.joints, part.joint_from_mesh, transforms)[0, :, :, :3]
@@ -61,7 +61,7 @@ COLLAR = ((0.03, -0.04), (-0.09, 0.11), (-0.10, 0.11))
 def test_a_still_face_of_few_vertices_has_its_mouth_below_the_nose(
     profile: tuple[tuple[float, float], ...], lips: tuple[float, float]
 ) -> None:
-    """No vertex is where the lips are: not the tip of the nose, which is the next one, nor a collar is taken."""
+    """There is no vertex at the lips; neither the tip of the nose, which is nearest, nor a collar is used."""
     body = character_named("woman_adult")
     head = body.skeleton.index("head")
     place = rest_positions(body.skeleton)[head]

@@ -1,4 +1,4 @@
-"""The bundled characters, and files of others built here: rest rotations, no root, damaged, no foot."""
+"""Bundled characters, and synthetic files: rest rotations, no root, damage, no foot."""
 
 import json
 import struct
@@ -47,7 +47,7 @@ def test_an_unknown_character_is_refused() -> None:
 
 
 def test_our_file_rewritten_by_another_program_is_read_as_any_file(tmp_path: Path) -> None:
-    """Its landmarks came along, but vertices may be others."""
+    """Its landmarks are preserved, but its vertices may differ."""
     data = bundled_characters()["man_adult"].read_bytes()
     changed = tmp_path / "changed.glb"
     changed.write_bytes(data.replace(b"Suisou build_characters", b"Khronos glTF Blender IO"))
@@ -56,7 +56,7 @@ def test_our_file_rewritten_by_another_program_is_read_as_any_file(tmp_path: Pat
 
 
 def _humanoid(tmp_path: Path, turned: bool, drop: str = "") -> Path:
-    """A stick figure as tall as ours with one skinned point per joint, its nodes turned at rest or not."""
+    """Stick figure of an adult's height with one skinned point per joint, with or without rotated nodes."""
     profile = load_skeleton()
     ours = character_named("man_adult").skeleton
     places = dict(zip(ours.names, rest_positions(ours), strict=True))

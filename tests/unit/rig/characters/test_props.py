@@ -1,4 +1,4 @@
-"""Swords, shields and cups that a file puts into its figure's hands are found; hands, rings and gloves are not."""
+"""Swords, shields and cups in a figure's hands are recognised; hands, rings and gloves are not mistaken for them."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_what_is_held_is_found_and_what_belongs_to_a_hand_is_not() -> None:
 
 
 def test_hands_that_are_meshes_of_their_own_are_no_props() -> None:
-    """Every mesh of a figure in rigid pieces moves with one bone as a whole."""
+    """In a figure of rigid pieces every mesh moves with one bone as a whole."""
     reading = read_character(WOMAN)
     figure, joints = reading.figure, reading.joints.bones
     pieces = tuple(

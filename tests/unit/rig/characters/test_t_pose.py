@@ -1,4 +1,4 @@
-"""Bones and standing of a figure: what its weights say, and how it is turned upright."""
+"""Bones and upright orientation of a figure, derived from its weights."""
 
 from __future__ import annotations
 

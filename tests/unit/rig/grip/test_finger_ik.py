@@ -1,4 +1,4 @@
-"""Fingers that are brought to a place: what is asked for again and again is solved once, to the same bits."""
+"""Fingers moved to places: repeated requests are solved once, with identical results."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PLACES = 40
 
 
 def _asked(rows: np.ndarray[tuple[int], np.dtype[np.intp]]) -> list[ReachTarget]:
-    """Two fingers of a clarinettist, each brought to some of 40 places about a centimetre around."""
+    """Two fingers of a clarinettist, each moved to some of 40 places within about a centimetre."""
     instrument = bundled_maps()["clarinet_Bb"]
     hold = hold_for(character_named("woman_adult"), bundled_instrument(instrument), instrument, load_body())
     offsets_m = np.random.default_rng(3).normal(0.0, 0.01, (PLACES, 3))

@@ -1,4 +1,4 @@
-"""The places of fingers, as the contacts of a map say them."""
+"""Stations of fingers according to the contacts of a map."""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
-"""Every fingering of every bundled map as every bundled body holds it: the engine's own pose, each contact at its
-place, each hole open that is to be open, no hand inside the instrument."""
+"""Every fingering of every bundled map in the grip of every bundled body: the poses used in motion, contacts in place,
+open holes open, and no hand inside the instrument.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +42,7 @@ PAIRS = [(character, instrument) for character in bundled_characters() for instr
 
 @dataclass(frozen=True)
 class Fingered:
-    """A body in all fingerings of a map at once, one a frame."""
+    """A body in all fingerings of a map, one per frame."""
 
     character: Character
     instrument: InstrumentMap
@@ -66,21 +67,21 @@ class Fingered:
         return self.posed()
 
     def on_instrument(self, hand: HandHold, joints: JointTransforms, points: np.ndarray) -> np.ndarray:
-        """Points (F, V, 3) of the body where the hand has them, in the instrument's frame."""
+        """Points (F, V, 3) of the body in the instrument's frame."""
         wrist, _ = joints.of(self.character.skeleton.index(f"{hand.side}Hand"))
         still, unturned = np.zeros((len(self), 3)), np.tile(quaternion.IDENTITY, (len(self), 1))
         place, turn = hand_targets(hand, still, unturned, self.controls, self.placed)
         return place[:, None] + quaternion.rotate(turn[:, None], points - wrist[:, None])
 
     def points_m(self, contact: Contact) -> np.ndarray:
-        """Return the places (F, 3) of a contact of the map, m."""
+        """Positions (F, 3) of a contact of the map in metres."""
         place, turn = node_transforms(self.model, self.instrument, self.controls, len(self))
         node = self.model.node_names.index(contact.node)
         aside = aside_m(contact, self.instrument, self.controls.get(contact.control or "", np.ones(len(self))))
         return place[:, node] + quaternion.rotate(turn[:, node], np.asarray(contact.position_m) + aside)
 
     def counts(self, index: int) -> np.ndarray:
-        """In which fingerings (F,) a contact is to be kept."""
+        """Mask (F,) of the fingerings in which a contact must be kept."""
         contact, place = self.instrument.contacts[index], only_at(self.instrument)[index]
         if place is not None:
             return self.working[place[0]] == place[1]
@@ -122,7 +123,7 @@ def test_every_contact_is_within_its_bound_in_every_fingering(fingered: Fingered
 
 
 def test_holes_are_left_open(fingered: Fingered) -> None:
-    """By every finger that might shut them and works something else, or nothing."""
+    """Tested for every finger that could close them while it is used elsewhere or not at all."""
     joints = fingered.playing
     for hand in fingered.hold.hands:
         for contact in fingered.instrument.contacts:
@@ -185,7 +186,7 @@ def test_giving_way_for_two_grows_with_both(fingered: Fingered) -> None:
 
 
 def test_fingers_keep_out_of_the_instrument_on_their_ways_and_where_they_wait(fingered: Fingered) -> None:
-    """From home to every other place and back, waiting high or low, as long as the hand has not given way."""
+    """From home to every other station and back, waiting high or low, as long as the hand is not offset."""
     most_mm = STILL_DEEPER_MM.get((fingered.character.id, fingered.instrument.id), WAY_MM)
     shares = np.linspace(0.0, 1.0, 21)
     still = {one.name: np.full(len(shares), one.rest_value) for one in fingered.instrument.controls}
@@ -223,7 +224,7 @@ def _skin_of(character: Character, hand: HandHold, table: FingerTable) -> skinni
 
 
 def test_no_finger_is_thrown_about_on_its_way(fingered: Fingered) -> None:
-    """A finger that cannot be lifted as far as asked went from one end of its joints' range to the other at once."""
+    """A finger that cannot be raised as requested formerly jumped between the ends of its joints' ranges."""
     shares = np.linspace(0.0, 1.0, 121)
     still = {one.name: np.full(len(shares), one.rest_value) for one in fingered.instrument.controls}
     home = np.zeros(len(shares))

@@ -1,4 +1,4 @@
-"""Signed distances of the proxy's bodies: slope 1, and a step of that length along the slope ends on the surface."""
+"""Signed distances of collision bodies: slope 1, and a step of that length along the slope ends on the surface."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Fingers that wait over their keys: curved, as high as they were solved, and with their neighbours."""
+"""Fingers waiting over their keys: curved, at the solved height, and coupled to their neighbours."""
 
 from __future__ import annotations
 
@@ -34,8 +34,9 @@ def _holds(instrument_id: str, character_id: str) -> tuple[Skeleton, GripPose, G
 
 
 def _tips_m(skeleton: Skeleton, joints: tuple[int, ...], station: StationTable) -> FloatArray:
-    """Return the places of the touching part of a finger over the values of a control, in the wrist's frame, computed
-    with the skeleton's own kinematics."""
+    """Positions of the touching part of a finger over the values of a control in the wrist's frame, by the skeleton's
+    kinematics.
+    """
     rotations = np.tile([0.0, 0.0, 0.0, 1.0], (len(station.values), len(skeleton.names), 1))
     rotations[:, list(joints)] = station.rotations
     posed = forward(skeleton, rotations)

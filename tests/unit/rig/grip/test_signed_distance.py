@@ -1,4 +1,4 @@
-"""Signed distances against a slow, obvious oracle: nearest point of a dense sampling of the surface."""
+"""Signed distances compared with a slow reference: the nearest point of a dense sampling of the surface."""
 
 from __future__ import annotations
 

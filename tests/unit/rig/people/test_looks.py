@@ -1,4 +1,4 @@
-"""Hair, skin and colours of people: styles and pictures by themselves on the bodies of others."""
+"""Hair, skin and colours of people: separate styles and textures on other bodies."""
 
 from __future__ import annotations
 

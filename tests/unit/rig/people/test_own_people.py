@@ -1,4 +1,4 @@
-"""People of the user's own: made of one of our bodies by a table in the folder of characters."""
+"""The user's own people: made from a bundled body by a table in the folder of characters."""
 
 from __future__ import annotations
 

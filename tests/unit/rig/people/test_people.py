@@ -1,4 +1,4 @@
-"""Bodies of originals against anny's own, and people made from finished bodies."""
+"""Bodies compared with those of anny, and people made from bundled bodies."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def test_a_person_has_the_hands_of_the_finished_body_and_a_height_of_its_own(id:
 
 @pytest.mark.parametrize("id", ["cast_yumi", "cast_henry", "child_hina"])
 def test_lids_close_over_the_eyes_of_everyone(id: str) -> None:
-    """Blinking, the skin next to an eyeball is as far from it as the finished body's."""
+    """During a blink, the skin next to an eyeball is as far from it as on the bundled body."""
     character, before = character_named(id), finished_character(bundled_person(id).original, character_named)
     least = []
     for one in (before, character):

@@ -1,4 +1,4 @@
-"""Outfits on people: carried onto their bodies, in chosen colours, and nothing else of them changed."""
+"""Outfits on people: transferred to their bodies in chosen colours, with nothing else changed."""
 
 from __future__ import annotations
 

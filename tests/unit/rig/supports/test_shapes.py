@@ -1,4 +1,4 @@
-"""Shapes of straps and chairs: a string around a ball, chairs for tall and small, meshes seen from outside."""
+"""Shapes of straps and chairs: a string around a ball, chairs for tall and small people, outward-facing meshes."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _ball() -> PosedTrunk:
 
 
 def test_a_string_over_a_ball_is_as_long_as_geometry_says() -> None:
-    """Half a turn less the tangent's angle, and then the tangent: in a plane through the middle."""
+    """Half a turn minus the tangent's angle, and then the tangent, in a plane through the centre."""
     end = np.array([0.0, 0.0, 2.0 * RADIUS_M])
     string = taut_string(_ball(), np.array([0.0, 0.0, -RADIUS_M]), np.array([0.0, RADIUS_M, 0.0]), end)
     assert string is not None
@@ -46,7 +46,7 @@ def test_there_is_no_string_where_there_is_no_body() -> None:
 
 
 def _seen_from_outside(mesh: Mesh) -> float:
-    """Share of the triangles whose corners' normals look where they do."""
+    """Share of the triangles whose orientation agrees with their corners' normals."""
     corners = mesh.positions_m.astype(np.float64)[mesh.triangles]
     faces = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     solid = np.linalg.norm(faces, axis=1) > 1e-9

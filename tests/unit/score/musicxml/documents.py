@@ -1,4 +1,4 @@
-"""Small documents in MusicXML, made of a few words."""
+"""Small MusicXML documents from short descriptions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n'
 def note(
     name: str, length: int = 4, *inside: str, notations: str = "", before: str = "", voice: int = 1, more: str = ""
 ) -> str:
-    """A note ("C4", "F#5", "Bb3"), a rest ("r"), of a length in quarters of a quarter.
+    """Make a note ("C4", "F#5", "Bb3") or a rest ("r") with a length in sixteenths.
 
     Parameters
     ----------
@@ -35,27 +35,27 @@ def note(
 
 
 def slur(kind: str, number: int = 1) -> str:
-    """A slur's beginning or end."""
+    """Make the beginning or end of a slur."""
     return f'<slur type="{kind}" number="{number}"/>'
 
 
 def articulation(name: str) -> str:
-    """An articulation."""
+    """Make an articulation."""
     return f"<articulations><{name}/></articulations>"
 
 
 def direction(kind: str, sound: str = "") -> str:
-    """A direction over the staff."""
+    """Make a direction above the staff."""
     return f"<direction><direction-type>{kind}</direction-type>{sound}</direction>"
 
 
 def words(text: str, sound: str = "") -> str:
-    """Words over the staff."""
+    """Make words above the staff."""
     return direction(f"<words>{text}</words>", sound)
 
 
 def dynamic(name: str) -> str:
-    """A dynamic under the staff."""
+    """Make a dynamic below the staff."""
     return direction(f"<dynamics><{name}/></dynamics>")
 
 
@@ -66,7 +66,7 @@ ATTRIBUTES = (
 
 
 def part(id: str, *measures: str, attributes: str = ATTRIBUTES) -> str:
-    """A part of some measures; the first says the attributes."""
+    """Make a part of some measures; the first contains the attributes."""
     rows = [
         f'<measure number="{number}">{attributes if number == 1 else ""}{content}</measure>'
         for number, content in enumerate(measures, 1)
@@ -75,24 +75,24 @@ def part(id: str, *measures: str, attributes: str = ATTRIBUTES) -> str:
 
 
 def listed(id: str, name: str, inside: str = "") -> str:
-    """A part in the list."""
+    """Make the entry of a part in the list."""
     return f'<score-part id="{id}"><part-name>{name}</part-name>{inside}</score-part>'
 
 
 def document(*measures: str, name: str = "Trumpet in Bb", inside: str = "", attributes: str = ATTRIBUTES) -> str:
-    """A score of one part."""
+    """Make a score of one part."""
     return score(listed("P1", name, inside), part("P1", *measures, attributes=attributes))
 
 
 def score(*inside: str) -> str:
-    """A score with its list of parts and its parts."""
+    """Make a score from its list of parts and its parts."""
     rows = "".join(one for one in inside if one.startswith("<score-part"))
     parts = "".join(one for one in inside if not one.startswith("<score-part"))
     return f'{HEAD}<score-partwise version="4.0"><part-list>{rows}</part-list>{parts}</score-partwise>'
 
 
 def read(folder: Path, text: str | bytes, name: str = "piece.musicxml") -> PieceContents:
-    """Read a document as a file."""
+    """Read a document like a file."""
     path = folder / name
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     return read_contents(path)

@@ -1,4 +1,4 @@
-"""Measures that repeat others by a sign, and slashes."""
+"""Signs that repeat measures, and slashes."""
 
 from __future__ import annotations
 

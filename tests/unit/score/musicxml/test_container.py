@@ -1,4 +1,4 @@
-"""Files in MusicXML: of any encoding, compressed or not; and what is refused, within seconds."""
+"""MusicXML files in any encoding, compressed or not; refused files, within seconds."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ ONE = [(0, 4, 60)]
 
 
 def packed(**members: str | bytes) -> bytes:
-    """A compressed file; two underscores in a name are a slash."""
+    """Compressed file; two underscores in a name represent a slash."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in members.items():
@@ -134,7 +134,7 @@ def test_bombs_are_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("method", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
 def test_archives_are_packed_as_the_format_says(tmp_path: Path, method: int) -> None:
-    """Other ways to pack give gigabytes for a kilobyte before they can be stopped."""
+    """Other compression methods produce gigabytes from a kilobyte before they can be stopped."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", method) as archive:
         archive.writestr("a.xml", PIECE)
@@ -149,7 +149,7 @@ def test_what_is_no_encoding_of_documents_is_read_as_utf8(tmp_path: Path, encodi
 
 
 def test_many_divisions_without_a_common_multiple_take_no_longer(tmp_path: Path) -> None:
-    """Sums of fractions would grow with each of them."""
+    """Exact sums of fractions would become ever larger."""
     odd = [f"<attributes><divisions>{2 * number + 1}</divisions></attributes>" for number in range(1500)]
     text = document(*(one + note("C4", 2 * number + 1) for number, one in enumerate(odd)))
     (stream,) = read(tmp_path, text).channels
@@ -177,7 +177,7 @@ def test_a_score_without_notes_opens_with_a_warning(tmp_path: Path) -> None:
 
 
 def calls_made(work: Callable[[], object]) -> int:
-    """Calls of functions, those of C too: the same on a busy machine as on a quiet one."""
+    """Number of function calls including those of C, independent of the machine's load."""
     count = 0
 
     def seen(_frame: object, event: str, _argument: object) -> None:

@@ -1,4 +1,4 @@
-"""After a jump each part goes by its page: what is said further down does not hold before its place."""
+"""After a jump, directions apply by their position on the page: later ones do not apply to earlier measures."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ REPEAT = '<barline location="right"><repeat direction="backward"/></barline>'
 
 
 def played(folder: Path, *bars: str, name: str = "Flute", ending: str = BACK) -> tuple[TrackChannel, ...]:
-    """The streams of bars with a Fine in the first and a jump to it behind the last."""
+    """Streams of bars with a Fine in the first and a jump to it after the last."""
     *others, last = (note("C5", 16) if one == "" else one for one in bars)
     first, *rest = others
     fine = FINE if ending == BACK else ""

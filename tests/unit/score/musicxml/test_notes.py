@@ -1,4 +1,4 @@
-"""Notes of a score: onsets, lengths and sounding pitches, and the marks at them."""
+"""Notes of a score: onsets, lengths and sounding pitches, and their marks."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Q = 480
 
 
 def rows(contents: PieceContents, place: int = 0) -> list[tuple[float, float, int]]:
-    """Onset and end in quarters, and pitch, of the notes of a stream."""
+    """Onset and end in quarters and pitch of the notes of a stream."""
     stream = contents.channels[place]
     quarter = contents.tempo_map.ticks_per_quarter
     return [
@@ -39,7 +39,7 @@ def rows(contents: PieceContents, place: int = 0) -> list[tuple[float, float, in
 
 
 def marks(stream: TrackChannel) -> list[tuple[object, ...]]:
-    """Kinds of the marks, the numbers of their notes and their texts."""
+    """Kinds of marks, indices of their notes, and their texts."""
     found: list[tuple[object, ...]] = []
     for mark in stream.marks:
         ids = [int(id.partition(":")[2]) for id in (mark.note_id, mark.last_note_id) if id]
@@ -71,7 +71,7 @@ def test_tuplets_and_changed_divisions_are_exact(tmp_path: Path) -> None:
 
 
 def test_pitches_sound_as_the_part_is_transposed_from_there_on(tmp_path: Path) -> None:
-    """A clarinettist changes from B flat to A."""
+    """A clarinettist changes from B flat to A clarinet."""
     down = "<attributes><transpose><diatonic>-1</diatonic><chromatic>-2</chromatic></transpose></attributes>"
     more = "<attributes><transpose><chromatic>-3</chromatic><octave-change>-1</octave-change></transpose></attributes>"
     contents = read(tmp_path, document(down + note("C5", 16), more + note("C5", 16)))
@@ -138,7 +138,7 @@ def test_numbers_of_slurs_go_by_the_order_of_the_file(tmp_path: Path) -> None:
 
 
 def test_divisions_behind_the_notes_that_they_are_of(tmp_path: Path) -> None:
-    """Noteflight writes them so in the first measure."""
+    """Noteflight writes divisions after the notes of the first measure."""
     text = document(note("C4", 8) + note("D4", 8) + ATTRIBUTES, attributes="")
     assert [row[:2] for row in rows(read(tmp_path, text))] == [(0, 2), (2, 4)]
 
@@ -182,7 +182,7 @@ def test_a_grace_note_before_everything_takes_its_time_from_its_note(tmp_path: P
 def test_ornaments_are_written_out_in_the_key_and_keep_their_mark(
     tmp_path: Path, ornament: str, mark: str, pitches: set[int]
 ) -> None:
-    """In F major the neighbours of G are A and F."""
+    """In F major, the neighbours of G are A and F."""
     flat = "<attributes><key><fifths>-1</fifths></key></attributes>"
     contents = read(
         tmp_path, document(flat + note("G4", 8, notations=f"<ornaments><{ornament}/></ornaments>") + note("C4", 8))
@@ -311,7 +311,7 @@ def test_a_change_to_the_piccolo_is_a_stream_of_its_own(tmp_path: Path) -> None:
 
 
 def test_notes_that_name_their_instrument_need_no_words(tmp_path: Path) -> None:
-    """The program that wrote it says "to Picc." early, and not that the flute comes back."""
+    """The program wrote "to Picc." early, and nothing at the return to the flute."""
     inside = "".join(
         f'<score-instrument id="I{n}"><instrument-name>{name}</instrument-name>'
         f"<instrument-sound>wind.flutes.flute{more}</instrument-sound></score-instrument>"

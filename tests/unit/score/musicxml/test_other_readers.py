@@ -1,4 +1,4 @@
-"""Scores of several programs as music21 and partitura read them: `tests.support.notation` says what is compared."""
+"""Scores from several programs compared with the readings of music21 and partitura (`tests.support.notation`)."""
 
 from __future__ import annotations
 

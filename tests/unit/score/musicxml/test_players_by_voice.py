@@ -1,4 +1,4 @@
-"""Players of a staff by its voices."""
+"""Assignment of a staff's voices to players."""
 
 from __future__ import annotations
 

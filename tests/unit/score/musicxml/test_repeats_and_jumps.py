@@ -1,4 +1,4 @@
-"""The order in which measures are played, as a player would read it aloud."""
+"""Order in which measures with repeats and jumps are played."""
 
 from __future__ import annotations
 

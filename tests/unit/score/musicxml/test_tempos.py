@@ -16,7 +16,7 @@ def metronome(unit: str, number: str, dots: int = 0) -> str:
 
 
 def bpm(folder: Path, *measures: str) -> list[tuple[float, float]]:
-    """Quarters, and quarters per minute from there on."""
+    """Position in quarters, and quarters per minute from there on."""
     contents = read(folder, document(*measures))
     quarter = contents.tempo_map.ticks_per_quarter
     return [(tick / quarter, round(tempo, 3)) for tick, tempo in contents.tempo_map.bpm]
@@ -71,7 +71,7 @@ def test_a_pickup_and_a_bar_parted_by_a_repeat(tmp_path: Path) -> None:
 
 
 def test_rests_that_are_too_long_move_no_one(tmp_path: Path) -> None:
-    """Scores of real programs have them: a whole rest beside a pickup, and after the notes of one part."""
+    """Scores of real programs contain them: a whole rest in a pickup, and rests after the notes of one part."""
     solo = part("P1", note("C4", 4) + note("r", 4), BAR, note("D4", 16) + note("r", 8), note("E4", 24), BAR)
     other = part("P2", note("r", 16), BAR, BAR, note("r", 16), note("F4", 16))
     text = score(listed("P1", "Flute"), listed("P2", "Oboe"), solo, other)

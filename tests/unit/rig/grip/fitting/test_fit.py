@@ -1,4 +1,4 @@
-"""Test how the bundled bodies hold the bundled instruments, measured again through the whole character's skin."""
+"""Grips of the bundled bodies on the bundled instruments, measured again on the whole character's skin."""
 
 import os
 import subprocess
@@ -48,7 +48,7 @@ def held(request: pytest.FixtureRequest) -> SettingBinding:
 
 
 def _away(held: SettingBinding, side: str) -> list[tuple[str, int]]:
-    """The places of a hand's fingers that are not at home: a hand gives way for one at a time."""
+    """Stations of a hand's fingers other than home; a hand is offset for one at a time."""
     return [
         (finger, number)
         for finger, places in stations(held.instrument).items()
@@ -58,12 +58,12 @@ def _away(held: SettingBinding, side: str) -> list[tuple[str, int]]:
 
 
 def _rounds(held: SettingBinding) -> range:
-    """All at home; then one finger of each hand after the other at each of its other places."""
+    """All fingers at home; then one finger of each hand after another at each of its other stations."""
     return range(1 + max(len(_away(held, side)) for side in ("left", "right")))
 
 
 def _numbers(held: SettingBinding, place: int) -> dict[str, int]:
-    """At which of its places each finger is in a round."""
+    """Index of each finger's station in a round."""
     numbers = dict.fromkeys(stations(held.instrument), 0)
     for side in ("left", "right"):
         away = _away(held, side)
@@ -74,12 +74,12 @@ def _numbers(held: SettingBinding, place: int) -> dict[str, int]:
 
 
 def _at(held: SettingBinding, place: int) -> dict[str, Station]:
-    """Return the stations of the fingers in a round."""
+    """Stations of the fingers in a round."""
     return {finger: stations(held.instrument)[finger][number] for finger, number in _numbers(held, place).items()}
 
 
 def _placed(held: SettingBinding, place: int) -> dict[str, StationBlend]:
-    """The same, as the hold takes it."""
+    """Stations of the fingers in a round in the form used by the grip."""
     found = {}
     for finger, number in _numbers(held, place).items():
         index = np.full(len(GRID), number)
@@ -88,14 +88,14 @@ def _placed(held: SettingBinding, place: int) -> dict[str, StationBlend]:
 
 
 def _controls(held: SettingBinding, place: int = 0) -> dict[str, np.ndarray]:
-    """Every control that is worked in a round goes from rest to its end, all at once."""
+    """Controls used in a round, all moving from rest to their ends simultaneously."""
     worked = {name for station in _at(held, place).values() for name in station.controls}
     carried = {control.name for control in held.instrument.controls if control.finger.endswith(".hand")}
     return dict.fromkeys(worked | carried, GRID)
 
 
 def _fingers(held: SettingBinding, place: int = 0) -> JointTransforms:
-    """The whole character, only its fingers posed."""
+    """The whole character with only its fingers posed."""
     rotations = np.tile(quaternion.IDENTITY, (len(GRID), len(held.character.skeleton.names), 1))
     turned = finger_rotations(held.hold, _controls(held, place), len(GRID), _placed(held, place))
     rotations[:, list(held.hold.finger_joints)] = turned
@@ -110,8 +110,7 @@ def _on_instrument(
     place: int = 0,
     frames: slice = slice(None),
 ) -> np.ndarray:
-    """Take points (F, V, 3) of some frames of the posed character to where the hand carries them, in the instrument's
-    frame."""
+    """Transform points (F, V, 3) of the posed character to the instrument's frame."""
     wrist, _ = transforms.of(held.character.skeleton.index(f"{hand.side}Hand"))
     still, unturned = np.zeros((len(GRID), 3)), np.tile(quaternion.IDENTITY, (len(GRID), 1))
     spot, turn = hand_targets(hand, still, unturned, _controls(held, place), _placed(held, place))
@@ -151,8 +150,9 @@ def test_every_touch_is_met_over_the_whole_travel(held: SettingBinding) -> None:
 
 
 def _allowed_m(contact: Contact, place: int) -> float:
-    """A millimetre and a half; three where a part only lies there; two at places a finger goes to, and a little
-    more where any place of its side does."""
+    """Tolerance in metres: 1.5 mm; 3 mm for parts that only rest there; 2 mm at stations of a finger, and slightly more
+    at those of its side.
+    """
     if contact.grip != "firm":
         return 0.003
     if place == 0:
@@ -180,7 +180,7 @@ def test_no_hand_is_inside_the_instrument(held: SettingBinding) -> None:
 
 
 def _skin_of(character: Character, side: str) -> skinning.Patch:
-    """The skin of a whole hand."""
+    """Skin of a whole hand."""
     mark = character.landmarks[f"{side}.hand"]
     return skinning.patch(character, skinning.mesh_named(character, mark.mesh), mark.vertices)
 
@@ -233,7 +233,7 @@ def test_the_lips_move_with_the_face_as_the_skin_does(held: SettingBinding) -> N
 
 
 def test_the_first_fit_of_a_process_has_one_thread() -> None:
-    """SciPy brings a BLAS of its own, which can be limited only once it is loaded."""
+    """SciPy includes a BLAS, whose threads can be limited only after it is loaded."""
     program = """
 import sys
 from threadpoolctl import threadpool_info

@@ -1,4 +1,4 @@
-"""An instrument suited to a body: its size, the touches that the body can have, and what is reported."""
+"""An instrument suited to a body: its size, the touches within the body's reach, and the reported ones."""
 
 from __future__ import annotations
 
@@ -51,7 +51,9 @@ def test_a_grown_up_plays_the_very_instruments(id: str) -> None:
 
 @pytest.mark.parametrize("id", [id for id in our_characters() if hands_id(id) not in bundled_characters()])
 def test_a_child_of_ours_plays_instruments_in_their_size_with_all_touches(id: str) -> None:
-    """A stranger with such hands gets smaller ones; holds of ours are fitted to the size that bands lend."""
+    """Foreign characters with such hands get smaller instruments; bundled children use the size of a school band's
+    instruments.
+    """
     player = Player("p", "P", "p", "", id, PlayerParameters(), StagePosition(0.0, 0.0, 0.0))
     for whole in MAPS.values():
         found = suited_to(player, whole)
@@ -122,7 +124,7 @@ def test_a_hand_of_four_fingers_is_said_to_lack_one_and_keeps_the_others() -> No
 
 
 def test_fingertips_in_another_mesh_than_the_hand_bend() -> None:
-    """Gloves without tips: the tips belong to the body's mesh, the rest to the clothes'."""
+    """In fingerless gloves, the tips belong to the body's mesh and the rest to the clothes'."""
     whole = odd_body("unmarked")
     body = next(mesh for mesh in whole.meshes if (mesh.name == whole.landmarks["left.hand"].mesh))
     distal = [joint for joint, name in enumerate(whole.skeleton.names) if name.endswith("Distal")]
@@ -137,7 +139,7 @@ def test_fingertips_in_another_mesh_than_the_hand_bend() -> None:
 
 
 def _part(mesh: Mesh, name: str, rows: BoolArray) -> Mesh:
-    """Some triangles of a mesh, with their vertices."""
+    """Some triangles of a mesh with their vertices."""
     used = np.unique(mesh.triangles[rows])
     place = np.zeros(len(mesh.positions_m), np.int32)
     place[used] = np.arange(len(used))

@@ -1,4 +1,4 @@
-"""Stored holds: those that come with the program are up to date, and no file is taken for what it is not."""
+"""Stored grips: bundled ones are up to date, and invalid files are refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test how a hand gives way for two fingers at once."""
+"""Offset of a hand for two fingers simultaneously."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def instrument() -> InstrumentMap:
 
 @pytest.fixture(scope="module")
 def left(instrument: InstrumentMap) -> HandHold:
-    """A small hand whose thumb is on hole and register key while its little finger goes far for levers."""
+    """Small hand with the thumb on hole and register key and the little finger on distant levers."""
     character = character_named("woman_adult")
     hold = hold_for(character, bundled_instrument(instrument), instrument, load_body())
     return next(hand for hand in hold.hands if hand.side == "left")
