@@ -47,6 +47,8 @@ class BodyMotion:
         Degree to which the head stays in place while the trunk turns for a far hand, 0..1.
     protraction_rad : dict of str to array
         Forward motion of each shoulder, by side, as required by contacts.
+    elbow_out_rad : dict of str to array
+        Turn of each elbow out of the trunk's way, by side, as required by contacts; empty: none.
     elbow_held_rad : dict of str to array
         The animator's outward turn of each elbow, by side; empty: none.
     hips_danced : dict of str to array
@@ -86,6 +88,7 @@ class BodyMotion:
     steadied: FloatArray
     bell_held_rad: dict[str, FloatArray] = field(default_factory=dict)
     protraction_rad: dict[str, FloatArray] = field(default_factory=dict)
+    elbow_out_rad: dict[str, FloatArray] = field(default_factory=dict)
     elbow_held_rad: dict[str, FloatArray] = field(default_factory=dict)
     hips_danced: dict[str, FloatArray] = field(default_factory=dict)
     elbows_late_rad: dict[str, FloatArray] = field(default_factory=dict)

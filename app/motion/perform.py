@@ -137,7 +137,9 @@ class PerformanceCurves:
         pad = padding_frames(fps)
         times_s = frame_times(self.start_s, fps, first_frame - pad, frames + 2 * pad)
         curves = self.curves(self.frames(times_s))
-        return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]), every)
+        return solve(
+            self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]), every, first_frame
+        )
 
     def frames(self, times_s: FloatArray) -> PlayedFrames:
         """Sample everything that moves the player at ascending times, before contacts are solved."""

@@ -7,10 +7,12 @@ hand; a hand that a control moves along is slowed down until the body is there.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from app.arrays import FloatArray
+from app.motion.body_motion import BodyMotion
 from app.motion.contacts.help_for_far_hands import Help
 from app.motion.curves.curve import minimum_jerk
 from app.motion.curves.live_values import Reach
@@ -29,6 +31,8 @@ STAYS_S = 0.30
 """Seconds in which help recedes after the hand has returned."""
 CHANGES = 0.004
 """Change in radians or metres below which help counts as unchanged."""
+OUT_S = 0.08
+"""Seconds in which an elbow covers most of the rest of its way."""
 _PHASES = np.linspace(0.0, 1.0, 65)
 _SHARES = minimum_jerk(_PHASES)
 
@@ -45,7 +49,19 @@ class LiveHelp:
 
     def __init__(self) -> None:
         self._reaches: dict[str, Reach] = {}
+        self._out_rad: dict[str, tuple[float, FloatArray]] = {}
         self.carries_s = 0.0
+
+    def off_trunk(self, now_s: float, needed: BodyMotion) -> BodyMotion:
+        """Return a body at a time, as one frame, with elbows that go out of the trunk's way, as ``needed`` has them at
+        once, within about `OUT_S`."""
+        given: dict[str, FloatArray] = {}
+        for side, goal_rad in needed.elbow_out_rad.items():
+            before_s, before_rad = self._out_rad.get(side, (-math.inf, goal_rad))
+            left = math.exp(min(before_s - now_s, 0.0) / OUT_S)
+            given[side] = goal_rad + left * (before_rad - goal_rad)
+            self._out_rad[side] = now_s, given[side]
+        return replace(needed, elbow_out_rad=given)
 
     def at(self, now_s: float, arrived_s: float, needed: Help) -> Help:
         """Return the help that trunk and shoulders give at a time, as one frame.

@@ -18,7 +18,7 @@ from app.arrays import SingleArray
 from app.motion.by_hand.additive_curves import Additive
 from app.motion.by_hand.pose_corrections import PoseCorrectionTable
 from app.motion.contacts.help_for_far_hands import Help
-from app.motion.contacts.solve import body_with_help, needs, poses
+from app.motion.contacts.solve import body_with_help, needs, poses, with_elbows_out
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.doubling import Doubling
 from app.motion.perform import PerformanceCurves
@@ -190,7 +190,9 @@ class PlayAlong:
         self._at_s = self._at_s if at_s is None else at_s
         curves, given = self._solved(now_s)
         player, now = self._curves.player, curves[:1]
-        motion = poses(player, replace(now, body=body_with_help(player, now.body, given)), ONE_FRAME, now_s)
+        now = replace(now, body=body_with_help(player, now.body, given))
+        now = replace(now, body=self._help.off_trunk(now_s, with_elbows_out(player, now)))
+        motion = poses(player, now, ONE_FRAME, now_s)
         return Pose.of(motion, 0)
 
     def _sound(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:

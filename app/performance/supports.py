@@ -14,7 +14,7 @@ from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.ready_player import player_body
-from app.motion.contacts.solve import PlayerBody, body_with_help, needs, poses
+from app.motion.contacts.solve import PlayerBody, body_with_help, needs, poses, with_elbows_out
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import hips_path, solve_legs, stance, trunk
 from app.motion.model import Motion
@@ -100,7 +100,7 @@ def still_pose(player: PlayerBody, lowered: float = 0.0) -> Motion:
     still = replace(player.still, lowered=np.array([lowered]))
     curves = ContactCurves(still, {}, {}, np.zeros(1))
     curves = replace(curves, body=body_with_help(player, curves.body, needs(player, curves)))
-    return poses(player, curves, Fraction(1), 0.0)
+    return poses(player, replace(curves, body=with_elbows_out(player, curves)), Fraction(1), 0.0)
 
 
 def worn(instrument: InstrumentMap, posture: PostureName) -> tuple[Support, ...]:

@@ -67,6 +67,8 @@ class Character:
         Bundled body that a person is made from; None for a character read from a file.
     made_of : str
         Digest of the phenotype of a bundled body that was made from another one; empty for other bodies.
+    undressed : Character or None
+        The same body in its own clothes, of a character in an outfit; None for one in its own clothes.
     """
 
     id: str
@@ -78,6 +80,7 @@ class Character:
     hands_of: Character | None = None
     made_from: Character | None = None
     made_of: str = ""
+    undressed: Character | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -61,6 +61,28 @@ def shoulder(skeleton: Skeleton, side: Side, body: Trunk, motion: BodyMotion) ->
     return Shoulder(moved, clavicle, begins_m + quaternion.rotate(clavicle, reaches_m))
 
 
+@dataclass(frozen=True)
+class SolvedArm:
+    """An arm whose hand is where the instrument has it.
+
+    Attributes
+    ----------
+    shoulder : Shoulder
+    limb : Limb
+    pose : LimbPose
+    line : (F, 3) float64
+        Unit direction from shoulder to hand.
+    hand : (F, 4) float64
+        World rotation of the hand.
+    """
+
+    shoulder: Shoulder
+    limb: Limb
+    pose: LimbPose
+    line: FloatArray
+    hand: FloatArray
+
+
 def solve_arms(
     player: StillPlayer,
     curves: ContactCurves,
@@ -68,16 +90,37 @@ def solve_arms(
     swung: FloatArray | None = None,
     away: Away | None = None,
 ) -> dict[int, FloatArray]:
-    """Rotations (F, 4) of clavicles, arms and hands by joint index, with each hand on its grip of the instrument.
+    """Rotations (F, 4) of clavicles, arms and hands by joint index, with each hand on its grip of the instrument;
+    parameters as in `solved_arms`."""
+    rotations: dict[int, FloatArray] = {}
+    for side, solved in solved_arms(player, curves, upper, swung, away).items():
+        joint, _ = clavicle_of(player.skeleton, side)
+        limb, pose = solved.limb, solved.pose
+        rotations |= {joint: solved.shoulder.moved, limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
+    for side, sign in (("left", -1.0), ("right", 1.0)):
+        if all(hand.side != side for hand in player.grip.hands):
+            hangs = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), sign * HANGS_RAD)
+            rotations[player.skeleton.index(f"{side}UpperArm")] = np.tile(hangs, (len(upper.hips_m), 1))
+    return rotations
+
+
+def solved_arms(
+    player: StillPlayer,
+    curves: ContactCurves,
+    upper: UpperBody,
+    swung: FloatArray | None = None,
+    away: Away | None = None,
+) -> dict[Side, SolvedArm]:
+    """Solve the arms of the hands that hold the instrument, by side.
 
     Parameters
     ----------
     swung : (F, 4) float64, optional
-        Additional rotation of the elbows, for arms that lag behind the chest.
+        Rotation of the elbows with swinging arms.
     away : Away, optional
-        Targets of hands that have left the instrument.
+        Hands that have left the instrument.
     """
-    rotations: dict[int, FloatArray] = {}
+    found: dict[Side, SolvedArm] = {}
     body, carried = upper.trunk, upper.carried
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(player.base.chest))
     for hand in player.grip.hands:
@@ -86,12 +129,8 @@ def solve_arms(
         freely = None
         if away is not None:
             target, freely = away.targets(hand.side, *target), away.elbows.get(hand.side)
-        rotations |= _solve_arm(player, hand, body, turned, curves.body, target, freely)
-    for side, sign in (("left", -1.0), ("right", 1.0)):
-        if all(hand.side != side for hand in player.grip.hands):
-            hangs = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), sign * HANGS_RAD)
-            rotations[player.skeleton.index(f"{side}UpperArm")] = np.tile(hangs, (len(with_chest), 1))
-    return rotations
+        found[hand.side] = _solve_arm(player, hand, body, turned, curves.body, target, freely)
+    return found
 
 
 def _solve_arm(
@@ -102,7 +141,7 @@ def _solve_arm(
     motion: BodyMotion,
     target: tuple[FloatArray, FloatArray],
     freely: tuple[FloatArray, FloatArray] | None = None,
-) -> dict[int, FloatArray]:
+) -> SolvedArm:
     side, skeleton = hand.side, player.skeleton
     limb, (target_m, target_rotation) = arm(skeleton, side), target
     sign = 1.0 if side == "left" else -1.0
@@ -122,8 +161,9 @@ def _solve_arm(
         target_m = exact_target(limb, root_m, target_m)
     pose = solve_limb(limb, root_m, held.clavicle, target_m, target_rotation, pole)
     _relieve(player.wrists[side], limb, pose, line, held.clavicle, target_rotation)
-    joint, _ = clavicle_of(skeleton, side)
-    return {joint: held.moved, limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
+    if side in motion.elbow_out_rad:
+        _swivel(limb, pose, line, sign * motion.elbow_out_rad[side], held.clavicle, target_rotation)
+    return SolvedArm(held, limb, pose, line, target_rotation)
 
 
 def _relieve(
@@ -137,17 +177,34 @@ def _relieve(
     bent = np.flatnonzero(beyond_rad)
     if not len(bent):
         return
-    bones = pose.bones[0][bent], pose.bones[1][bent]
-    there = LimbPose(pose.upper[bent], pose.lower[bent], pose.end[bent], pose.miss_m[bent], bones)
-    axis, target = line[bent], target_rotation[bent]
+    lower, axis, target = pose.bones[1][bent], line[bent], target_rotation[bent]
 
     def aside_at(turn_rad: FloatArray) -> FloatArray:
-        turned = quaternion.multiply(quaternion.from_axis_angle(axis, turn_rad), there.bones[1])
+        turned = quaternion.multiply(quaternion.from_axis_angle(axis, turn_rad), lower)
         return wrist.aside_rad(end_of(limb, turned, target))
 
-    turn_rad = wrist.relief_rad(aside_rad[bent], beyond_rad[bent], aside_at)
-    turn = quaternion.from_axis_angle(axis, turn_rad)
-    relieved = swivelled(limb, there, turn, clavicle[bent], target)
-    for own, turned in ((pose.upper, relieved.upper), (pose.lower, relieved.lower), (pose.end, relieved.end)):
+    turn_rad = np.zeros(len(line))
+    turn_rad[bent] = wrist.relief_rad(aside_rad[bent], beyond_rad[bent], aside_at)
+    _swivel(limb, pose, line, turn_rad, clavicle, target_rotation)
+
+
+def _swivel(
+    limb: Limb,
+    pose: LimbPose,
+    line: FloatArray,
+    turn_rad: FloatArray,
+    clavicle: FloatArray,
+    target_rotation: FloatArray,
+) -> None:
+    """Rotate the arms (in place) about the line from shoulder to hand by angles (F,)."""
+    here = np.flatnonzero(turn_rad)
+    if not len(here):
+        return
+    bones = pose.bones[0][here], pose.bones[1][here]
+    there = LimbPose(pose.upper[here], pose.lower[here], pose.end[here], pose.miss_m[here], bones)
+    turn = quaternion.from_axis_angle(line[here], turn_rad[here])
+    turned = swivelled(limb, there, turn, clavicle[here], target_rotation[here])
+    rotations = (pose.upper, pose.lower, pose.end, *pose.bones)
+    for own, new in zip(rotations, (turned.upper, turned.lower, turned.end, *turned.bones), strict=True):
         # Of the two quaternions of a rotation the one near to where it was: no frame flips.
-        own[bent] = np.where(quaternion.dot(own[bent], turned)[:, None] < 0.0, -turned, turned)
+        own[here] = np.where(quaternion.dot(own[here], new)[:, None] < 0.0, -new, new)

@@ -1,4 +1,5 @@
-"""Limits how far an instrument tilts relative to the chest, by the wrists' ranges and the height of the elbows."""
+"""Limits how far an instrument tilts relative to the chest, by the wrists' ranges, the height of the elbows and the
+room between arms and body."""
 
 from __future__ import annotations
 
@@ -8,6 +9,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.contacts.arms import solve_arms
+from app.motion.contacts.arms_off_trunk import remaining
 from app.motion.contacts.carried_instrument import tips_freely
 from app.motion.contacts.help_for_far_hands import clavicle_of
 from app.motion.contacts.solve import PlayerBody, body_with_help, needs
@@ -24,6 +26,8 @@ degrees.
 """
 NEARLY_RAD = float(np.deg2rad(0.25))
 """Additional angle in radians by which tipping the instrument may move a wrist outside its range."""
+NEARLY_M = 0.002
+"""Additional depth in metres of arms in the body that tipping the instrument may cause."""
 RAISED_RAD = float(np.deg2rad(12.0))
 """Greatest angle in radians by which tipping the instrument may raise an elbow, so that arms do not flap for a nod."""
 
@@ -40,25 +44,28 @@ def with_bell_room(player: PlayerBody) -> PlayerBody:
         stations = [dict(lean.places).get(finger, 0) for lean in leans]
         there = np.repeat([0.0, *stations], len(tipped))
         placed[giving_for(finger)] = StationBlend(np.zeros(len(there)), there, (there > 0.0).astype(np.float64))
-    found = _wrists_and_elbows(player, np.tile(tipped, len(leans) + 1), placed)
-    bent, raised = (values.reshape(-1, len(tipped)) for values in found)
-    usual, usually = (values[:, len(tipped) // 2, None] for values in (bent, raised))
+    found = _wrists_elbows_and_depths(player, np.tile(tipped, len(leans) + 1), placed)
+    bent, raised, depth_m = (values.reshape(-1, len(tipped)) for values in found)
+    usual, usually, usually_m = (values[:, len(tipped) // 2, None] for values in (bent, raised, depth_m))
     fits = np.logical_and.reduce((bent <= usual + NEARLY_RAD) | (usual > LOST_RAD))
     fits &= np.logical_and.reduce(raised <= usually + RAISED_RAD)
+    fits &= np.logical_and.reduce(depth_m <= np.maximum(usually_m + NEARLY_M, 0.0))
     room = BellRoom.within(tipped + np.deg2rad(player.carriage.pitch_down_deg[1]), fits)
     return replace(player, bell_room=room)
 
 
-def _wrists_and_elbows(
+def _wrists_elbows_and_depths(
     player: PlayerBody, tipped_rad: FloatArray, placed: dict[str, StationBlend]
-) -> tuple[FloatArray, FloatArray]:
-    """For a still body with the instrument tilted down by F angles: the larger excess of a wrist over its range, and
-    the elevation of the higher elbow above its shoulder, each (F,) in radians.
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """For a still body with the instrument tilted down by F angles: the larger excess of a wrist over its range, the
+    elevation of the higher elbow above its shoulder, each (F,) in radians, and the greatest depth (F,) in metres of
+    forearms and hands in the body.
     """
     still = replace(player.still.for_frames(len(tipped_rad)), bell_down_rad=tipped_rad)
     curves = ContactCurves(still, {}, {}, np.zeros(len(tipped_rad)), placed)
     curves = replace(curves, body=body_with_help(player, still, needs(player, curves)))
-    arms = solve_arms(player, curves, upper_body(player, curves))
+    upper = upper_body(player, curves)
+    arms, left = solve_arms(player, curves, upper), remaining(player, curves, upper)
     bent, raised = np.zeros(len(tipped_rad)), np.full(len(tipped_rad), -np.inf)
     for hand in player.grip.hands:
         limb = arm(player.skeleton, hand.side)
@@ -67,4 +74,4 @@ def _wrists_and_elbows(
         along_m = player.skeleton.offsets_m[limb.lower]
         up_m = quaternion.rotate(quaternion.multiply(arms[clavicle], arms[limb.upper]), along_m)[:, 1]
         raised = np.maximum(raised, np.arcsin(up_m / np.linalg.norm(along_m)))
-    return bent, raised
+    return bent, raised, np.full(len(bent), -np.inf) if left is None else left.depth_m

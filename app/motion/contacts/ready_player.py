@@ -12,6 +12,7 @@ from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.carried_instrument import InstrumentTransform
+from app.motion.contacts.clear_carriage import carried_clear
 from app.motion.contacts.instrument_put_aside import Aside
 from app.motion.contacts.instrument_tipping import with_bell_room
 from app.motion.contacts.solve import PlayerBody
@@ -23,6 +24,7 @@ from app.rig.grip.carriage import carrying
 from app.rig.grip.grip_pose import GripPose, Lips
 from app.rig.grip.lifted_fingers import with_curved_fingers
 from app.rig.model import Character, Skeleton
+from app.rig.trunk_shape import TrunkShape, trunk_shape
 from instrument_maps.map_table import Posture as PostureName
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_skeleton
@@ -61,11 +63,18 @@ def player_body(
     that equal bodies in equal postures share one object.
     """
     curved = _CURVED.step(_curved, grip, character.skeleton)
-    return _PLAYERS.step(_made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body)
+    return _PLAYERS.step(
+        _made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body, trunk_shape(character)
+    )
 
 
 def _made(
-    posture_name: str, instrument_map: InstrumentMap, skeleton: Skeleton, grip: GripPose, body: Body
+    posture_name: str,
+    instrument_map: InstrumentMap,
+    skeleton: Skeleton,
+    grip: GripPose,
+    body: Body,
+    shape: TrunkShape | None,
 ) -> PlayerBody:
     named = cast(PostureName, posture_name)
     carriage = instrument_map.hold.carriage(named)
@@ -83,9 +92,10 @@ def _made(
         grip_of_lips_m=_grip_of_lips(grip.lips, body.embouchure[instrument_map.embouchure.kind]),
         water=instrument_map.water,
         stopped=instrument_map.stopped,
+        shape=shape,
         wrists=wrists_of(body, load_skeleton()),
     )
-    return with_bell_room(made.standing_on(instrument_map.endpin))
+    return with_bell_room(carried_clear(made.standing_on(instrument_map.endpin)))
 
 
 def _grip_of_lips(lips: Lips, embouchure: EmbouchureWeights) -> FloatArray:

@@ -8,6 +8,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
+from app.motion.contacts.arms_off_trunk import Outward
 from app.motion.contacts.help_for_far_hands import Help
 from app.motion.curves.soft_bounds import softly_capped
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
@@ -18,6 +19,8 @@ end.
 """
 SHOULDER_EASE_S = 0.05
 """Same time in seconds for the shoulder, which is lighter."""
+OUT_EASE_S = 0.28
+"""Seconds before an elbow has to be clear of the trunk at which it begins to move, and after at which it is back."""
 ROOM_EASE_S = 0.06
 """Seconds in which the help recedes for a hand that comes near."""
 HELP_EASE_RAD = 0.06
@@ -52,6 +55,15 @@ def smoothed_help(parts: list[Help], half: int) -> Help:
             side: _held_back([part.most_protraction_rad[side] for part in parts], quick) for side in sides
         },
     )
+
+
+def smoothed_outward(outward: Outward, half: int) -> dict[str, FloatArray]:
+    """Return the turn (F,) of each elbow out of the trunk's way, by side, in radians: early, slow, and no farther than
+    its wrist allows."""
+    turns_rad: dict[str, FloatArray] = {}
+    for side, needed_rad in outward.needed_rad.items():
+        turns_rad[side] = with_room(_eased(needed_rad, half), _held_back([outward.most_rad[side]], half))
+    return turns_rad
 
 
 def turned_to_far_hand(motion: BodyMotion, turn: FloatArray, aside_per_turn: float) -> BodyMotion:

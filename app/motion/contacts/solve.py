@@ -13,6 +13,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.arms import solve_arms
+from app.motion.contacts.arms_off_trunk import Outward, outward
 from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.controls_within_reach import controls_within_reach
 from app.motion.contacts.endpin import EndpinStand
@@ -22,8 +23,10 @@ from app.motion.contacts.help_for_far_hands import TURN_RAD, Help, needed_help, 
 from app.motion.contacts.instrument_put_aside import AsidePlace
 from app.motion.contacts.shares_of_help import (
     HELP_EASE_S,
+    OUT_EASE_S,
     leaned_to_far_hand,
     smoothed_help,
+    smoothed_outward,
     turned_to_far_hand,
     with_room,
 )
@@ -51,6 +54,8 @@ from instrument_maps.model import Endpin
 
 CHUNK = 4096
 """Number of frames solved at a time, so that they fit the processor's cache."""
+OUT_SEEN_S = 0.07
+"""Interval in seconds at which the turns of elbows away from the trunk are computed."""
 LEAST_DRAWN_M = 0.01
 """Least divisor in metres for the effect of the help, if the help has hardly any."""
 LEAST_LEANT_M = 0.005
@@ -119,10 +124,17 @@ class PlayerBody(StillPlayer):
 
 def padding_frames(fps: Fraction) -> int:
     """Number of additional frames that `solve` needs before and after the requested ones."""
-    return 2 * math.ceil(HELP_EASE_S * fps)
+    return 2 * math.ceil(HELP_EASE_S * fps) + 2 * math.ceil(OUT_EASE_S * fps) + _seen_every(fps)
 
 
-def solve(player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_s: float, every: int = 1) -> Motion:
+def _seen_every(fps: Fraction) -> int:
+    """Frames apart at which it is seen how far elbows have to go out."""
+    return max(1, math.floor(OUT_SEEN_S * fps))
+
+
+def solve(
+    player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_s: float, every: int = 1, first_frame: int = 0
+) -> Motion:
     """Compute all poses of a player from curves, including contacts.
 
     Parameters
@@ -133,15 +145,37 @@ def solve(player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_
         Time of the first requested frame.
     every : int
         Compute poses only for every n-th frame; smoothing still uses all frames.
+    first_frame : int
+        Number of the first requested frame.
     """
     pad = padding_frames(fps)
     uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
     needed = [_needs(player, curves[part], upper) for part, upper in zip(_parts(len(curves)), uppers, strict=True)]
-    given = smoothed_help(needed, pad // 2)
+    given = smoothed_help(needed, math.ceil(HELP_EASE_S * fps))
     curves = replace(curves, body=body_with_help(player, curves.body, given))
+    if given.moves_trunk:
+        uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
+    if player.shape is not None:
+        curves = replace(curves, body=_with_elbows_out(player, curves, joined(uppers), fps, first_frame - pad))
     asked = slice(pad, len(curves) - pad, every)
-    known = None if given.moves_trunk else joined(uppers)[asked]
-    return poses(player, curves[asked], fps / every, first_frame_s, known)
+    return poses(player, curves[asked], fps / every, first_frame_s, joined(uppers)[asked])
+
+
+def _with_elbows_out(
+    player: PlayerBody, curves: ContactCurves, upper: UpperBody, fps: Fraction, first_frame: int
+) -> BodyMotion:
+    """Body motion with elbows smoothly turned out of the trunk's way. It is seen at the same frames in every span."""
+    apart, frames = _seen_every(fps), np.arange(len(curves))
+    seen = slice(-first_frame % apart, len(curves), apart)
+    found = outward(player, curves[seen], upper[seen])
+    if found is None:
+        return curves.body
+    needed_rad, most_rad = (
+        {side: np.interp(frames, frames[seen], turn) for side, turn in turns.items()}
+        for turns in (found.needed_rad, found.most_rad)
+    )
+    turned_rad = smoothed_outward(Outward(needed_rad, most_rad), math.ceil(OUT_EASE_S * fps))
+    return replace(curves.body, elbow_out_rad=turned_rad)
 
 
 def poses(
@@ -290,6 +324,17 @@ def body_with_help(player: PlayerBody, motion: BodyMotion, help_given: Help) -> 
     if np.any(turn):
         motion = turned_to_far_hand(motion, turn, player.aside_per_turn)
     return replace(motion, protraction_rad=protraction)
+
+
+def with_elbows_out(player: PlayerBody, curves: ContactCurves) -> BodyMotion:
+    """Body motion with elbows turned out of the trunk's way, each frame by itself; parameters as in `outward`."""
+    needed = outward(player, curves, upper_body(player, curves))
+    if needed is None:
+        return curves.body
+    turns_rad: dict[str, FloatArray] = {
+        side: np.minimum(turn, needed.most_rad[side]) for side, turn in needed.needed_rad.items()
+    }
+    return replace(curves.body, elbow_out_rad=turns_rad)
 
 
 def _drawn_m(player: PlayerBody) -> float:

@@ -16,6 +16,7 @@ from app.motion.contacts.trunk_and_legs import Side, Stance, Trunk
 from app.motion.contacts.wrists import ANYWHERE, BellRoom, Wrist
 from app.rig.grip.grip_pose import GripPose, StationBlend
 from app.rig.model import Skeleton
+from app.rig.trunk_shape import TrunkShape
 from instrument_maps.hold import Carriage, LoweredPlace
 from instrument_maps.wind import Stopped, Water
 
@@ -44,6 +45,7 @@ class StillPlayer:
     bell_room: BellRoom = ANYWHERE
     water: Water | None = None
     stopped: Stopped | None = None
+    shape: TrunkShape | None = None
 
     @property
     def steps(self) -> bool:

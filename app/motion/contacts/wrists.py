@@ -60,13 +60,13 @@ class Wrist:
         aside: FloatArray = np.ascontiguousarray(self._swing(hand)) @ self.axes[1]
         return aside
 
-    def outside_rad(self, hand: FloatArray) -> FloatArray:
+    def outside_rad(self, hand: FloatArray, *, within: bool = False) -> FloatArray:
         """Largest angle (F,) in radians by which the hand's rotation relative to the forearm (F, 4) exceeds the wrist's
-        ranges; 0 within them.
+        ranges; 0 within them, or, with ``within``, minus the angle that is left to the nearest limit.
         """
         bent = np.ascontiguousarray(self._swing(hand)) @ self.axes.T
-        outside: FloatArray = np.maximum(0.0, np.maximum(bent - self.high_rad, self.low_rad - bent)).max(axis=1)
-        return outside
+        outside: FloatArray = np.maximum(bent - self.high_rad, self.low_rad - bent).max(axis=1)
+        return outside if within else np.maximum(0.0, outside)
 
     def _swing(self, hand: FloatArray) -> FloatArray:
         """Bend of the hand without its twist, as rotation vectors (F, 3), given its rotation (F, 4) relative to the

@@ -55,7 +55,7 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
         for name, mark in character.landmarks.items()
     }
     id, meshes = dressed_id(character.id, person, choice), (*own, *garments)
-    return replace(character, id=id, meshes=meshes, landmarks=landmarks)
+    return replace(character, id=id, meshes=meshes, landmarks=landmarks, undressed=character)
 
 
 def _on(garments: Sequence[Mesh], character: Character, mark: Landmark) -> Landmark:

@@ -1,0 +1,218 @@
+"""Keeps forearms out of trunk and thighs: the elbow goes outwards about the line from shoulder to hand.
+
+The hand stays where the instrument has it. The elbow goes as far as it takes, and no farther than the wrist's range
+allows. Each frame is computed independently, and continuously in its pose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.arrays import FloatArray, IndexArray
+from app.motion.contacts.arms import SolvedArm, solved_arms
+from app.motion.contacts.still_player import ContactCurves, StillPlayer
+from app.motion.contacts.trunk_and_legs import Side, solve_legs
+from app.motion.contacts.upper_body import UpperBody
+from app.motion.contacts.wrists import Wrist
+from app.rig import quaternion
+from app.rig.ik import end_of
+from app.rig.model import Skeleton
+from app.rig.trunk_shape import ALONG, BEYOND_M, TrunkShape
+
+MOST_RAD = float(np.deg2rad(70.0))
+"""Most an elbow goes outwards."""
+TRIED = 9
+"""Angles up to there at which it is seen whether the forearm is inside."""
+CLOTH_M = 0.012
+"""Room that is kept: a jacket is about so much thicker than a shirt ..."""
+EASE_M = 0.012
+"""... and the width over which a forearm counts more and more as inside."""
+SLACK_M = 0.006
+"""Depth beyond the least possible one that is accepted."""
+BENT_RAD = float(np.deg2rad(4.0))
+"""Angle before the end of its range over which a wrist lets the elbow go less and less."""
+PALM, PALM_M = np.array([0.5, 1.0]), 0.02
+"""Places between wrist and knuckles, and about how thick the hand is there."""
+LEAST_ROOM_RAD = float(np.deg2rad(0.5))
+"""Least such angle, also for a wrist that is at the end of its range already."""
+
+
+@dataclass(frozen=True, eq=False)
+class TrunkPose:
+    """A body's trunk and thighs at some frames: rotation (F, 4) and position (F, 3) of each joint of the shape."""
+
+    shape: TrunkShape
+    rotations: tuple[FloatArray, ...]
+    positions_m: tuple[FloatArray, ...]
+
+    @classmethod
+    def of(cls, shape: TrunkShape, skeleton: Skeleton, upper: UpperBody, legs: Mapping[int, FloatArray]) -> TrunkPose:
+        """Pose a trunk and its thighs.
+
+        Parameters
+        ----------
+        legs : mapping of int to (F, 4)
+            Rotations of the thighs by joint, as solved.
+        """
+        local, hips = {**upper.trunk.local, **legs}, skeleton.index("hips")
+        world = {hips: (upper.hips, upper.hips_m)}
+
+        def placed(joint: int) -> tuple[FloatArray, FloatArray]:
+            if joint not in world:
+                above, above_m = placed(skeleton.parents[joint])
+                turn = quaternion.multiply(above, local[joint]) if joint in local else above
+                world[joint] = turn, above_m + quaternion.rotate(above, skeleton.offsets_m[joint])
+            return world[joint]
+
+        rotations, positions_m = zip(*map(placed, shape.joints), strict=True)
+        return cls(shape, rotations, positions_m)
+
+    def depths_m(self, frames: IndexArray, points_m: FloatArray) -> FloatArray:
+        """Return the depth (K, P) of P points (K, P, 3) in each of K frames; at least minus `BEYOND_M`."""
+        deepest = np.full(points_m.shape[:2], -BEYOND_M)
+        for number, (rotation, position_m) in enumerate(zip(self.rotations, self.positions_m, strict=True)):
+            matrix = quaternion.to_matrix(rotation[frames])
+            local_m = np.matmul(points_m - position_m[frames, None], matrix)
+            low_m = self.shape.corners_m[number]
+            high_m = low_m + self.shape.sizes_m[number]
+            near = ((local_m > low_m) & (local_m < high_m)).all(axis=2)
+            if near.any():
+                deepest[near] = np.maximum(deepest[near], self.shape.depths_m(number, local_m[near]))
+        return deepest
+
+
+@dataclass(frozen=True)
+class Outward:
+    """Turns of the elbows away from the trunk at some frames, by side.
+
+    Attributes
+    ----------
+    needed_rad : dict of side to (F,) float64
+        Turn about the line from shoulder to hand that takes a forearm out of the trunk.
+    most_rad : dict of side to (F,) float64
+        Turn up to which the wrist stays in its range.
+    """
+
+    needed_rad: dict[Side, FloatArray]
+    most_rad: dict[Side, FloatArray]
+
+
+def outward(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> Outward | None:
+    """Find how far elbows have to go outwards, frame by frame; None for a body of unknown shape.
+
+    Parameters
+    ----------
+    curves : ContactCurves
+        Curves with all other help for far hands.
+    """
+    if player.shape is None:
+        return None
+    needed_rad, most_rad = dict[Side, FloatArray](), dict[Side, FloatArray]()
+    legs = solve_legs(player.place, player.skeleton, upper.hips_m, upper.hips, curves.body.feet)
+    posed = TrunkPose.of(player.shape, player.skeleton, upper, legs)
+    away = player.away(curves.body, upper.carried)
+    for side, solved in solved_arms(player, curves, upper, None, away).items():
+        needed_rad[side], most_rad[side] = _outward_rad(posed, side, solved, player.wrists[side])
+    return Outward(needed_rad, most_rad)
+
+
+@dataclass(frozen=True)
+class Remaining:
+    """Depth of arms in the body and bend of wrists at some frames, after elbows have gone outwards; each (F,) float64.
+
+    Attributes
+    ----------
+    depth_m : array
+        Greatest depth of a forearm or hand in trunk and thighs; negative: room.
+    bent_rad : array
+        Greatest excess of a wrist over its range.
+    """
+
+    depth_m: FloatArray
+    bent_rad: FloatArray
+
+
+def remaining(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> Remaining | None:
+    """Return depth and bend after elbows have gone outwards; None for a body of unknown shape. Parameters as in
+    `outward`."""
+    going = outward(player, curves, upper)
+    if going is None or player.shape is None:
+        return None
+    turns_rad: dict[str, FloatArray] = {
+        side: np.minimum(needed, going.most_rad[side]) for side, needed in going.needed_rad.items()
+    }
+    curves = replace(curves, body=replace(curves.body, elbow_out_rad=turns_rad))
+    legs = solve_legs(player.place, player.skeleton, upper.hips_m, upper.hips, curves.body.feet)
+    posed = TrunkPose.of(player.shape, player.skeleton, upper, legs)
+    depth_m, bent_rad = np.full(len(curves), -BEYOND_M), np.zeros(len(curves))
+    frames = np.arange(len(curves))
+    for side, solved in solved_arms(player, curves, upper).items():
+        forearm = _Forearm.of(side, solved, posed)
+        depth_m = np.maximum(depth_m, forearm.inside_m(frames, forearm.elbow_m))
+        hand_m = player.skeleton.offsets_m[player.skeleton.index(f"{side}MiddleProximal")]
+        palm_m = forearm.wrist_m[:, None] + quaternion.rotate(solved.hand[:, None], hand_m * PALM[:, None])
+        depth_m = np.maximum(depth_m, (posed.depths_m(frames, palm_m) + PALM_M + CLOTH_M).max(axis=1))
+        bent_rad = np.maximum(bent_rad, player.wrists[side].outside_rad(solved.pose.end))
+    return Remaining(depth_m, bent_rad)
+
+
+@dataclass(frozen=True, eq=False)
+class _Forearm:
+    """A solved forearm beside a posed trunk; positions (F, 3) of shoulder and wrist, and of the elbow from the
+    shoulder, in metres."""
+
+    posed: TrunkPose
+    thick_m: FloatArray
+    shoulder_m: FloatArray
+    elbow_m: FloatArray
+    wrist_m: FloatArray
+
+    @classmethod
+    def of(cls, side: Side, solved: SolvedArm, posed: TrunkPose) -> _Forearm:
+        """Return the forearm of a solved arm."""
+        pose, limb, shoulder_m = solved.pose, solved.limb, solved.shoulder.joint_m
+        elbow_m = quaternion.rotate(pose.bones[0], limb.upper_vector_m)
+        wrist_m = shoulder_m + elbow_m + quaternion.rotate(pose.bones[1], limb.lower_vector_m)
+        return cls(posed, posed.shape.radii_m[side] + CLOTH_M, shoulder_m, elbow_m, wrist_m)
+
+    def inside_m(self, frames: IndexArray, elbow_m: FloatArray) -> FloatArray:
+        """Return the greatest depth (K,) in K frames with elbows at ``elbow_m`` (K, 3) from the shoulder."""
+        elbow_m = self.shoulder_m[frames] + elbow_m
+        points_m = elbow_m[:, None] + ALONG[:, None] * (self.wrist_m[frames] - elbow_m)[:, None]
+        return np.asarray((self.posed.depths_m(frames, points_m) + self.thick_m).max(axis=1))
+
+
+def _outward_rad(posed: TrunkPose, side: Side, solved: SolvedArm, wrist: Wrist) -> tuple[FloatArray, FloatArray]:
+    """Return an arm's needed and greatest turn, each (F,)."""
+    sign, forearm = (1.0 if side == "left" else -1.0), _Forearm.of(side, solved, posed)
+    elbow_m, count = forearm.elbow_m, len(solved.line)
+    needed_rad, most_rad = np.zeros(count), np.full(count, MOST_RAD)
+    depth_m = forearm.inside_m(np.arange(count), elbow_m)
+    frames = np.flatnonzero(depth_m > -EASE_M)
+    if not len(frames):
+        return needed_rad, most_rad
+    angles = np.linspace(0.0, MOST_RAD, TRIED)
+    depths_m, outside_rad = [depth_m[frames]], []
+    for angle in angles:
+        turn = quaternion.from_axis_angle(solved.line[frames], np.full(len(frames), sign * angle))
+        if angle:
+            depths_m.append(forearm.inside_m(frames, quaternion.rotate(turn, elbow_m[frames])))
+        lower = quaternion.multiply(turn, solved.pose.bones[1][frames])
+        outside_rad.append(wrist.outside_rad(end_of(solved.limb, lower, solved.hand[frames]), within=True))
+    depths, bent = np.stack(depths_m), np.stack(outside_rad)
+    # Where it stays inside at every angle, nearly the least depth is good enough.
+    over = depths - np.maximum(depths.min(axis=0) + SLACK_M, 0.0)
+    needed_rad[frames] = _turned(np.clip(1.0 + over / EASE_M, 0.0, 1.0), angles)
+    room_rad = np.maximum(-bent[0], LEAST_ROOM_RAD)
+    free = 1.0 - np.clip((bent - np.maximum(bent[0], -BENT_RAD)) / np.minimum(room_rad, BENT_RAD), 0.0, 1.0)
+    most_rad[frames] = _turned(np.minimum.accumulate(free, axis=0), angles)
+    return needed_rad, most_rad
+
+
+def _turned(going: FloatArray, angles: FloatArray) -> FloatArray:
+    """Return the turn (F,) that goes on at each of A angles by a share (A, F)."""
+    turned: FloatArray = 0.5 * (going[1:] + going[:-1]).sum(axis=0) * (angles[1] - angles[0])
+    return turned

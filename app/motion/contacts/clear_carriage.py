@@ -1,0 +1,105 @@
+"""Carries an instrument a little away from a body whose forearms and hands would be inside it, within its ranges."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import msgspec
+import numpy as np
+
+from app.arrays import FloatArray
+from app.motion.contacts.arms_off_trunk import Remaining, remaining
+from app.motion.contacts.solve import PlayerBody, body_with_help, needs
+from app.motion.contacts.still_player import ContactCurves
+from app.motion.contacts.upper_body import upper_body
+from instrument_maps.map_table import Vector
+
+SHARES = np.array([0.0, -0.4, 0.4, -0.8, 0.8])
+"""Shares of the way to the ends of a range that are tried; the rest of it is for the motion."""
+AHEAD_M = np.linspace(0.0, 0.10, 6)
+"""Distances ahead of its usual place at which a lowered instrument is tried."""
+ROOM_M, LOW_ROOM_M = 0.008, 0.004
+"""Room that a still body leaves for the motion: with the instrument at the lips, and lowered."""
+BENT_M_PER_RAD = float(0.010 / np.deg2rad(1.0))
+"""A wrist beyond its range is as bad as so deep an arm."""
+OFF_M = 0.006
+"""Depth that counts as much as an instrument at the end of a range."""
+
+
+def carried_clear(player: PlayerBody) -> PlayerBody:
+    """Return the player with an instrument that leaves room between forearms, hands and body: held at other angles at
+    the lips, and lowered farther ahead.
+
+    Unchanged where there is room, or where the instrument rests on something.
+    """
+    if player.shape is None or player.stand is not None:
+        return player
+    return _lowered_clear(_played_clear(player))
+
+
+def _played_clear(player: PlayerBody) -> PlayerBody:
+    carriage = player.carriage
+    ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
+    usual = _left(player, np.zeros((1, 3)), ranges)
+    if usual is None or usual.depth_m[0] <= -ROOM_M:
+        return player
+    best = np.zeros(3)
+    for axis in range(3):
+        tried = np.tile(best, (len(SHARES), 1))
+        tried[:, axis] = SHARES
+        left = _left(player, tried, ranges)
+        assert left is not None
+        best = tried[int(np.argmin(_cost_m(left, ROOM_M) + OFF_M * np.abs(tried).sum(axis=1)))]
+    if not best.any():
+        return player
+    pitch, yaw, roll = (_shifted(one, share) for one, share in zip(ranges, best.tolist(), strict=True))
+    moved = msgspec.structs.replace(carriage, pitch_down_deg=pitch, yaw_left_deg=yaw, roll_left_deg=roll)
+    return replace(player, carriage=moved)
+
+
+def _lowered_clear(player: PlayerBody) -> PlayerBody:
+    found: list[tuple[float, PlayerBody]] = []
+    for ahead_m in AHEAD_M.tolist():
+        left_m, up_m, forward_m = player.lowered.offset_m
+        lowered = msgspec.structs.replace(player.lowered, offset_m=(left_m, up_m, forward_m + ahead_m))
+        tried = replace(player, lowered=lowered) if ahead_m else player
+        left = _remaining(tried, ContactCurves(replace(player.still, lowered=np.ones(1)), {}, {}, np.zeros(1)))
+        if left is None or (not ahead_m and left.depth_m[0] <= -LOW_ROOM_M):
+            return player
+        found.append((float(_cost_m(left, LOW_ROOM_M)[0]) + OFF_M * ahead_m / float(AHEAD_M[-1]), tried))
+    return min(found, key=lambda one: one[0])[1]
+
+
+def _left(player: PlayerBody, shares: FloatArray, ranges: tuple[Vector, Vector, Vector]) -> Remaining | None:
+    """Return depth and bend with the instrument held at angles by shares (N, 3) of its ranges, as N frames."""
+    added_rad = {}
+    for name, values, (low, usual, high), sign in zip(
+        ("pitch", "yaw", "roll"), shares.T, ranges, (-1.0, 1.0, 1.0), strict=True
+    ):
+        added_rad[name] = sign * np.deg2rad(np.where(values > 0.0, high - usual, usual - low) * values)
+    # A hand that its control moves: near, and far.
+    moving = [hand.motion.control for hand in player.grip.hands if hand.motion is not None]
+    times = 2 if moving else 1
+    count = times * len(shares)
+    still = replace(
+        player.still.for_frames(count), bell_held_rad={name: np.tile(rad, times) for name, rad in added_rad.items()}
+    )
+    far = {control: np.repeat([0.0, 1.0], len(shares)) for control in moving}
+    left = _remaining(player, ContactCurves(still, far, {}, np.zeros(count)))
+    if left is None or not moving:
+        return left
+    return Remaining(*(np.maximum(*values.reshape(2, -1)) for values in (left.depth_m, left.bent_rad)))
+
+
+def _remaining(player: PlayerBody, curves: ContactCurves) -> Remaining | None:
+    curves = replace(curves, body=body_with_help(player, curves.body, needs(player, curves)))
+    return remaining(player, curves, upper_body(player, curves))
+
+
+def _cost_m(left: Remaining, room_m: float) -> FloatArray:
+    return np.maximum(left.depth_m + room_m, 0.0) + BENT_M_PER_RAD * left.bent_rad
+
+
+def _shifted(range_deg: Vector, share: float) -> Vector:
+    low, usual, high = range_deg
+    return (low, usual + share * (high - usual if share > 0.0 else usual - low), high)

@@ -1,0 +1,214 @@
+"""Shape of a body's trunk and thighs in its own clothes, as signed distances near each joint, and of its forearms."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray, IndexArray, SingleArray
+from app.identity_cache import IdentityCache
+from app.rig.ik import Side
+from app.rig.mesh import Mesh
+from app.rig.model import Character
+from app.rig.skeleton import rest_positions
+from metadata.load import load_skeleton
+
+TRUNK: Final = ("hips", "spine", "chest", "upperChest", "leftUpperLeg", "rightUpperLeg")
+ALONG: Final = np.array([0.1, 0.325, 0.55, 0.775, 1.0])
+"""Places between elbow and wrist whose distance from the trunk counts."""
+CELL_M: Final = 0.025
+BEYOND_M: Final = 0.10
+"""Distances are known up to here outside the skin, and beyond a joint's own skin."""
+_DEEPEST_M: Final = 0.15
+_ASIDE_M: Final = 0.02
+"""A point farther aside of the nearest vertex is beyond an edge, as under a hem, and is less and less inside."""
+_HELD: Final = 0.9
+"""Share of a vertex that trunk, or forearm, must hold: what hangs between both is neither."""
+_OWN: Final = 0.3
+"""Share of a vertex by which it is a joint's own."""
+_OUTWARDS: Final = 0.3
+"""Normals that point less away from a joint's middle line are those of edges and linings."""
+_FEWEST: Final = 40
+"""Vertices of a mesh below which it is a button."""
+_THICK_PERCENT, _THICK_SPAN = 85.0, 0.15
+_USUAL_RADII_M: Final = (0.045, 0.045, 0.04, 0.035, 0.03)
+
+
+@dataclass(frozen=True, eq=False)
+class TrunkShape:
+    """Trunk and forearms of a body.
+
+    Attributes
+    ----------
+    joints : tuple of int
+        Joints of trunk and thighs that hold skin or clothes.
+    corners_m : tuple of (3,) float64
+        By joint: lowest corner of its grid in the joint's frame.
+    grids_m : tuple of (X, Y, Z) float32
+        By joint: depth inside the surface, `CELL_M` apart; negative outside.
+    radii_m : dict of side to (P,) float64
+        Thickness of a forearm in its sleeve at `ALONG`.
+    """
+
+    joints: tuple[int, ...]
+    corners_m: tuple[FloatArray, ...]
+    grids_m: tuple[SingleArray, ...]
+    radii_m: dict[Side, FloatArray]
+
+    @cached_property
+    def sizes_m(self) -> tuple[FloatArray, ...]:
+        """Size (3,) of each joint's grid."""
+        return tuple((np.array(grid.shape) - 1) * CELL_M for grid in self.grids_m)
+
+    def depths_m(self, number: int, points_m: FloatArray) -> FloatArray:
+        """Return the depth (N,) inside the surface of points (N, 3) in the frame of ``joints[number]``.
+
+        It is negative outside, where `BEYOND_M` and more are not distinguished.
+        """
+        from scipy.ndimage import map_coordinates  # heavy: a window is up before any body is
+
+        places = (points_m - self.corners_m[number]).T / CELL_M
+        found: FloatArray = map_coordinates(
+            self.grids_m[number], places, np.float64, order=1, mode="constant", cval=-BEYOND_M
+        )
+        return found
+
+
+_SHAPES: IdentityCache[TrunkShape | None] = IdentityCache(128)
+
+
+def trunk_shape(character: Character) -> TrunkShape | None:
+    """Return the shape of a character in its own clothes, cached; None for one without a trunk of skin or clothes."""
+    return _SHAPES.step(_made, character.undressed or character)
+
+
+def _made(character: Character) -> TrunkShape | None:
+    names = [name for name in TRUNK if name in character.skeleton.names]
+    shares = [
+        np.stack([_share(mesh, _holders(character, (name,), TRUNK)) for name in names], axis=1)
+        for mesh in character.meshes
+    ]
+    used = [np.isin(np.arange(len(mesh.positions_m)), mesh.triangles) for mesh in character.meshes]
+    surfaces = [
+        _surface(character, names, mesh, share, np.flatnonzero((share.sum(axis=1) >= _HELD) & seen))
+        for mesh, share, seen in zip(character.meshes, shares, used, strict=True)
+    ]
+    surfaces = [one for one in surfaces if len(one.places_m) >= _FEWEST]
+    if not surfaces:
+        return None
+    places_m = np.concatenate([one.places_m for one in surfaces])
+    corner_m = places_m.min(axis=0) - BEYOND_M
+    count = np.ceil((places_m.max(axis=0) + BEYOND_M - corner_m) / CELL_M).astype(int) + 1
+    depths_m, rest_m = _depths_m(surfaces, corner_m, count), rest_positions(character.skeleton)
+    joints, corners_m, grids_m = [], [], []
+    for number, name in enumerate(names):
+        own_m = np.concatenate([one.places_m[one.shares[:, number] >= _OWN] for one in surfaces])
+        if len(own_m) < _FEWEST:
+            continue
+        first = np.floor((own_m.min(axis=0) - BEYOND_M - corner_m) / CELL_M).astype(int).clip(0)
+        last = np.ceil((own_m.max(axis=0) + BEYOND_M - corner_m) / CELL_M).astype(int) + 1
+        joint = character.skeleton.index(name)
+        joints.append(joint)
+        corners_m.append(corner_m + first * CELL_M - rest_m[joint])
+        grids_m.append(_ending(depths_m[tuple(map(slice, first, last))]))
+    radii_m: dict[Side, FloatArray] = {side: _radii_m(character, side) for side in ("left", "right")}
+    return TrunkShape(tuple(joints), tuple(corners_m), tuple(grids_m), radii_m)
+
+
+@dataclass(frozen=True, eq=False)
+class _Surface:
+    """Vertices of a mesh that the trunk holds: place (V, 3) and normal (V, 3) in the T-pose, and share (V, T) of each
+    of T joints."""
+
+    places_m: FloatArray
+    normals: FloatArray
+    shares: FloatArray
+
+
+def _surface(character: Character, names: Sequence[str], mesh: Mesh, shares: FloatArray, held: IndexArray) -> _Surface:
+    """Pose the vertices of a mesh, each with the joint that holds most of it, without edges and linings."""
+    rest_m, most = rest_positions(character.skeleton), np.argmax(shares[held], axis=1)
+    places_m, normals = np.zeros((len(held), 3)), np.zeros((len(held), 3))
+    outwards = np.zeros(len(held), np.bool_)
+    for number, name in enumerate(names):
+        rows, joint = np.flatnonzero(most == number), character.skeleton.index(name)
+        if not len(rows):
+            continue
+        to_joint = character.joint_from_mesh[joint]
+        places_m[rows] = mesh.positions_m[held[rows]] @ to_joint[:3, :3].T + to_joint[:3, 3] + rest_m[joint]
+        normals[rows] = mesh.normals[held[rows]] @ to_joint[:3, :3].T
+        middle_m = 0.5 * (places_m[rows].min(axis=0) + places_m[rows].max(axis=0))
+        out_m = (places_m[rows] - middle_m)[:, [0, 2]]
+        outwards[rows] = (normals[rows][:, [0, 2]] * out_m).sum(axis=1) > _OUTWARDS * np.linalg.norm(out_m, axis=1)
+    return _Surface(places_m[outwards], normals[outwards], shares[held][outwards])
+
+
+def _holders(character: Character, names: Collection[str], others: Collection[str] = ()) -> BoolArray:
+    """For each joint (J,) whether it is one of those named, or hangs on one without being a human one itself."""
+    human = {joint.name for joint in load_skeleton().joints} | set(others)
+    found: list[bool] = []
+    for name, parent in zip(character.skeleton.names, character.skeleton.parents, strict=True):
+        found.append(name in names or (name not in human and parent >= 0 and found[parent]))
+    return np.array(found)
+
+
+def _share(mesh: Mesh, holders: BoolArray) -> FloatArray:
+    """Share (V,) of each vertex that the joints hold."""
+    return np.asarray(np.where(holders[mesh.joints], mesh.weights, 0.0).sum(axis=1), np.float64)
+
+
+def _depths_m(surfaces: list[_Surface], corner_m: FloatArray, count: IndexArray) -> FloatArray:
+    """Return the depth (X, Y, Z) inside the outermost of some surfaces at the points of a grid."""
+    from scipy.spatial import cKDTree  # heavy: a window is up before any body is
+
+    indices = np.stack(np.meshgrid(*map(np.arange, count), indexing="ij"), axis=-1)
+    deepest_m = np.full(indices.shape[:3], -BEYOND_M)
+    for one in surfaces:
+        first = np.floor((one.places_m.min(axis=0) - BEYOND_M - corner_m) / CELL_M).astype(int).clip(0)
+        last = np.ceil((one.places_m.max(axis=0) + BEYOND_M - corner_m) / CELL_M).astype(int) + 1
+        part = tuple(map(slice, first, last))
+        points_m = corner_m + indices[part].reshape(-1, 3) * CELL_M
+        found = cKDTree(one.places_m).query(points_m, distance_upper_bound=_DEEPEST_M)
+        away_m, nearest = np.asarray(found[0]), np.asarray(found[1])
+        near = np.flatnonzero(np.isfinite(away_m))
+        to_m, away_m = points_m[near] - one.places_m[nearest[near]], away_m[near]
+        inside_m = -np.einsum("pi,pi->p", to_m, one.normals[nearest[near]])
+        aside_m = np.sqrt(np.maximum(away_m**2 - inside_m**2, 0.0))
+        # Beyond an edge, as under a hem, a point is less and less inside.
+        inside_m = np.where(inside_m > 0.0, inside_m - 2.0 * np.maximum(aside_m - _ASIDE_M, 0.0), -away_m)
+        found_m = np.full(len(points_m), -BEYOND_M)
+        found_m[near] = inside_m
+        deepest_m[part] = np.maximum(deepest_m[part], found_m.reshape(deepest_m[part].shape))
+    clipped_m: FloatArray = np.clip(deepest_m, -BEYOND_M, _DEEPEST_M)
+    return clipped_m
+
+
+def _ending(depths_m: FloatArray) -> SingleArray:
+    """Return a grid (X, Y, Z) whose depths end smoothly at its sides."""
+    for axis, count in enumerate(depths_m.shape):
+        to_side = np.minimum(np.arange(count), np.arange(count)[::-1]) * CELL_M - BEYOND_M / 2.0
+        depths_m = np.minimum(depths_m, np.expand_dims(to_side, [other for other in range(3) if other != axis]))
+    ending_m: SingleArray = np.maximum(depths_m, -BEYOND_M).astype(np.float32)
+    return ending_m
+
+
+def _radii_m(character: Character, side: Side) -> FloatArray:
+    """Return the thickness (P,) of a forearm in its sleeve at `ALONG`."""
+    holders = _holders(character, (f"{side}LowerArm",))
+    joint, wrist = (character.skeleton.index(f"{side}{part}") for part in ("LowerArm", "Hand"))
+    to_joint, bone_m = character.joint_from_mesh[joint], character.skeleton.offsets_m[wrist]
+    places_m = np.concatenate(
+        [np.zeros((0, 3))] + [mesh.positions_m[_share(mesh, holders) >= _HELD] for mesh in character.meshes]
+    )
+    places_m = places_m @ to_joint[:3, :3].T + to_joint[:3, 3]
+    along = places_m @ bone_m / float(bone_m @ bone_m)
+    out_m = np.linalg.norm(places_m - along[:, None] * bone_m, axis=1)
+    radii_m = []
+    for at, usual_m in zip(ALONG, _USUAL_RADII_M, strict=True):
+        near = np.abs(along - at) < _THICK_SPAN
+        radii_m.append(float(np.percentile(out_m[near], _THICK_PERCENT)) if near.sum() > 4 else usual_m)
+    return np.array(radii_m)

@@ -1,0 +1,56 @@
+"""Shapes of trunks: depths of known points in finished bodies."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.rig.characters.character_library import character_named
+from app.rig.trunk_shape import ALONG, BEYOND_M, TrunkShape, trunk_shape
+
+
+def shape_of(id: str) -> TrunkShape:
+    """Return the shape of a character that has one."""
+    found = trunk_shape(character_named(id))
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("id", ["man_adult", "woman_adult"])
+def test_the_middle_of_a_trunk_is_deep_and_the_air_before_it_is_not(id: str) -> None:
+    """The joints of the spine lie in the body; half a metre ahead there is nothing."""
+    shape, names = shape_of(id), character_named(id).skeleton.names
+    inner = [number for number, joint in enumerate(shape.joints) if names[joint] in ("hips", "spine", "chest")]
+    assert len(inner) == 3
+    for number in inner:
+        middle, ahead = shape.depths_m(number, np.array([[0.0, 0.0, 0.02], [0.0, 0.0, 0.5]]))
+        assert middle > 0.05
+        assert ahead == -BEYOND_M
+
+
+def test_depth_changes_by_no_more_than_the_way() -> None:
+    """From the spine straight ahead the depth falls as the way grows, until it is outside."""
+    shape = shape_of("woman_adult")
+    number = [character_named("woman_adult").skeleton.names[joint] for joint in shape.joints].index("spine")
+    ahead_m = np.linspace(0.09, 0.2, 31)
+    depths_m = shape.depths_m(number, np.stack([np.full(31, 0.06), np.full(31, 0.03), ahead_m], axis=1))
+    assert depths_m[0] > 0.01
+    assert depths_m[-1] < -0.02
+    assert (np.diff(depths_m) < 0.0).all()
+    assert np.abs(np.diff(depths_m)).max() < 0.008
+
+
+def test_sleeves_are_thicker_at_the_elbow() -> None:
+    """A forearm in a shirt has between two and seven centimetres about its bone."""
+    for radii_m in shape_of("man_adult").radii_m.values():
+        assert radii_m.shape == ALONG.shape
+        assert 0.07 > radii_m[0] > radii_m[-1] > 0.02
+
+
+def test_outfits_do_not_change_the_shape() -> None:
+    """A motion is the same in every outfit: the shape is that of the own clothes."""
+    own = character_named("man_adult")
+    assert trunk_shape(replace(own, meshes=(), undressed=own)) is trunk_shape(own)
+    assert trunk_shape(replace(own, meshes=())) is None
