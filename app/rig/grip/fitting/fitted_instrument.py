@@ -34,6 +34,12 @@ REACH_SHARE, CARRIED_SHARE = 0.95, 1.70
 """Greatest distance of a wrist from its shoulder relative to the arm's length; second value for a hand on a slide,
 helped by shoulders and trunk. About the need of adults.
 """
+MOST_ASKED = (1.05, 1.2)
+"""Shares of those distances that an arm of usual length may be asked for; beyond, the mouth is too far from the
+shoulder, as in a head wider than the trunk. Bodies of usual proportions need at most 0.9, with a slide 1.15.
+"""
+LEAST_IN_HANDS = 0.7
+"""Least size of an instrument in hands of usual size, relative to theirs: a smaller one disappears in them."""
 LOWERED, WORTH = (0.0, 0.5, 1.0, -0.5), 0.02
 """Shares of the way to the lowest carriage that are tried, and the least gain in size for one other than the
 default.
@@ -61,7 +67,7 @@ def fitted_to_body(
     Parameters
     ----------
     model : callable
-        Loads the map's model; called only if arms are short.
+        Loads the map's model; called only if a hand's place on it is not known from an adult's grip.
     """
     held, reported = _touched(character, instrument)
     held = _carried(character, held, body, model)
@@ -154,25 +160,40 @@ def _carried(
     character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]
 ) -> InstrumentMap:
     """Return the instrument's map with its size as near to 1 as hands and arms allow, with a lower carriage if that
-    permits a larger size; if the arms do not reach at any size, with the best one.
+    permits a larger size; if short arms do not reach at any size, with the best one.
+
+    Arms of usual length get a smaller instrument only if the mouth is so far from them that they need it, and reach it
+    then: hands beside a larger one at least leave it in sight.
     """
     low, high = instrument.hold.size_range
     hands = _hands(character)
     requested = 1.0 if SAME[0] < hands < SAME[1] else round(min(max(hands, low), high), 2)
-    if min((arm_size(character.skeleton, seed.hand) for seed in instrument.hands), default=1.0) > SAME[0]:
+    mouth, most = fit_lips(character, instrument, body), dict.fromkeys(instrument.hands, 1.0)
+    long = min((arm_size(character.skeleton, seed.hand) for seed in instrument.hands), default=1.0) > SAME[0]
+    if long:
+        slides = {control.node for control in instrument.controls}
+        most = {seed: MOST_ASKED[seed.node in slides] for seed in instrument.hands}
+        low = max(low, round(LEAST_IN_HANDS * requested, 2))
+
+    def asked_of(moved: InstrumentMap, sizes: FloatArray) -> FloatArray:
+        stand = upright(character, moved, body, mouth)
+        shares = [_asked(character, moved, model, seed, stand, sizes) / most[seed] for seed in instrument.hands]
+        return np.asarray(np.max(shares, axis=0))
+
+    if long and (not instrument.hands or float(asked_of(instrument, np.array([requested]))[0]) <= 1.0):
         return scaled(instrument, requested)
     sizes = np.append(np.arange(requested, low, -STEP), low)
-    mouth = fit_lips(character, instrument, body)
     best, found = (-np.inf, 0.0), instrument
     for share in LOWERED:
         moved = _lowered(instrument, share)
-        stand = upright(character, moved, body, mouth)
-        asked = np.max([_asked(character, moved, model, seed, stand, sizes) for seed in moved.hands], axis=0)
+        asked = asked_of(moved, sizes)
         reached = np.flatnonzero(asked <= 1.0)
         row = reached[0] if len(reached) else int(asked.argmin())
         judged = (-max(float(asked[row]), 1.0), float(sizes[row]))
         if judged > (best[0] + WORTH, best[1]) or (judged[0] >= best[0] and judged[1] > best[1] + WORTH):
             best, found = judged, moved
+    if long and best[0] < -1.0:
+        return scaled(instrument, requested)
     return scaled(found, round(best[1], 2))
 
 

@@ -26,7 +26,7 @@ from app.rig.skinning import landmark_positions
 from instrument_maps.load import bundled_maps
 from instrument_maps.size import scaled
 from metadata.load import load_body
-from tests.support.bodies import BODIES, odd_body
+from tests.support.bodies import BODIES, Proportions, odd_body, of_proportions
 from tests.support.models import bundled_instrument
 
 MAPS = bundled_maps()
@@ -79,6 +79,16 @@ def test_a_child_plays_a_smaller_one(instrument_id: str) -> None:
         assert control.travel_m == pytest.approx(size * usual.travel_m)
         assert control.move_window_s == usual.move_window_s
     assert found.instrument.fingerings is whole.fingerings
+
+
+@pytest.mark.parametrize(
+    ("head", "neck", "least", "most"), [(1.8, 1.0, 1.0, 1.0), (3.2, 1.0, 0.7, 0.85), (3.2, 1.6, 1.0, 1.0)]
+)
+def test_a_head_so_large_that_usual_arms_do_not_reach_the_mouth_gets_a_smaller_one_if_that_helps(
+    head: float, neck: float, least: float, most: float
+) -> None:
+    body = of_proportions(character_named("man_adult"), Proportions(head=head, neck=neck), "head")
+    assert least <= suit(body, "trumpet_Bb").instrument.size <= most
 
 
 def test_the_map_says_how_small_its_instrument_may_be() -> None:
