@@ -14,9 +14,11 @@ from app.errors import UsageError
 from app.plan.by_hand.corrections import Correction
 from app.plan.generate import PREROLL_BEATS, usual_preroll
 from app.plan.parameters import Parameter, PlayerParameters, declared
+from app.project.band_in_title import plays_at_school
 from app.project.camera_bookmarks import CameraBookmark
 from app.project.casting import (
     FAR_REACH_M,
+    STUDENT_YEARS,
     ConductorPlace,
     amplitude,
     choose_characters,
@@ -37,7 +39,7 @@ from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
 from app.rig.characters.character_library import our_arm_m, our_characters
-from app.rig.people.bundled_people import not_cast_for
+from app.rig.people.bundled_people import not_cast_for, our_years
 from app.score.instrument_choice import MapChoice
 from app.score.metre_map import MetreMap
 from app.score.model import ControllerCurve, Note, Part, Score
@@ -268,7 +270,7 @@ def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed:
         if part.id in doubled:
             played[doubled[part.id]].append(part)
     mapped = [[maps[one.map_id] for one in played[part.id]] for part in musicians]
-    cast = characters_for([max(each, key=_hand_travel_m) for each in mapped])
+    cast = characters_for([max(each, key=_hand_travel_m) for each in mapped], plays_at_school(score.title))
     places = stage_seats([together(footprint(one) for one in each) for each in mapped])
     bodies = {part.id: (body, place) for part, body, place in zip(musicians, cast, places, strict=True)}
     players = []
@@ -376,12 +378,13 @@ def _require_posture(player: Player, instrument: InstrumentMap) -> None:
         )
 
 
-def characters_for(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:
-    """Choose a character for each instrument, by the reach it requires."""
+def characters_for(instruments: Sequence[InstrumentMap], students: bool = False) -> tuple[str, ...]:
+    """Choose a character for each instrument, by the reach it requires; only young ones if ``students``."""
     travels_m = [_hand_travel_m(instrument) for instrument in instruments]
     # To find out how long an arm is takes a moment, and few instruments ask for it.
     asked = any(travel_m > FAR_REACH_M for travel_m in travels_m)
-    arms_m = {id: our_arm_m(id) if asked else 0.0 for id in our_characters()}
+    people = [id for id in our_characters() if not students or our_years(id) <= STUDENT_YEARS]
+    arms_m = {id: our_arm_m(id) if asked else 0.0 for id in people}
     small = {id: not_cast_for(id) for id in arms_m}
     left_out = [{id for id, names in small.items() if instrument.id in names} for instrument in instruments]
     return choose_characters(travels_m, arms_m, left_out)

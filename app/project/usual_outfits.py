@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
 import msgspec
 
+from app.project.band_in_title import Band, bands_in_title
 from app.project.model import Project
 from app.rig.people.wardrobe import NO_CHOICE, OWN_CLOTHES, OutfitChoice, wardrobe
 from app.score.contents import PieceContents
@@ -16,6 +17,12 @@ from app.score.track_channel import TrackChannel
 from app.score.track_instrument import use_of
 
 CONCERT, JAZZ = "concert_black", "jazz_suit"
+UNIFORMS: Final[Mapping[Band, str]] = {
+    "marching": "marching",
+    "japanese_school": "school_uniform",
+    "school": "school_blazer",
+}
+"""Outfit of each kind of band that a title may name."""
 BASSES: Final = frozenset(range(32, 40))
 CHORDS: Final = frozenset((*range(8), *range(16, 21), *range(24, 32)))
 """General MIDI programs of chord instruments: basses; pianos, organs and guitars."""
@@ -24,7 +31,8 @@ MOST_IN_JAZZ: Final = 18
 
 
 def outfit_of_piece(contents: PieceContents, players: int) -> str:
-    """Return the id of the outfit that suits a piece: for jazz if winds play with a rhythm section, else for a concert.
+    """Return the id of the outfit that suits a piece: the uniform of a band that the title names, else for jazz if
+    winds play with a rhythm section, else for a concert.
 
     Parameters
     ----------
@@ -33,7 +41,8 @@ def outfit_of_piece(contents: PieceContents, players: int) -> str:
     """
     rhythm = any(use_of(channel) == "rhythm" for channel in contents.channels)
     jazz = rhythm and players <= MOST_IN_JAZZ and all(_has(contents.channels, one) for one in (BASSES, CHORDS))
-    wanted = (JAZZ, CONCERT) if jazz else (CONCERT,)
+    uniforms = tuple(UNIFORMS[band] for band in bands_in_title(contents.title))
+    wanted = (*uniforms, *((JAZZ,) if jazz else ()), CONCERT)
     return next((id for id in wanted if id in wardrobe()), OWN_CLOTHES)
 
 

@@ -15,7 +15,7 @@ import msgspec
 from app.formats.textures import Texture, texture_of
 from app.rig.characters.load_character import load_character
 from app.rig.model import Character
-from app.rig.people.body_shapes import Phenotype, body_m, body_shapes
+from app.rig.people.body_shapes import Phenotype, body_m, body_shapes, years_of
 from app.rig.people.make_person import Original, original_of, person_character
 from app.rig.people.moved_joints import arm_after_m
 from app.rig.people.person import Person, PersonName, hair_styles, originals, read_person, skins
@@ -41,6 +41,11 @@ def our_name(id: str) -> PersonName | None:
     """Return the names of a bundled character; None for any other."""
     named = bundled_person(id) if id in bundled_people() else originals().get(id)
     return None if named is None else named.name
+
+
+def our_years(id: str) -> float:
+    """Return the age of a bundled character in years."""
+    return years_of((bundled_person(id).phenotype if id in bundled_people() else originals()[id]).age)
 
 
 def like(id: str, measures: Mapping[str, float]) -> Person:

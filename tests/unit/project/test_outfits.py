@@ -13,7 +13,9 @@ from app.errors import UsageError
 from app.project.edit.outfits import colour_outfit, dress_everyone, give_outfit, with_outfits
 from app.project.edit.players import add_player
 from app.project.importing import import_project, usual_rows
+from app.project.model import characters_for
 from app.project.usual_outfits import common_outfit, outfit_of_piece
+from app.rig.people.bundled_people import our_years
 from app.rig.people.wardrobe import OutfitChoice
 from app.score.contents import PieceContents
 from app.score.read import read_contents
@@ -25,7 +27,7 @@ from tests.unit.project.pieces import full_project, small_project
 @pytest.fixture(scope="module", autouse=True)
 def suits(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     folder = tmp_path_factory.mktemp("wardrobe")
-    for id in ("concert_black", "jazz_suit"):
+    for id in ("concert_black", "jazz_suit", "marching", "school_blazer", "school_uniform"):
         write_outfit(folder / f"{id}.glb", id)
     with wardrobe_in(folder):
         yield
@@ -63,6 +65,41 @@ def test_winds_with_a_rhythm_section_play_jazz() -> None:
         ([0], True, 17, "concert_black"),
     ):
         assert outfit_of_piece(contents_with(programs, drums), players) == worn, (programs, drums, players)
+
+
+@pytest.mark.parametrize(
+    ("title", "worn"),
+    [
+        ("Fall Show 2026 - Lincoln High School Marching Band", "marching"),
+        ("Drum Corps Warm-Up", "marching"),
+        ("県大会 マーチングバンド部門", "marching"),
+        ("Oakfield Middle School Symphonic Band - Warm-ups", "school_blazer"),
+        ("県立西高等学校吹奏楽部 定期演奏会", "school_uniform"),
+        ("第三中学校 校歌", "school_uniform"),
+        ("Wedding March", "concert_black"),
+        ("Stars and Stripes Forever (March)", "concert_black"),
+        ("行進曲「威風堂々」", "concert_black"),
+        ("High School Musical", "concert_black"),
+        ("Old-school funk", "concert_black"),
+        ("", "concert_black"),
+    ],
+)
+def test_a_band_named_in_the_title_wears_its_uniform(title: str, worn: str) -> None:
+    contents = msgspec.structs.replace(read_contents(QUARTET), title=title)
+    assert outfit_of_piece(contents, 17) == worn
+
+
+def test_a_schools_band_is_cast_with_young_people() -> None:
+    def ages(title: str) -> list[float]:
+        contents = msgspec.structs.replace(read_contents(QUARTET), title=title)
+        project = import_project(contents, usual_rows(contents, MAPS), MAPS)
+        return [our_years(player.character_id) for player in project.players]
+
+    assert max(ages("県立西高等学校吹奏楽部 定期演奏会")) < 26
+    everyone = characters_for([MAPS["flute"]] * 40, students=True)
+    assert {our_years(id) < 26 for id in everyone} == {True}
+    assert len({*everyone}) > 8
+    assert max(our_years(id) for id in characters_for([MAPS["flute"]] * 40)) > 60
 
 
 def test_who_comes_later_wears_what_most_do() -> None:
