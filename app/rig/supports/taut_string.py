@@ -5,12 +5,17 @@ touch.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.arrays import FloatArray
 from app.rig.model import Character
 from app.rig.skinning import patch
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 _TRUNK = ("hips", "spine", "chest", "upperChest", "neck", "leftShoulder", "rightShoulder")
 _LEAST_TRUNK = 0.5
@@ -44,11 +49,15 @@ class PosedTrunk:
     vertices_m: FloatArray
     weights: FloatArray
 
-    def weights_at(self, points_m: FloatArray) -> FloatArray:
-        """Return the joint weights (N, J) for points (N, 3) on the body: the mean of the nearest vertices."""
+    @cached_property
+    def _tree(self) -> cKDTree:
         from scipy.spatial import cKDTree  # heavy: few pieces have straps
 
-        _, near = cKDTree(self.vertices_m).query(points_m, k=min(_NEAR, len(self.vertices_m)))
+        return cKDTree(self.vertices_m)
+
+    def weights_at(self, points_m: FloatArray) -> FloatArray:
+        """Return the joint weights (N, J) for points (N, 3) on the body: the mean of the nearest vertices."""
+        _, near = self._tree.query(points_m, k=min(_NEAR, len(self.vertices_m)))
         found: FloatArray = self.weights[near.reshape(len(points_m), -1)].mean(axis=1)
         return found
 
