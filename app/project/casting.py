@@ -42,8 +42,8 @@ differ).
 
 FAR_REACH_M = 0.4
 """Travel in metres of a hand that works at the end of an arm."""
-STUDENT_YEARS = 25.0
-"""Greatest age at which people are cast in a school's band."""
+STUDENT_YEARS = (14.0, 28.0)
+"""Ages of people who are cast in a school's band."""
 LONG_ARMS = 0.9
 """Length of arms that count as long, relative to the longest."""
 

@@ -379,11 +379,14 @@ def _require_posture(player: Player, instrument: InstrumentMap) -> None:
 
 
 def characters_for(instruments: Sequence[InstrumentMap], students: bool = False) -> tuple[str, ...]:
-    """Choose a character for each instrument, by the reach it requires; only young ones if ``students``."""
+    """Choose a character for each instrument, by the reach it requires; only people of `STUDENT_YEARS` if
+    ``students``.
+    """
     travels_m = [_hand_travel_m(instrument) for instrument in instruments]
     # To find out how long an arm is takes a moment, and few instruments ask for it.
     asked = any(travel_m > FAR_REACH_M for travel_m in travels_m)
-    people = [id for id in our_characters() if not students or our_years(id) <= STUDENT_YEARS]
+    youngest, oldest = STUDENT_YEARS
+    people = [id for id in our_characters() if not students or youngest <= our_years(id) <= oldest]
     arms_m = {id: our_arm_m(id) if asked else 0.0 for id in people}
     small = {id: not_cast_for(id) for id in arms_m}
     left_out = [{id for id, names in small.items() if instrument.id in names} for instrument in instruments]
