@@ -12,7 +12,7 @@ import msgspec
 
 from app.export.unreal.layout import CONTENT
 from app.export.unreal.names import asset_name
-from app.formats.images import resized
+from app.formats.images import resized, size_px
 from app.formats.scene import Material
 from app.formats.texture_files import TEXTURES_FOLDER
 from app.formats.textures import NO_TEXTURES, AlphaMode, Texture, TextureUse
@@ -32,6 +32,8 @@ class UnrealTexture(msgspec.Struct, frozen=True):
     file: str
     asset: str
     kind: TextureKind
+    px: int = 0
+    """Longest side of the image in pixels: pieces that share the asset may have images of different sizes."""
 
 
 class UnrealMap(msgspec.Struct, frozen=True):
@@ -157,7 +159,8 @@ class Surfaces:
         file = _file(use.texture)
         self._images[file] = use.texture
         asset = f"{CONTENT}/{TEXTURES_FOLDER}/T_{PurePosixPath(file).stem}_{_SUFFIX[kind]}"
-        self._textures[asset] = UnrealTexture(file, asset, kind)
+        px = min(max(size_px(use.texture)), self.texture_px)
+        self._textures[asset] = UnrealTexture(file, asset, kind, px)
         scale, offset = (tuple(map(float, pair)) for pair in (use.scale, use.offset))
         return UnrealMap(asset, (scale[0], scale[1]), (offset[0], offset[1]))
 

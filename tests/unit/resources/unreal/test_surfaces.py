@@ -156,3 +156,35 @@ def test_another_size_renames_nothing_and_none_takes_them_away(shown: Editor) ->
     shown.update_performance()
     assert all("/Materials/" not in path and "/Textures/" not in path for path in shown.studio.assets)
     assert all(material._path == f"{ROOT}/Bodies/{BODY}/{slot}" for slot, material in slots(shown).items())
+
+
+def test_pieces_that_share_a_texture_show_the_largest(shown: Editor) -> None:
+    def imported(piece: str) -> set[str]:
+        return {
+            str(one["filename"])
+            for one in shown.studio.imports[count:]
+            if "/Textures" in one["destination_path"] and f"/{piece}/" in str(one["filename"]).replace("\\", "/")
+        }
+
+    answers = shown.unreal.AppReturnType
+    assert all(one["px"] <= 512 for one in description(shown)["textures"])
+    exported(shown.folder, cast(BODY, BODY), ("Trumpet 1",), source="large.mid", texture_px=1024)
+    larger = {one["asset"]: one["file"] for one in description(shown, "large")["textures"] if one["px"] == 1024}
+    assert larger
+    count = len(shown.studio.imports)
+    shown.studio.answers = [answers.YES_ALL]
+    shown.import_performance()
+    assert {Path(name).name for name in imported("large")} == {Path(name).name for name in larger.values()}
+    # The smaller one comes last, and takes nothing away; it is said.
+    count = len(shown.studio.imports)
+    exported(shown.folder, cast(BODY, BODY), ("Trumpet 1",), texture_px=512, last_bar=2)
+    shown.studio.answers = [answers.YES_ALL]
+    said = shown.update_performance()
+    assert not imported("quartet")
+    assert f'as large as "large" has them, which shares them: {len(larger)}' in said
+    # A file that is gone is no larger one.
+    (shown.folder / "SuisouSource/large/performance.json").unlink()
+    count = len(shown.studio.imports)
+    shown.studio.answers = [answers.YES_ALL]
+    assert "as large as" not in shown.update_performance()
+    assert {Path(name).name for name in imported("quartet")} == {Path(name).name for name in larger.values()}

@@ -7,13 +7,14 @@ in a slot.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import TypeVar
 
 import unreal
 
 from suisou_import import assets
-from suisou_import.performance import Figure, Map, Performance, Surface, Texture
-from suisou_import.problem import problem
+from suisou_import.performance import Figure, Map, Performance, Surface, Texture, check_file
+from suisou_import.problem import Problem, problem
 
 FILE_TAG = "SuisouFile"
 """On a texture: the digest of the file that it was imported from."""
@@ -24,6 +25,25 @@ TEXTURES_TAG = "SuisouTextures"
 GRAPH = "1"
 
 _Expression = TypeVar("_Expression", bound=unreal.MaterialExpression)
+
+
+def largest(performance: Performance, texture: Texture, others: Sequence[Performance]) -> tuple[Performance, Texture]:
+    """The performance that has a texture with the largest image, and that: all that share the asset show it alike.
+
+    Parameters
+    ----------
+    others : sequence of Performance
+        Among which one with a larger image counts if its file is as it was exported.
+    """
+    for other in sorted(others, key=lambda one: one.piece):
+        for same in other.textures:
+            if same.asset == texture.asset and same.px > texture.px:
+                try:
+                    check_file(other, same.file)
+                except (Problem, OSError):
+                    continue
+                performance, texture = other, same
+    return performance, texture
 
 
 def import_texture(performance: Performance, texture: Texture) -> None:

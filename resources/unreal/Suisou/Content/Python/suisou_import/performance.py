@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import math
@@ -9,7 +10,7 @@ import re
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from suisou_import.problem import problem
+from suisou_import.problem import Problem, problem
 
 SCHEMA = 6
 DESCRIPTION = "performance.json"
@@ -59,11 +60,13 @@ class Figure(NamedTuple):
 
 
 class Texture(NamedTuple):
-    """An image that becomes a texture of a kind: ``color``, ``normal`` or ``masks``."""
+    """An image that becomes a texture of a kind: ``color``, ``normal`` or ``masks``; ``px`` is its longest side, 0 in
+    an export of an earlier Suisou."""
 
     file: str
     asset: str
     kind: str
+    px: int = 0
 
 
 class Map(NamedTuple):
@@ -168,6 +171,16 @@ def found(sources: Path) -> list[Path]:
         raise problem("unreadable", file=sources, detail=error) from error
 
 
+def others(performance: Performance) -> list[Performance]:
+    """The other performances among the sources that can be understood."""
+    read_ones = []
+    for folder in found(performance.folder.parent):
+        if folder != performance.folder:
+            with contextlib.suppress(Problem):
+                read_ones.append(read(folder))
+    return read_ones
+
+
 def _has_description(folder: Path) -> bool:
     try:
         return (folder / DESCRIPTION).is_file()
@@ -194,16 +207,21 @@ def read(folder: Path) -> Performance:
 
 def check_files(performance: Performance) -> None:
     """Raise `Problem` where a file is not what Suisou exported."""
-    for name, (length, digest) in performance.files.items():
-        path = performance.path(name)
-        if not path.is_file():
-            raise problem("missing_file", file=path)
-        seen = hashlib.sha256()
-        with path.open("rb") as stream:
-            for block in iter(lambda: stream.read(1 << 20), b""):
-                seen.update(block)
-        if path.stat().st_size != length or seen.hexdigest() != digest:
-            raise problem("changed_file", file=path)
+    for name in performance.files:
+        check_file(performance, name)
+
+
+def check_file(performance: Performance, name: str) -> None:
+    """Raise `Problem` where one file of a performance is not what Suisou exported."""
+    (length, digest), path = performance.files[name], performance.path(name)
+    if not path.is_file():
+        raise problem("missing_file", file=path)
+    seen = hashlib.sha256()
+    with path.open("rb") as stream:
+        for block in iter(lambda: stream.read(1 << 20), b""):
+            seen.update(block)
+    if path.stat().st_size != length or seen.hexdigest() != digest:
+        raise problem("changed_file", file=path)
 
 
 def _performance(folder: Path, content: dict[str, Any]) -> Performance:
@@ -308,7 +326,8 @@ def _figure(name: str, content: dict[str, Any], place: dict[str, Any], holder: d
 
 def _texture(content: dict[str, Any]) -> Texture:
     kind = _matching(re.compile("color|normal|masks"), content["kind"])
-    return Texture(_matching(_FILE, content["file"]), _matching(_ASSET, content["asset"]), kind)
+    px = _at_least(0, content.get("px", 0))
+    return Texture(_matching(_FILE, content["file"]), _matching(_ASSET, content["asset"]), kind, px)
 
 
 def _surface(content: dict[str, Any]) -> Surface:

@@ -8,7 +8,7 @@ import unreal
 
 from suisou_import import assets, checks, materials, sequence
 from suisou_import.fbx_options import sample_rate
-from suisou_import.performance import SHARED, Performance
+from suisou_import.performance import SHARED, Performance, others
 from suisou_import.problem import Cancelled, problem, text
 
 
@@ -48,9 +48,15 @@ def _assets(performance: Performance, step: Callable[..., None], reported: list[
         if assets.import_mesh(performance, figure):
             anew.add(figure.mesh)
             reported.append(text("new_skeleton", asset=figure.mesh))
+    larger: dict[str, int] = {}
+    sharing = others(performance) if performance.textures else []
     for texture in performance.textures:
         step("step_texture", name=texture.asset.rpartition("/")[2])
-        materials.import_texture(performance, texture)
+        owner, shown = materials.largest(performance, texture, sharing)
+        materials.import_texture(owner, shown)
+        if owner is not performance:
+            larger[owner.piece] = larger.get(owner.piece, 0) + 1
+    reported += [text("larger_textures", count=count, piece=piece) for piece, count in larger.items()]
     for surface in performance.surfaces:
         step("step_material", name=surface.asset.rpartition("/")[2])
         materials.make_material(performance, surface)
@@ -66,9 +72,9 @@ def _assets(performance: Performance, step: Callable[..., None], reported: list[
     assets.import_sound(performance)
     step("step_sequence")
     reported += sequence.build(performance, anew)
-    shown = sequence.shown_with(performance)
-    shown |= materials.in_use({figure.mesh for figure in performance.bodies} | performance.staying | shown)
-    reported += assets.remove_leftovers(performance, shown)
+    staying = sequence.shown_with(performance)
+    staying |= materials.in_use({figure.mesh for figure in performance.bodies} | performance.staying | staying)
+    reported += assets.remove_leftovers(performance, staying)
     step("step_save")
     folders = [performance.content, *([SHARED.rstrip("/")] if performance.textures else [])]
     for folder in folders:

@@ -43,6 +43,10 @@ TEXTS = {
         "The following cannot be imported; everything else can.",
         "以下はインポートできません。ほかの演奏はインポートできます。",
     ),
+    "larger_textures": (
+        'Textures that stay as large as "{piece}" has them, which shares them: {count}.',
+        "「{piece}」と共有しているテクスチャー {count} 枚は、その演奏の大きいサイズのままです。",
+    ),
     "left_out": (
         "Excluded from the export; what was imported before stays as it was: {name}. {reason}",
         "書き出しから除外されています。以前にインポートしたものはそのまま残ります: {name}。{reason}",
