@@ -1,4 +1,4 @@
-"""Fixtures of the editor's tests: a session with the bundled quartet, the theme, and no silent complaints of Qt."""
+"""Fixtures for tests of the editor: a session with the bundled quartet, the theme, and failure on Qt's warnings."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def _contents() -> PieceContents:
 
 @pytest.fixture(autouse=True)
 def _quartet_read(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its file is read once, however often editors open it."""
+    """Cache the file of the quartet, which editors open often."""
     monkeypatch.setattr(
         "app.editor.files.read_contents",
         lambda path, **options: _contents() if path == QUARTET and not options else read_contents(path, **options),
@@ -67,7 +67,7 @@ def _quartet_read(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @cache
 def planned_quartet() -> Performance:
-    """It, played: its plans are known."""
+    """Performance of the quartet with complete plans."""
     performance = Performance(quartet_project())
     performance.prepare()
     return performance
@@ -75,24 +75,24 @@ def planned_quartet() -> Performance:
 
 @pytest.fixture(autouse=True)
 def _plans_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Plans of the bundled quartet are made once for all tests: editors know it as if they had played it before."""
+    """Cache the plans of the bundled quartet for all tests, so that editors need not plan it."""
     monkeypatch.setattr("app.editor.session.Performance", lambda project: Performance(project, planned_quartet()))
 
 
 @pytest.fixture(autouse=True)
 def _motion_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Motion of these plans, made once; that of edited ones is made in each test."""
+    """Cache the motion of these plans; motion of edited ones is computed in each test."""
     know_motion(monkeypatch, lambda: planned_quartet().plans.values() if planned_quartet.cache_info().currsize else ())
 
 
 @pytest.fixture(scope="session")
 def qapp_args() -> list[str]:
-    """The program's name."""
+    """Name of the program."""
     return ["suisou"]
 
 
 def delete_now() -> None:
-    """Whatever is to be deleted later is deleted now."""
+    """Delete all objects with a pending deletion."""
     QCoreApplication.processEvents()
     QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
 
@@ -114,13 +114,13 @@ def qt_app(qapp: QApplication) -> QApplication:
 
 @pytest.fixture
 def tasks() -> ImmediateTasks:
-    """Slow work, done at once."""
+    """Task runner that works synchronously."""
     return ImmediateTasks()
 
 
 @pytest.fixture(autouse=True)
 def _planned_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A slow machine plans a small piece beside the window; here no test has to wait for it."""
+    """Plan small pieces synchronously even on a slow machine, so that tests need not wait."""
     monkeypatch.setattr("app.editor.generator.AT_ONCE_S", 60.0)
 
 
@@ -155,7 +155,8 @@ def _widgets_die_here(qapp: QApplication) -> Iterator[None]:
 
 @pytest.fixture(autouse=True)
 def _faults_of_the_program_fail(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Fail a test whose faults the program's own crash handler takes, unless it is marked ``at_fault``.
+    """Fail tests in which the program's crash handler receives an exception, unless marked ``at_fault``. pytest-qt and
+    pytest handle other uncaught exceptions, including those of threads and finalisers.
 
     Other uncaught exceptions are pytest-qt's, and pytest's own for threads and finalisers.
     """
@@ -191,7 +192,7 @@ def threaded(qt_app: object) -> Iterator[Session]:
 
 @pytest.fixture(scope="session")
 def choreography(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A learned choreography in a file that the editor lets the user choose."""
+    """File of a learned choreography that the editor's user chooses."""
     path = tmp_path_factory.mktemp("dances") / "steps & more.choreography"
     write_model(path, model())
     return path

@@ -34,7 +34,7 @@ ENGLISH = {english for english, japanese in TEXTS.values() if english != japanes
 
 @contextmanager
 def speaking(code: str = "ja") -> Iterator[None]:
-    """Let the application speak a language."""
+    """Switch the application's language within a ``with`` block."""
     translator = TextTranslator(code)
     QApplication.installTranslator(translator)
     try:
@@ -45,7 +45,7 @@ def speaking(code: str = "ja") -> Iterator[None]:
 
 
 def english_in(texts: Iterable[str]) -> set[str]:
-    """Those of some texts that are English, their fields filled in or not."""
+    """English ones among some texts, with fields filled in or not."""
     return set(filter(_is_english, texts))
 
 
@@ -63,7 +63,7 @@ def _is_english(text: str) -> bool:
 
 
 def texts_of(widget: QWidget) -> set[str]:
-    """Every text that a widget and those within it show or tell; what is hidden sets its texts when it is shown."""
+    """All texts and tool tips of a widget and its children; hidden ones set their texts when shown."""
     found: set[str] = set()
     for one in (widget, *widget.findChildren(QWidget)):
         if not one.isVisible():

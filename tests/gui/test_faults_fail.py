@@ -1,4 +1,4 @@
-"""An exception that no one catches fails the test, wherever Qt or a thread swallows it."""
+"""An uncaught exception fails the test, even if Qt or a thread would ignore it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One real piece of work in the real editor: killed in mid-edit, recovered, exported; nothing done by hand is lost."""
+"""A complete job in the real editor: killed during an edit, recovered, exported; no correction is lost."""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
-"""A random user at the whole editor, killed now and then: nothing fails, Qt complains of nothing, and nothing done by
-hand is lost but the last five seconds."""
+"""A random user of the whole editor, killed at times: no failures, no Qt warnings, and at most five seconds of work are
+lost.
+"""
 
 from __future__ import annotations
 

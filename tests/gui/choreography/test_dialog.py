@@ -1,4 +1,4 @@
-"""The view of a choreography by mouse and keys, judged by the model and by what is danced."""
+"""The view of a choreography by mouse and keys, compared with the model and with the generated dance."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ COWBELL, CLAVES = 56, 75
 
 
 def learned(states: int, name: str) -> ChoreographyModel:
-    """A model that knows the cowbell alone."""
+    """Model that was learned with the cowbell only."""
     made = model(states=states)
     emission = np.full((states, 47), 0.001)
     emission[:, COWBELL - 35] = 1.0 - 0.046

@@ -1,4 +1,4 @@
-"""Bones of a pair's motion corrected by mouse and keys, judged by the motion that is learned from."""
+"""Bones of a pair's motion corrected by mouse and keys, compared with the learned motion."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def true_bones(folder: Path) -> dict[str, str]:
 
 
 def wrong_bones(dialog: LearnDialog, folder: Path) -> dict[str, str]:
-    """Bones to correct."""
+    """Wrong bones for the user to correct."""
     skeleton = dialog._rows[0].found.skeleton
     assert skeleton is not None
     shown = {joint: skeleton.figure.bone_names[bone] for joint, bone in skeleton.found.bones.items()}

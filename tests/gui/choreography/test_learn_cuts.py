@@ -1,4 +1,4 @@
-"""Cuts of a motion moved, added and deleted by mouse and keys, judged by the choreography that is made."""
+"""Cuts of a motion moved, added and deleted by mouse and keys, compared with the resulting choreography."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def plot(dialog: LearnDialog) -> CutPlot:
 
 
 def at(dialog: LearnDialog, frame: float, part: float = 0.3) -> QPoint:
-    """Return the point of a frame in the plot, at a part of the plot's height from above."""
+    """Point of a frame in the plot at a share of the plot's height from the top."""
     view = plot(dialog).plot.viewport()
     return QPoint(round(plot(dialog).x_px(frame)), round(part * view.height()))
 

@@ -1,4 +1,4 @@
-"""The dialog Learn Choreography by mouse and keys, judged by the file that is made."""
+"""The dialog Learn Choreography by mouse and keys, compared with the resulting file."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ def test_files_are_dropped_anywhere(dialog: LearnDialog, folder: Path) -> None:
 
 
 def line_px(label: QLabel) -> int:
-    """Height of a line as the label lays out two, in the fonts that its text needs."""
+    """Height in pixels of a line in a label with two lines, in the fonts required by its text."""
     return (label.heightForWidth(10**6) - 2 * label.margin()) // (label.text().count("\n") + 1)
 
 
@@ -228,8 +228,9 @@ def test_a_bad_pair_is_named_and_the_others_stay(
 
 
 def test_learning_waits_for_a_pair_that_fits(dialog: LearnDialog, folder: Path) -> None:
-    """The reason stands below before anything is pressed: of a body that does not move, and of music that ends before
-    the motion begins."""
+    """The reason is displayed before anything is pressed: a body without motion, and music that ends before the motion
+    begins.
+    """
     still = arm_swings(60)
     write_clip(folder / "still.bvh", replace(still, rotations=np.repeat(still.rotations[:1], len(still), axis=0)))
     learn_button = child(dialog, QPushButton, "learn_start")
@@ -269,7 +270,7 @@ def test_cancelled_it_leaves_the_file_as_it_was(
     before = sorted(folder.iterdir())
 
     def slow(*args: object, **options: object) -> object:
-        """Learns once it was cancelled."""
+        """Wait for the cancellation, then learn."""
         dialog._stop.wait(60.0)
         return learn(*args, **options)
 

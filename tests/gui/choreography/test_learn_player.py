@@ -1,4 +1,4 @@
-"""A pair's motion and music played together, by mouse and keys: judged by the sound that the device gets."""
+"""Playback of a pair's motion and music by mouse and keys, compared with the sound sent to the device."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def dialog(session: Session, qtbot: QtBot, tmp_path: Path, playback: Playback) -
 
 @pytest.fixture
 def elapse(dialog: LearnDialog, playback: Playback, time: Time) -> Elapse:
-    """Let time go by; the device is fed and the figure drawn as their timers would."""
+    """Advance the clock, feeding the device and drawing the figure like their timers."""
 
     def run(seconds: float) -> None:
         for _ in range(round(seconds / STEP_S)):
@@ -81,7 +81,7 @@ def ready(dialog: LearnDialog, qtbot: QtBot) -> None:
 
 
 def hits_s(devices: FakeDevices) -> list[float]:
-    """Times at which something begins to sound in what the device got, from its start."""
+    """Times in seconds from the start at which sounds begin in the device's data."""
     loud = np.abs(devices.sink.sound).max(axis=1)
     # In blocks of 10 ms: a drum begins where it is many times as loud as before.
     blocks = loud[: len(loud) // 480 * 480].reshape(-1, 480).max(axis=1)
@@ -90,12 +90,12 @@ def hits_s(devices: FakeDevices) -> list[float]:
 
 
 def place(dialog: LearnDialog) -> float:
-    """Time of the motion that the slider shows."""
+    """Time of the motion at the slider."""
     return child(dialog, QSlider, "pair_place").value() / 1000.0
 
 
 def drawn_at(dialog: LearnDialog, time_s: float) -> bool:
-    """Return whether the figure is that of a time."""
+    """Return whether the drawn figure is that of a time."""
     analysis = dialog._rows[0].found.analysis
     assert analysis is not None
     frame = round(time_s * float(analysis.clip.fps))

@@ -1,4 +1,4 @@
-"""Test why one would take a fingering: shown and typed in the user's language."""
+"""Reasons for fingerings are shown and typed in the user's language."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sizes with which dialogs begin."""
+"""Initial sizes of dialogs."""
 
 from __future__ import annotations
 

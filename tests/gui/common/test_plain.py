@@ -1,4 +1,4 @@
-"""Text that looks like HTML is shown as it is written, wherever Qt would guess, and opens no file."""
+"""Text that looks like HTML is displayed literally wherever Qt would guess, and opens no file."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ pytestmark = pytest.mark.skipif(not WATCHES, reason="only Linux reports which fi
 
 @pytest.fixture
 def watched(qt_app: QApplication, tmp_path: Path) -> Iterator[Canary]:
-    """Files that nothing may open, in the themed application."""
+    """Files that must not be opened, and the application with its theme."""
     with canary(tmp_path / "c") as result:
         yield result
 
 
 def tip_at(widget: QWidget, place: QPoint) -> QLabel:
-    """The tip that comes up where the mouse rests."""
+    """Tool tip that appears at a position of the mouse."""
     QApplication.sendEvent(widget, QHelpEvent(QEvent.Type.ToolTip, place, widget.mapToGlobal(place)))
     QApplication.processEvents()
     (tip,) = (one for one in QApplication.allWidgets() if one.metaObject().className() == "QTipLabel")
@@ -77,7 +77,7 @@ def test_a_label_is_plain_before_any_style_reaches_it(watched: Canary, qtbot: Qt
 )
 @pytest.mark.parametrize("sheet", ["", "color: red;"])
 def test_tips_are_plain(watched: Canary, qtbot: QtBot, kind: type[QWidget], sheet: str) -> None:
-    """Each new: a tip that is up already is used again, and plain since it came up."""
+    """Each tip is new, since Qt reuses a visible one."""
     widget = kind()
     qtbot.addWidget(widget)
     # A widget with a style sheet of its own gives it to its tip.
@@ -121,7 +121,7 @@ def test_boxes_are_plain(watched: Canary, qtbot: QtBot) -> None:
 
 
 def test_labels_that_qt_makes_are_plain(watched: Canary, qtbot: QtBot) -> None:
-    """No label of ours: those of Qt's own dialogs."""
+    """The labels in Qt's own dialogs."""
     asking = QInputDialog()
     qtbot.addWidget(asking)
     asking.setLabelText(watched.html)

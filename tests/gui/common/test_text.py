@@ -1,4 +1,4 @@
-"""Messages in the editor: notes and pitches by the names that the user knows."""
+"""Messages in the editor contain the displayed names of notes and pitches."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ OUTSIDE = {"low": 54, "high": 82, "played_pitch": 54}
 
 @pytest.fixture
 def note(session: Session) -> Note:
-    """A note of the player in front that is not on the first beat."""
+    """A note of the first selected player that is not on the first beat."""
     assert session.player is not None
     notes = session.project.part(session.player).notes
     score = session.project.score
@@ -168,7 +168,7 @@ def test_no_reason_of_a_plan_holds_the_id_of_a_text(session: Session) -> None:
 @pytest.mark.parametrize("code", LANGUAGES)
 @pytest.mark.parametrize("argument", sorted(TEXTS_BY_ID))
 def test_a_text_that_a_message_names_is_worded(argument: str, code: str) -> None:
-    """The window words it as the command line does, whatever argument it is."""
+    """The window formats every kind of argument like the command line."""
     english = {id: {field for _, field, _, _ in Formatter().parse(said[0]) if field} for id, said in WORDINGS.items()}
     id = next(id for id, fields in english.items() if argument in fields)
     message = Message(id, {**dict.fromkeys(english[id], 1.0), argument: "work.stopped"})

@@ -1,4 +1,4 @@
-"""The dialog of an export, shown."""
+"""The export dialog on screen."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ShowExport = Callable[..., ExportDialog]
 
 @pytest.fixture
 def show_export(qtbot: QtBot, tmp_path: Path) -> ShowExport:
-    """Shows the dialog for a session, with options of its own."""
+    """Function that shows the dialog for a session with given options."""
 
     def show(session: Session, **options: object) -> ExportDialog:
         dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test", **options)
@@ -32,12 +32,12 @@ def show_export(qtbot: QtBot, tmp_path: Path) -> ShowExport:
 
 @pytest.fixture
 def dialog(session: Session, show_export: ShowExport) -> ExportDialog:
-    """The dialog for the bundled quartet."""
+    """Export dialog for the bundled quartet."""
     return show_export(session)
 
 
 def one_player_of_bars(dialog: ExportDialog, last_bar: int) -> None:
-    """Request the first player's bars up to one, 24 frames a second, by mouse and keys."""
+    """Choose the first player, bars up to a number and 24 frames a second by mouse and keys."""
     for row in range(1, dialog._players.count()):
         dialog._players.item(row).setCheckState(Qt.CheckState.Unchecked)
     QTest.keyClick(child(dialog, QComboBox, "export_range"), Qt.Key.Key_Down)

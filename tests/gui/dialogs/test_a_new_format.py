@@ -1,4 +1,4 @@
-"""A format of export added by one row and one function: dialog, command line and export know it."""
+"""An export format added by one row and one function works in dialog, command line and export."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from widgets.dialogs.export_files import ExportDialog
 
 
 def write_names(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
-    """Write the names of all scenes, and those of the bones that are named otherwise."""
+    """Write the names of all scenes, and of the renamed bones."""
     path.write_text(json.dumps([[scene.name for scene in scenes], len(beside.bone_names)]))
 
 

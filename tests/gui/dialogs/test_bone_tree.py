@@ -1,4 +1,4 @@
-"""The bones of a file, in as little room as their list ever has."""
+"""The list of a file's bones at its smallest size."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The export dialog by mouse and keys; the files are those that the command line writes."""
+"""The export dialog by mouse and keys writes the same files as the command line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The skeleton of an export, chosen by mouse and keys and held against an asset's file."""
+"""Choice of the skeleton in the export dialog by mouse and keys, with comparison to an asset's file."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def dialog(dialog: ExportDialog) -> ExportDialog:
 
 @pytest.fixture
 def mannequin(session: Session, tmp_path: Path) -> Path:
-    """A file of a mannequin that one of the players would fit."""
+    """File of a mannequin that fits one of the players."""
     player = session.project.players[0]
     performance = Performance(session.project)
     motion = player_motion(performance, player, cut_span(performance.time_frame, session.project.fps, 0.0, 0.1))
@@ -117,7 +117,7 @@ def test_a_file_that_is_none_is_named(dialog: ExportDialog, tmp_path: Path, qtbo
 
 
 def test_what_was_chosen_meanwhile_counts(dialog: ExportDialog, mannequin: Path) -> None:
-    """An answer to a question that is not asked any more changes nothing."""
+    """The result of an outdated comparison is ignored."""
     name(dialog, mannequin)
     chooser = dialog._skeleton
     assert chooser._requested is not None
@@ -139,7 +139,7 @@ def test_both_languages(dialog: ExportDialog, qt_app: QApplication) -> None:
 def test_our_own_file_is_an_asset_that_fits_ours(
     dialog: ExportDialog, session: Session, tmp_path: Path, qtbot: QtBot
 ) -> None:
-    """Bound in an A-pose, as Unreal sees it, though its bones stand in a T-pose."""
+    """The file is bound in an A-pose, as Unreal reads it, although its bones are in a T-pose."""
     player = session.project.players[0]
     performance = Performance(session.project)
     motion = player_motion(performance, player, cut_span(performance.time_frame, session.project.fps, 0.0, 0.1))

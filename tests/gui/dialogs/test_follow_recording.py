@@ -1,4 +1,4 @@
-"""Test the dialog that chooses what is taken from a recording."""
+"""The dialog that chooses data from a recording."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ def dialog(qt_app: QApplication, qtbot: QtBot) -> ImportDialog:
 
 
 def imported(dialog: ImportDialog) -> Project:
-    """The project that the dialog makes."""
+    """Project made by the dialog."""
     return import_project(dialog._table.contents, dialog.rows, dialog._maps)
 
 
@@ -184,18 +184,18 @@ def test_a_long_title_does_not_widen_the_dialog(qt_app: QApplication, qtbot: QtB
 
 
 class SlowTasks(ImmediateTasks):
-    """Keeps work until the test lets it be done; every one, also those that were asked again since."""
+    """Task runner that holds all tasks, including repeated ones, until the test runs them."""
 
     def __init__(self) -> None:
         super().__init__()
         self.waiting: list[Callable[[], None]] = []
 
     def run(self, *arguments: Any, **options: Any) -> None:
-        """Work later."""
+        """Hold the work."""
         self.waiting.append(lambda: ImmediateTasks.run(self, *arguments, **options))
 
     def work(self, number: int) -> None:
-        """Do what was asked at this place."""
+        """Run the task with an index."""
         self.waiting.pop(number)()
 
 
@@ -260,7 +260,7 @@ def test_many_tracks_are_shown_turn_by_turn(
 
 
 def test_the_preview_draws_what_sounds(qt_app: QApplication, qtbot: QtBot) -> None:
-    """Against the slow way: column by column, whether a note of the pitch sounds there."""
+    """Compared column by column with the notes of the pitch that sound there."""
     contents = read_contents(LUTKIN)
     end_tick = max(max(stream.end_ticks) for stream in contents.channels)
     preview = NotesPreview(contents.channels[:2], end_tick, DARK)
@@ -344,7 +344,7 @@ def kits(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> ImportDialog:
 
 
 def shown(dialog: ImportDialog) -> list[tuple[bool, str]]:
-    """Return whether each row is played, and the instrument that it says."""
+    """For each row, whether it is played, and the displayed instrument."""
     rows = []
     for place in range(3):
         play, instrument = (
@@ -412,7 +412,7 @@ def test_a_file_without_notes_offers_an_empty_stage_and_says_why(
 
 
 def japanese_piece(folder: Path) -> Path:
-    """Two tracks whose names are in EUC-JP, too short to tell, and one that says nothing."""
+    """Two tracks whose names are in EUC-JP and too short for detection, and one without text."""
     path = piece(folder, {"xx": (60, 62, 64, 65), "yyyyyy": (72, 74, 76), "Lead": (67, 69, 71)})
     content = path.read_bytes()
     for name, given in ((b"\x02xx", "笛"), (b"\x06yyyyyy", "低音管")):
@@ -494,7 +494,7 @@ def test_a_file_that_is_gone_meanwhile_leaves_the_names_as_they_were(
 
 
 def names(dialog: ImportDialog) -> list[str]:
-    """The names of all rows, from above."""
+    """Names of all rows from top to bottom."""
     fields = [dialog._table.cellWidget(place, 1) for place in range(len(dialog.rows))]
     return [field.text() for field in fields if isinstance(field, QLineEdit)]
 
@@ -521,7 +521,7 @@ def test_where_no_track_is_a_take_there_is_no_such_switch(dialog: ImportDialog) 
 
 
 def chords(folder: Path, name: str, stray: int = 0) -> Path:
-    """A track of two notes at a time for twelve quarters, or of a line with so many short notes over it."""
+    """Track of twelve quarters with two notes at a time, or of a line with a number of short notes above it."""
     track = mido.MidiTrack([mido.MetaMessage("track_name", name=name)])
     for number in range(36 if stray else 12):
         pitches = (72, 65) if number < stray or not stray else (72,)

@@ -1,4 +1,4 @@
-"""The instruments and their fingerings, edited by mouse and keys; what is written is read back."""
+"""Instruments and their fingerings edited by mouse and keys, and the written files."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ TRUMPET = bundled_maps()["trumpet_Bb"]
 
 
 class Page:
-    """The dialog, as the user works with it."""
+    """The dialog with the user's actions."""
 
     def __init__(self, session: Session, qtbot: QtBot) -> None:
         self.dialog = InstrumentsDialog(session)
@@ -56,7 +56,7 @@ class Page:
         QTest.mouseClick(self.table.viewport(), Qt.MouseButton.LeftButton, pos=box.center())
 
     def type(self, column: int, text: str) -> None:
-        """Into the chosen row."""
+        """Type into the selected row."""
         self.table.setCurrentCell(self.table.currentRow(), column)
         QTest.keyClick(self.table, Qt.Key.Key_F2)
         line = self.line()
@@ -66,7 +66,7 @@ class Page:
         delete_now()
 
     def line(self) -> QLineEdit:
-        """Return the line edit that is open in the table."""
+        """Line edit that is open in the table."""
         (line,) = self.table.viewport().findChildren(QLineEdit)
         return line
 
@@ -179,7 +179,7 @@ def test_alternates_come_and_go_and_every_step_is_undone(page: Page) -> None:
 
 
 def key_boxes(page: Page) -> dict[str, QRectF]:
-    """The boxes of the drawn keys by their signs in labels."""
+    """Boxes of the drawn keys by their signs."""
     place, draft = page.diagram.chart_place, page.dialog.draft
     return {key.control.label: place.box(key) for key in key_chart(draft.instrument).keys}
 

@@ -1,4 +1,4 @@
-"""The playblast dialog: pictures come in order, the film is whole or not there."""
+"""The playblast dialog writes pictures in order, and a complete film or none."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test the list of changes before a re-import: changes by hand that stay, and those the file overrules."""
+"""List of changes before a re-import: the user's changes that are kept, and those that the file replaces."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from widgets.dialogs.reimport_midi import ReimportDialog
 
 
 def shown_dialog(session: Session, outcome: Reimport, file: str = "q.mid") -> ReimportDialog:
-    """The dialog about a re-import."""
+    """Dialog about a re-import."""
     changes = changes_by_part(session.project.score, outcome.project.score)
     return ReimportDialog(session, outcome, file, lambda correction, player: "", changes)
 
@@ -78,7 +78,7 @@ def test_conflicts_are_rows_and_what_stays_is_counted(session: Session, qtbot: Q
 
 
 def changed_quintet(tmp_path: Path) -> tuple[Project, Path, Path]:
-    """A quintet, its file, and a newer one without the fourth part and with a flute."""
+    """A quintet, its file, and a newer file without the fourth part and with a flute."""
     path = written(tmp_path / "quintet.mid", tracks())
     flute = mido.MidiTrack([mido.MetaMessage("track_name", name="Flute")])
     for place in range(12):
@@ -118,8 +118,9 @@ def test_a_player_whose_part_is_gone_is_removed_only_if_checked(
 
 
 def changed_quartet() -> tuple[Project, Score]:
-    """A quartet, and as its file has it: two notes of the first player differ and one is gone, the second's are later
-    by a bar from the sixth on."""
+    """A quartet and its changed file: two notes of the first player differ and one is missing, the second player's are
+    a bar later from the sixth on.
+    """
     project = quartet_project()
     first, second = (part.notes for part in project.score.parts[:2])
     late = {place: {"onset_tick": note.onset_tick + 2880} for place, note in enumerate(second) if place > 4}

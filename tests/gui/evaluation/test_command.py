@@ -1,4 +1,4 @@
-"""`suisou evaluate` with drawn players: clips that differ in nothing but the variant."""
+"""`suisou evaluate` with drawn players: clips differ only in the variant."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The evaluation dialog: what is chosen is asked for, and it is made beside the window."""
+"""The evaluation dialog requests the chosen options, and the evaluation is made in the background."""
 
 from __future__ import annotations
 
@@ -154,7 +154,7 @@ def test_bars_and_motion_from_elsewhere_are_asked_for(threaded: Session, tmp_pat
 
 
 def test_errors_name_controls_that_there_are() -> None:
-    """In both languages, those of the results too, and no options."""
+    """In both languages and for the results too, errors mention existing controls and no command options."""
     labels = {place: {text[place] for text in TEXTS.values()} for place in (0, 1)}
     for id, wordings in WORDINGS.items():
         if not id.startswith(("evaluate.", "results.")) or not id.endswith("_here"):

@@ -1,4 +1,4 @@
-"""The window of an evaluation's results: files in, words, picture and tables out."""
+"""Window of an evaluation's results: files as input; texts, picture and tables as output."""
 
 from __future__ import annotations
 

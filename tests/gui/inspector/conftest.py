@@ -1,4 +1,4 @@
-"""An inspector whose session plans at once after every edit, as the shell does."""
+"""An inspector whose session plans immediately after every edit."""
 
 from __future__ import annotations
 

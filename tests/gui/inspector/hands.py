@@ -1,4 +1,4 @@
-"""Test the inspector by mouse and keys."""
+"""Mouse and keyboard actions for tests of the inspector."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The event section and the lists by mouse and keys, judged by the project."""
+"""Event section and lists by mouse and keys, compared with the project."""
 
 from __future__ import annotations
 

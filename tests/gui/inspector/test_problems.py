@@ -1,4 +1,4 @@
-"""The list of problems stays short, and says so."""
+"""The list of problems stays short and states when it is cut."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_very_many_problems_are_counted_and_not_all_listed(
 
 
 def test_lines_are_those_of_a_list_made_anew(qt_app: object, qtbot: QtBot) -> None:
-    """Lines of problems that stay are kept; notes, names and the naming of pitches are not missed."""
+    """Unchanged lines are kept; changes of notes, names and the notation of pitches are included."""
     project = quartet_project()
     part = project.score.parts[0]
     high = tuple(msgspec.structs.replace(note, pitch=min(note.pitch + 30, 127)) for note in part.notes[:20])
@@ -122,7 +122,7 @@ def test_problems_of_dancers_are_listed_counted_and_gone_to(qt_app: object, qtbo
 
 
 def _too_high(session: Session, by: int) -> tuple[str, ...]:
-    """Move every fourth note of the first player up; the notes."""
+    """Make every fourth note of the first player too high; return the notes."""
     ids = tuple(note.id for note in session.project.score.parts[0].notes[::4])
     session.apply(Message("edit.move_notes", {"count": len(ids), "of": ""}), notes.move(session.project, ids, 0, by))
     return ids
@@ -136,7 +136,7 @@ def _planned(session: Session) -> None:
 
 @pytest.fixture
 def shown(qt_app: object, qtbot: QtBot) -> Iterator[ProblemList]:
-    """A visible list of a quartet whose first player has notes two octaves too high."""
+    """Visible list of a quartet whose first player has notes two octaves too high."""
     session = Session(quartet_project(), ImmediateTasks())
     _too_high(session, 24)
     _planned(session)
@@ -181,7 +181,7 @@ def test_problems_of_one_cause_are_one_row_that_one_button_mends(shown: ProblemL
 
 
 def test_a_part_that_is_in_written_pitch_is_read_so(qt_app: object) -> None:
-    """Written notes of an E flat saxophone, sounding as if they were in C, leave its range at the top."""
+    """Written notes of an E flat saxophone exceed its range at the top if read as sounding ones."""
     project = quartet_project()
     player = msgspec.structs.replace(project.players[0], instrument_id="sax_alto_Eb")
     instrument = library().maps["sax_alto_Eb"]

@@ -1,4 +1,4 @@
-"""The selected take: its name, and its cleaning by sliders, seen at once and one step each."""
+"""The selected take: its name, and cleaning by sliders with immediate effect and one undo step each."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ PLAYED = [(0.1, 0.5, 60, 0.6), (0.52, 0.55, 62, 0.1), (0.6, 1.0, 64, 0.6), (1.01
 
 @pytest.fixture
 def taken(panel: InspectorPanel, session: Session, tmp_path_factory: pytest.TempPathFactory) -> Session:
-    """A take of whoever is in front, all of which is in the part, and which is selected."""
+    """A selected take of the first selected player that makes up the whole part."""
     ActionTable(session, Settings(tmp_path_factory.mktemp("settings") / "editor.toml"), [*edit.ACTIONS, *takes.ACTIONS])
     assert session.player is not None
     project, (take_id,) = add_takes(
@@ -53,7 +53,7 @@ def steps(session: Session) -> list[str]:
 
 
 def pitches(session: Session) -> list[int]:
-    """Return the pitches of the part's notes in the two seconds that the take lasts."""
+    """Pitches of the part's notes within the two seconds of the take."""
     assert session.player is not None
     end = session.project.score.tempo_map.ticks(2.0)
     return [note.pitch for note in session.project.part(session.player).notes if note.onset_tick < end]

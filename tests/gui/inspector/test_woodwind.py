@@ -1,4 +1,4 @@
-"""A woodwind's note in the inspector: its chart with the names of its keys, alternates as charts, words for both."""
+"""A woodwind's note in the inspector: its chart with names of keys, alternates as charts, and texts for both."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ SIDE, BIS = "1L 2L sbb", "1L bbb"
 
 @pytest.fixture
 def note(planned: Session) -> Note:
-    """The only note of the first player, played by a saxophone as written B flat, and selected."""
+    """Select the only note of the first player, a saxophone's written B flat."""
     project = planned.project
     player = project.players[0]
     part = project.part(player)

@@ -1,4 +1,4 @@
-"""The panel of players, shown."""
+"""The panel of players on screen."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ShowPlayers = Callable[..., PlayersPanel]
 
 @pytest.fixture
 def show_players(qt_app: QApplication, qtbot: QtBot) -> ShowPlayers:
-    """Shows the panel for a session as it is then."""
+    """Function that shows the panel for a session in its current state."""
 
     def show(session: Session, height_px: int = 1200) -> PlayersPanel:
         with unstyled(qt_app):

@@ -1,4 +1,4 @@
-"""Style, habits and amounts of the selected players by mouse and keys, judged by the project."""
+"""Style, habits and amounts of the selected players by mouse and keys, compared with the project."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test dances of players while they play, chosen by mouse and keys in the Players panel and judged by the project."""
+"""Dances of playing musicians, chosen by mouse and keys in the Players panel and compared with the project."""
 
 from __future__ import annotations
 

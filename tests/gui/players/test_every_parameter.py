@@ -1,4 +1,4 @@
-"""The panel shows every parameter that is declared, and what is changed there is what the history says."""
+"""The panel shows every declared parameter, and its changes match the undo history."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def panel(session: Session, show_players: ShowPlayers) -> PlayersPanel:
 
 
 def choose(control: QWidget, value: object) -> None:
-    """Want a value, as the hand does."""
+    """Set a value like a user."""
     if control.objectName() == "parameter_habits":
         for habit in names_in(str(value)):
             chip = control.findChild(Chip, f"habit_{habit}")

@@ -1,4 +1,4 @@
-"""Test that folded sections stay folded, also in the next editor."""
+"""Folded sections stay folded, also after a restart of the editor."""
 
 from __future__ import annotations
 

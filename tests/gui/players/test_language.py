@@ -1,4 +1,4 @@
-"""The players' panel changes its language while it is open."""
+"""The open players' panel changes its language."""
 
 from __future__ import annotations
 

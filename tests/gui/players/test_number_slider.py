@@ -15,7 +15,7 @@ from widgets.common.number_slider import NumberSlider
 
 
 class Reported:
-    """Signals that the control sent."""
+    """Signals sent by the control."""
 
     def __init__(self, slider: NumberSlider) -> None:
         self.values: list[float] = []

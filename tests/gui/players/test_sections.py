@@ -1,4 +1,4 @@
-"""Players by section: folded, selected, muted and moved together, by mouse and keys; judged by the project."""
+"""Players by section: folded, selected, muted and moved together by mouse and keys, compared with the project."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ Listed = Callable[[], list[str]]
 
 @pytest.fixture
 def session(session: Session) -> Session:
-    """The quartet twice: four trumpets, two horns, two trombones; those of a section do not follow one another."""
+    """The quartet twice: four trumpets, two horns, two trombones, with sections interleaved."""
     project, _ = duplicate_players(session.project, [player.id for player in session.project.players])
     order = [project.players[number] for number in (0, 2, 4, 6, 1, 3, 5, 7)]
     horns = {number: replace_player(order[number], instrument_id="horn_double_F_Bb") for number in (2, 6)}
@@ -53,7 +53,7 @@ def panel(session: Session, show_players: ShowPlayers) -> PlayersPanel:
 
 
 def listed(panel: PlayersPanel) -> list[str]:
-    """Ids of the rows in sight, from the top."""
+    """Ids of the visible rows from top to bottom."""
     model = panel.list.rows
     return [row.id for number, row in enumerate(model.rows) if panel.list.visualRect(model.index(number)).isValid()]
 

@@ -1,4 +1,4 @@
-"""The whole editor, with settings, recovery folder and answers of the test's own."""
+"""The whole editor with settings, recovery folder and answers of the test."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from widgets.viewport.canvas import Canvas
 
 
 class Answers:
-    """Answers what the editor asks as the test says, and notes down what was asked."""
+    """Answers the editor's questions as set by the test, and records them."""
 
     def __init__(self) -> None:
         self.path: Path | None = None
@@ -53,29 +53,29 @@ class Answers:
         self.reported_players: tuple[str, ...] = ()
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
-        """The test's path."""
+        """Path set by the test."""
         self.asked.append("open")
         self.titles.append(title)
         return self.path
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
-        """The test's path."""
+        """Path set by the test."""
         self.asked.append("save")
         return with_suffix(self.path, suffixes) if self.path is not None else None
 
     def unsaved(self, name: str) -> Answer:
-        """The test's answer."""
+        """Answer set by the test."""
         self.asked.append("unsaved")
         return self.answer
 
     def stop_writing(self, works: tuple[Message, ...]) -> bool:
-        """The test's answer."""
+        """Answer set by the test."""
         self.asked.append("stop_writing")
         self.works = works
         return self.stops
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
-        """The test's answer."""
+        """Answer set by the test."""
         self.asked.append("remove_character")
         self.reported_players = players
         return self.removes
@@ -83,20 +83,20 @@ class Answers:
     def import_midi(
         self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
     ) -> ImportRequest | None:
-        """Import without a change in the dialog."""
+        """Accept the dialog unchanged."""
         self.asked.append("import")
         return ImportRequest(usual_rows(contents, bundled_maps()), self.dances) if self.imports else None
 
 
 @pytest.fixture
 def answers() -> Answers:
-    """Return the answers that the test gives in place of the user."""
+    """Answers that the test gives instead of a user."""
     return Answers()
 
 
 @pytest.fixture
 def settings(tmp_path: Path) -> Settings:
-    """Settings of no one; English, whatever the system speaks."""
+    """Default settings in English, regardless of the system's language."""
     result = Settings(tmp_path / "settings" / "editor.toml")
     result.language = "en"
     return result
@@ -104,7 +104,9 @@ def settings(tmp_path: Path) -> Settings:
 
 @pytest.fixture(autouse=True)
 def _drawn(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Draw players in tests marked ``drawn`` only, and generate their motion in those and in tests marked ``moved``.
+    """Draw players only in tests marked ``drawn``, and generate their motion only in those and in tests marked
+    ``moved``. If the processor does OpenGL's work, every change of the window takes up to 100 ms, 60 times as long as
+    without.
 
     Where the processor does OpenGL's work, every change of the window costs up to 100 ms: 60 times as much as without.
     """
@@ -119,7 +121,7 @@ def _drawn(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def end(program: Program) -> None:
-    """End an editor, as closing its window does, and let its parts be deleted."""
+    """End an editor as by closing its window, and delete its parts."""
     program.window.hide()
     program.end()
     program.generator.deleteLater()
@@ -134,7 +136,7 @@ Start = Callable[[], Program]
 
 @pytest.fixture
 def start(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answers, tmp_path: Path) -> Iterator[Start]:
-    """Starts editors, one after another, that share settings and recovery folder."""
+    """Function that starts editors, one after another, with common settings and recovery folder."""
     started: list[Program] = []
 
     def begin() -> Program:
@@ -150,7 +152,7 @@ def start(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answe
 
 
 def trigger(program: Program, action_id: str) -> None:
-    """Do what an action does, if it makes sense now."""
+    """Trigger an action if it is enabled."""
     program.editor.table.refresh()
     assert actions(program.session)[action_id].isEnabled(), action_id
     actions(program.session)[action_id].trigger()
@@ -166,7 +168,7 @@ def program(start: Start) -> Program:
 
 @pytest.fixture
 def empty(start: Start) -> Program:
-    """An editor with nothing open."""
+    """An editor without an open piece."""
     return start()
 
 
@@ -174,7 +176,7 @@ def empty(start: Start) -> Program:
 def studio(
     qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answers, tmp_path: Path
 ) -> Iterator[Studio]:
-    """The editor on an empty piece with a trumpet, beside a wind controller."""
+    """The editor with an empty piece for trumpet, and a wind controller."""
     made: list[SpokenFor] = []
     clock = Clock()
 
@@ -219,7 +221,7 @@ def desk(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> Iterator[Desk]:
-    """The whole editor, which plays without a sound."""
+    """The whole editor with silent playback."""
     settings.midi_port = EWI
     program = Program(
         settings,

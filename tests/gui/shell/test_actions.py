@@ -39,7 +39,7 @@ def test_the_table_is_sound() -> None:
 
 @pytest.mark.parametrize("language", [0, 1], ids=list(LANGUAGES))
 def test_no_two_actions_have_the_same_name(language: int) -> None:
-    """The palette and the list of shortcuts show all of them together, whatever menu they are in."""
+    """The palette and the list of shortcuts show the actions of all menus together."""
     ids: dict[str, list[str]] = {}
     for row in rows():
         ids.setdefault(without_dots(without_key(TEXTS[f"action.{row.id}"][language])).casefold(), []).append(row.id)
@@ -53,13 +53,13 @@ def test_no_two_actions_have_the_same_shortcut_in_one_place(program: Program) ->
 
 
 def test_a_command_has_one_shortcut(program: Program) -> None:
-    """Several only where keyboards or systems differ: two Enter keys, plus without Shift, two ways to redo."""
+    """Several only if keyboards or systems differ: two Enter keys, plus without Shift, two common keys for redo."""
     several = {row.id for row in program.editor.table.rows.values() if ";" in row.shortcut}
     assert several == {"edit.redo", "notes.louder", "play.bar", "timeline.zoom_in", "viewport.dolly_in"}
 
 
 def test_menus_show_a_command_with_one_shortcut(program: Program) -> None:
-    """A command of one name in two menus, those of the panels and of the main window, has the same shortcut in both."""
+    """A command with the same name in menus of a panel and of the main window has the same shortcut in both."""
     program.editor.table.refresh()
     shown: dict[str, set[tuple[str, ...]]] = {}
     for menu in program.editor.window.findChildren(QMenu):
@@ -186,7 +186,7 @@ def test_keys_that_open_a_menu_are_not_given(program: Program, qtbot: QtBot, lan
 
 
 def test_no_action_comes_with_keys_that_open_a_menu(program: Program) -> None:
-    """In either language."""
+    """Checked in both languages."""
     for language in ("en", "ja"):
         program.editor.speak(language)
         found = {row.id: menu_with_keys(row.shortcut) for row in program.editor.table.rows.values()}
@@ -225,7 +225,7 @@ def test_a_panel_has_its_shortcut_before_the_window(program: Program, qtbot: QtB
 
 
 def focus(window: Window, panel: str, qtbot: QtBot) -> None:
-    """Bring the keyboard into a panel."""
+    """Move the keyboard focus to a panel."""
     show_in_front(window)
     widget = window.panels[panel]
     for candidate in (widget, *widget.findChildren(QPushButton), *widget.findChildren(QWidget)):
@@ -238,7 +238,7 @@ def focus(window: Window, panel: str, qtbot: QtBot) -> None:
 
 @pytest.mark.parametrize("code", ["en", "ja"])
 def test_no_shortcut_is_the_key_of_a_menu(program: Program, code: str) -> None:
-    """Qt would do neither of the two."""
+    """Qt would perform neither."""
     program.editor.speak(code)
     menus = {
         QKeySequence.mnemonic(action.text()).toString()

@@ -1,4 +1,6 @@
-"""View, camera and timeline belong to the piece: they come back when it is opened again, and others open framed."""
+"""View, camera and timeline are stored per piece: they are restored when it is opened again, and other pieces open
+framed.
+"""
 
 from __future__ import annotations
 
@@ -21,12 +23,12 @@ pytestmark = pytest.mark.drawn
 
 @pytest.fixture
 def piece(tmp_path: Path) -> Path:
-    """The quartet as a file of the user's."""
+    """The quartet in a file of the user."""
     return Path(shutil.copy(QUARTET, tmp_path / "mine.mid"))
 
 
 def _look(program: Program) -> None:
-    """Look at the third player's hands, turned by hand, at bars 4 to 6, with an open lane more."""
+    """Show the third player's hands with a rotated camera, bars 4 to 6, and an additional open lane."""
     session, window = program.session, program.window
     session.set_players((session.project.players[2].id,))
     canvas = window.viewport.canvas_widget()

@@ -1,4 +1,4 @@
-"""Bookmarks of cameras, by keys, menus and mouse."""
+"""Camera bookmarks by keys, menus and mouse."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ def _press(program: Program, key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.Key
 
 
 def _near(one: Camera, other: Camera) -> bool:
-    """Return whether two cameras look alike; a close-up's target moves with the player."""
+    """Return whether two cameras have nearly the same view; a close-up's target moves with the player."""
     directions = one.yaw_rad, one.pitch_rad, one.distance_m
     return directions == pytest.approx((other.yaw_rad, other.pitch_rad, other.distance_m), abs=1e-6)
 
 
 def _kept(program: Program) -> tuple[Camera, Camera]:
-    """Keep a turned close-up of the third player's hands, then a wide one."""
+    """Store a rotated close-up of the third player's hands, then a wide view."""
     session, panel = program.session, program.window.viewport
     wait_until(lambda: panel.scene.stage is not None and bool(panel.scene.stage.shown.all()))
     session.set_players((session.project.players[2].id,))

@@ -1,4 +1,4 @@
-"""Bring your own character, by mouse and keys: bones, faces, undo, what is kept, cast and removed."""
+"""Importing a character by mouse and keys: bones, faces, undo, saving, assigning and removing."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ TODDLER, MITTENS = DATA / "toddler_vrm1.vrm", DATA / "man_cmu.fbx"
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """The user's own characters: none yet."""
+    """Empty folder of the user's own characters."""
     own = tmp_path / "characters"
     monkeypatch.setenv(FOLDER_VARIABLE, str(own))
     reload_characters()
@@ -62,7 +62,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 @pytest.fixture(autouse=True)
 def _nothing_is_planned(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Leave out the planning: a new body's hold of its instrument takes long to find, and other tests judge it."""
+    """Disable planning, since fitting a new body's grip takes long and is tested elsewhere."""
     monkeypatch.setattr(Generator, "_plan", lambda self, project: None)
 
 
@@ -160,7 +160,7 @@ def test_without_what_playing_needs_it_cannot_be_kept(program: Program) -> None:
 
 
 def of_size(path: Path, source: Path, factor: float) -> Path:
-    """A copy of a character's GLB whose scene is scaled."""
+    """Copy of a character's GLB with a scaled scene."""
 
     def change(document: dict[str, Any]) -> None:
         (scene,) = document["scenes"]
@@ -171,7 +171,7 @@ def of_size(path: Path, source: Path, factor: float) -> Path:
 
 
 def with_a_shield(path: Path, source: Path) -> Path:
-    """A copy of a character's GLB with its mesh once more, called Shield."""
+    """Copy of a character's GLB with its mesh duplicated as Shield."""
 
     def change(document: dict[str, Any]) -> None:
         node = next(node for node in document["nodes"] if "mesh" in node)
@@ -183,7 +183,7 @@ def with_a_shield(path: Path, source: Path) -> Path:
 
 
 def changed(path: Path, source: Path, change: Callable[[dict[str, Any]], None]) -> Path:
-    """A copy of a GLB with another document."""
+    """Copy of a GLB with another document."""
     data = source.read_bytes()
     length = int.from_bytes(data[12:16], "little")
     document, rest = json.loads(data[20 : 20 + length]), data[20 + length :]
@@ -226,7 +226,7 @@ def test_a_corrected_unit_is_said_in_the_dialog(program: Program, tmp_path: Path
 
 
 def test_a_mesh_is_switched_off_and_stays_so(program: Program, tmp_path: Path, qtbot: QtBot) -> None:
-    """A mesh that is off is in no picture, no player and no export; at least one stays on."""
+    """A disabled mesh is in no picture, player and export; at least one mesh stays enabled."""
     dialog = opened(program, with_a_shield(tmp_path / "knight.vrm", TODDLER))
     dialog.tabs.setCurrentIndex(2)
     names = ["Toddler", "Shield"]
@@ -267,7 +267,7 @@ def test_a_sword_is_left_out_from_the_start_and_said(program: Program, tmp_path:
 
 
 def test_the_size_of_the_instrument_is_said_beside_the_picture(program: Program, qtbot: QtBot) -> None:
-    """A toddler's trumpet is smaller than a grown-up's."""
+    """A toddler's trumpet is smaller than an adult's."""
     reported = child(opened(program), QLabel, "character_status")
     qtbot.waitUntil(lambda: "The instrument is scaled to" in reported.text(), timeout=20_000)
 

@@ -1,4 +1,4 @@
-"""A dialog that was closed leaves no widget behind, however it was opened and closed."""
+"""A closed dialog leaves no widgets behind, however it was opened and closed."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def command(action_id: str) -> Open:
 
 
 def ask_about_instruments(program: Program) -> None:
-    """In a dialog that stays: what it asks is gone before it is."""
+    """Open a question within a persistent dialog; the question is deleted first."""
     dialog = program.window.findChild(InstrumentsDialog) or InstrumentsDialog(program.session, program.window)
     dialog.ask(1)
 
@@ -117,7 +117,7 @@ def widgets_now() -> Counter[str]:
 
 
 def shut(way: str) -> set[str]:
-    """Close every dialog; returns their classes."""
+    """Close every dialog and return their classes."""
     seen = set()
     for widget in QApplication.topLevelWidgets():
         if isinstance(widget, QDialog) and widget.isVisible():

@@ -1,4 +1,4 @@
-"""Docks and the lines between them, by mouse: nothing is torn off by accident, nothing hangs off the screen."""
+"""Docks and splitters by mouse: panels do not float by accident, and stay on the screen."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def screen_of(widget: QWidget) -> QRect:
 
 
 def below_separator(dock: Dock) -> QPoint:
-    """Two pixels into the title bar, where the line above it is missed."""
+    """Point two pixels inside the title bar, just below the splitter."""
     return QPoint(title_of(dock).width() // 2, 2)
 
 
@@ -75,7 +75,7 @@ def test_ctrl_and_a_drag_tear_a_dock_off(program: Program, qtbot: QtBot) -> None
 
 
 def has_frame(dock: Dock) -> bool:
-    """Return whether it floats, and the system draws a frame around it."""
+    """Return whether a dock floats with a frame drawn by the system."""
     flags = dock.windowFlags()
     framed = bool(flags & Qt.WindowType.WindowTitleHint) and not flags & Qt.WindowType.FramelessWindowHint
     return dock.isFloating() and dock.isVisible() and framed

@@ -60,7 +60,7 @@ def muted_light_japanese(desk: Desk) -> None:
 
 
 def by_hand(desk: Desk) -> None:
-    """A player stands elsewhere and moves otherwise than it was cast, notes have other fingerings and dots."""
+    """Change a player's place and acting, and the fingerings and marks of notes."""
     there = {desk.player.id: StagePosition(0.3, 1.2, 0.25)}
     actions(desk.session)["players.randomise"].trigger()
     actions(desk.session)["fingering.cycle"].trigger()
@@ -77,7 +77,7 @@ def by_hand(desk: Desk) -> None:
 
 
 def typing_fingerings(desk: Desk) -> None:
-    """Notes of a trombone that have every position are selected, 1 is typed, which T completes; drums play along."""
+    """Select notes of a trombone that have every position and type 1, which T completes; drums play too."""
     has_percussion(desk)
     player = next(player for player in desk.project.players if "trombone" in player.instrument_id)
     notes = {
@@ -92,7 +92,7 @@ def typing_fingerings(desk: Desk) -> None:
 
 
 def takes_of_a_part(desk: Desk) -> None:
-    """A span of a take is selected, half of which the part has from it."""
+    """Select a span of a take, half of which is used in the part."""
     recorded("take:2", (0, 4000))(desk)
     desk.session.attempt(
         Message("edit.comp", {"take": "2"}), lambda project: comp(project, desk.player.id, "take:2", 2000, 4000)
@@ -123,7 +123,7 @@ ARRANGED = frozenset(("folded", "full_screen", "lanes", "page", "panels", "works
 
 
 class Stage:
-    """Makes the states, again and again."""
+    """Creates the states of the editor repeatedly."""
 
     def __init__(self, desk: Desk) -> None:
         self.desk = desk
@@ -136,13 +136,13 @@ class Stage:
         self._usual: tuple[QByteArray, str] | None = None
 
     def begin(self, deed: Deed | None) -> None:
-        """Make another state."""
+        """Create another state."""
         self.deed, self._made, self._plans = deed, None, None
         quieten(self.desk)
         self.again()
 
     def again(self, changed: frozenset[str] | None = None) -> None:
-        """Make the present state; ``changed`` names the subjects that differ from it, None: perhaps all."""
+        """Restore the current state; ``changed`` names the subjects that differ, None for possibly all."""
         desk, session = self.desk, self.desk.session
         if self.deed is None:
             quieten(desk)
@@ -181,7 +181,7 @@ class Stage:
         QApplication.processEvents()
 
     def performance(self, project: Project, before: Performance, waiting: frozenset[str] = frozenset()) -> Performance:
-        """Plans of a project: those of the state are made once, however often it is gone back to."""
+        """Plans of a project; those of the state are computed only once."""
         known = self._plans
         is_known = known is not None and known.planned and known.project is project
         return known if known is not None and is_known else Performance(project, before, waiting)
@@ -209,7 +209,7 @@ class Stage:
 
 @pytest.fixture
 def stage(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Stage:
-    """The editor, which asks the system for no dialog."""
+    """The editor with dialogs of the system disabled."""
     asked = desk.answers.asked
 
     def noted(name: str, answer: object) -> Callable[..., object]:
@@ -264,7 +264,7 @@ def test_every_click_does_what_the_table_says(stage: Stage) -> None:
 
 
 def faults(seen: dict[str, dict[str, frozenset[str]]]) -> list[str]:
-    """Compare what clicks changed with the table, and name what is wrong."""
+    """Compare the changes by clicks with the table, and list the differences."""
     wrong, used, acts = [], set[str](), set[str]()
     for name, states in seen.items():
         row = expected(name)

@@ -1,4 +1,4 @@
-"""Whatever is declared as a setting is restored, remembered, and shown in the preferences where it has a label."""
+"""Every declared setting is restored, stored, and shown in the preferences if it has a label."""
 
 from __future__ import annotations
 

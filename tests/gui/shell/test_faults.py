@@ -1,4 +1,4 @@
-"""CrashHandler of the program: reported once, in whatever thread, and what is not at fault goes on."""
+"""The crash handler reports an exception once, from any thread, and unaffected parts continue."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Autosaves of the editor, without its window: where they go, what is said of it, and when."""
+"""Autosaves of the editor without a window: location, reports and times."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from tests.support.tasks import ImmediateTasks
 
 
 class Desk:
-    """The file side of an editor, a project with a file, and a clock."""
+    """File operations of an editor, a project with a file, and a clock."""
 
     def __init__(self, folder: Path, settings: Settings, now: Callable[[], float]) -> None:
         self.document = folder / "work" / "piece.suisou"
@@ -54,7 +54,7 @@ class Desk:
         self.session.attempt(Message("edit.set_tempo"), lambda project: set_title(project, title))
 
     def crash(self) -> None:
-        """End like a process that was killed: the system takes the lock away, and no file is touched."""
+        """End like a killed process: the system releases the lock, and no file is touched."""
         self.autosave.presence._stream.close()
         self.files._timer.stop()
         self.files.autosave = None
@@ -110,7 +110,7 @@ def desk(sit: Sit) -> Desk:
 
 @pytest.fixture
 def refusing(monkeypatch: pytest.MonkeyPatch) -> dict[Path, int]:
-    """Folders that refuse to be written into, as those of a user who may not do everything."""
+    """Make folders refuse writing, as for a user without permission."""
     result: dict[Path, int] = {}
     new_partial = atomic._new_partial
 
@@ -220,7 +220,7 @@ def test_what_is_undone_to_the_saved_state_is_no_unsaved_work(desk: Desk, clock:
 
 
 def test_a_crash_costs_five_seconds_of_work_at_most(desk: Desk, clock: Clock) -> None:
-    """The timer rings a second before, and no drag postpones it."""
+    """The timer fires a second earlier, and no drag delays it."""
     timer = desk.files._timer
     assert not timer.isActive()
     desk.edit("First")
@@ -287,7 +287,7 @@ application.exec()
 
 @pytest.mark.skipif(os.name != "posix", reason="SIGKILL")
 def test_an_editor_that_is_killed_loses_no_more_than_the_delay(tmp_path: Path) -> None:
-    """In the midst of edits that never pause; with a delay of 0.4 s, so that the test need not wait."""
+    """During continuous edits, with a delay of 0.4 s to shorten the test."""
     process = subprocess.Popen(
         [sys.executable, "-c", EDITING, str(tmp_path)],
         cwd=Path(__file__).parents[3],
@@ -309,7 +309,7 @@ def test_an_editor_that_is_killed_loses_no_more_than_the_delay(tmp_path: Path) -
 
 
 def broken(project: Project) -> Project:
-    """A recording at no time that a file can hold: what no edit makes."""
+    """A recording at a time that a file cannot contain, which no edit produces."""
     return replace(project, audio=AudioTrack("/music/a.wav", float("nan")))
 
 

@@ -1,4 +1,4 @@
-"""The tour of first steps, walked by mouse and keys in the whole editor."""
+"""The tour of first steps by mouse and keys in the whole editor."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ SPACE = Qt.Key.Key_Space
 
 
 def tour_of(program: Program) -> FirstSteps:
-    """The tour, under way."""
+    """The running tour."""
     tour = child(program.window, FirstSteps)
     assert wait_until(lambda: tour.progress is not None and tour.bubble.isVisible())
     return tour
 
 
 def at(tour: FirstSteps) -> tuple[str, bool]:
-    """The stop and whether it is done; empty where the tour is over."""
+    """Current stop and whether it is done; empty after the end of the tour."""
     return (tour.progress.stop, tour.progress.is_done) if tour.progress is not None else ("", False)
 
 
 def in_window(program: Program, widget: QWidget) -> QRect:
-    """Box of a widget in the window."""
+    """Rectangle of a widget in the window."""
     return QRect(widget.mapTo(program.window, QPoint()), widget.size())
 
 
@@ -155,7 +155,7 @@ def test_unsaved_work_is_asked_about_and_kept(program: Program, answers: Answers
 
 
 def test_the_tour_shows_what_it_is_about(program: Program) -> None:
-    """Also where panels are closed and lanes folded, in both languages, in a small window and a large one."""
+    """Also with closed panels and folded lanes, in both languages, in small and large windows."""
     window = program.window
     window.show_panel("players", False)
     window.timeline.fold_lanes(True)

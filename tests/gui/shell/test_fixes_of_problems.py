@@ -1,4 +1,4 @@
-"""The right button on a row of the list of problems: what it offers mends them, for one player or for all."""
+"""Context menu of the list of problems: its fixes solve the problems of one player or of all."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Spoil = Callable[[Project, Player], Project]
 
 
 def _overlapping(project: Project, player: Player) -> Project:
-    """Two notes last half of the next one too long."""
+    """Make two notes overlap the next one by half."""
     notes = project.part(player).notes
     for note, following in ((notes[2], notes[3]), (notes[8], notes[9])):
         end_tick = following.onset_tick + following.duration_tick // 2
@@ -32,7 +32,7 @@ def _overlapping(project: Project, player: Player) -> Project:
 
 
 def _struck_together(project: Project, player: Player) -> Project:
-    """Two notes have a third below, struck with them; one of them two."""
+    """Add a third below two notes, to one of them two."""
     notes = project.part(player).notes
     for note, down in ((notes[2], 3), (notes[8], 4), (notes[8], 7)):
         project, _ = edit.add_note(project, player.part_id, note.onset_tick, note.duration_tick, note.pitch - down, 80)
@@ -40,7 +40,7 @@ def _struck_together(project: Project, player: Player) -> Project:
 
 
 def _orphaned(project: Project, player: Player) -> Project:
-    """Two notes with pinned fingerings are no longer in the file that was read again."""
+    """Pin fingerings of two notes that a re-import removes."""
     part = project.part(player)
     ids = [part.notes[index].id for index in (2, 8)]
     pinned = pin_fingerings(project, player.id, dict.fromkeys(ids, "0"))
@@ -50,7 +50,7 @@ def _orphaned(project: Project, player: Player) -> Project:
 
 
 def _found(program: Program, message_id: str) -> dict[str, int]:
-    """Numbers of problems of a kind, by the player, where there are any."""
+    """Numbers of problems of a kind by player, if any."""
     session = program.session
     counts = {
         one.id: sum(problem.message.id == message_id for problem in session.problems(one.id))
@@ -60,7 +60,7 @@ def _found(program: Program, message_id: str) -> dict[str, int]:
 
 
 def _choose(program: Program, player_id: str, message_id: str, starts: str, ends: str = "") -> None:
-    """Choose an entry of the menu of a player's row by the right button."""
+    """Choose an entry of the context menu of a player's row."""
     shown = child(program.window, ProblemList)
     program.window.findChild(QTabWidget, "inspector_tabs").setCurrentWidget(shown)
     shown.show_problems()
@@ -114,7 +114,7 @@ def _kept(project: Project, player: Player) -> object:
 
 
 def _of_others(program: Program, message_id: str) -> Collection[tuple[str, str]]:
-    """Other kinds of problems, with their players: a fix makes none."""
+    """Problems of other kinds with their players, since a fix must not cause any."""
     session = program.session
     return {
         (one.id, problem.message.id)

@@ -1,4 +1,4 @@
-"""Names from files are shown as they are written, everywhere: nothing takes them for HTML and opens what they name."""
+"""Names from files are displayed literally everywhere: none is interpreted as HTML or opens a file."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ DIALOGS = (
 
 @pytest.fixture
 def watched(qt_app: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Canary]:
-    """Files that nothing may open; they can also be named by their names alone."""
+    """Files that must not be opened, in the working directory so that their bare names suffice."""
     with canary(tmp_path / "c") as result:
         monkeypatch.chdir(result.folder)
         yield result
@@ -72,7 +72,7 @@ def watched(qt_app: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 def walked(
     qtbot: QtBot, watched: Canary, settings: Settings, answers: Answers, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Program]:
-    """An editor whose settings, devices, instruments, characters and presets have hostile names."""
+    """An editor with hostile names of settings, devices, instruments, characters and presets."""
     for name in ("instruments", "characters"):
         monkeypatch.setenv(f"SUISOU_{name.upper()}", str(tmp_path / name))
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
@@ -104,7 +104,7 @@ def walked(
 
 
 def close_others(program: Program) -> None:
-    """Close whatever is open beside the window."""
+    """Close everything except the window."""
     while (popup := QApplication.activePopupWidget()) is not None:
         popup.close()
     for widget in QApplication.topLevelWidgets():
@@ -121,7 +121,9 @@ def start_page(program: Program, judge: Judge, folder: Path) -> None:
 
 
 def piece(program: Program, judge: Judge, folder: Path) -> None:
-    """A MIDI file in the import dialog and as a piece; then a project that has what only projects have."""
+    """Check a MIDI file in the import dialog and as a piece, and then a project with content that only
+    projects have.
+    """
     midi = folder / f"{judge.canary.file_name('source')}.mid"
     write_midi(hostile_score(quartet_project().score, judge.canary), midi)
     ImportDialog(read_contents(midi), all_maps(), program.session.tokens, ImmediateTasks(), program.window).show()
@@ -137,7 +139,7 @@ def piece(program: Program, judge: Judge, folder: Path) -> None:
 
 
 def selections(program: Program, judge: Judge) -> None:
-    """Whatever the panels show, all unfolded; the mouse over every lane, and its menus."""
+    """Check all panels unfolded, with the mouse over every lane, and its menus."""
     session, timeline = program.session, program.window.timeline
     for header in program.window.findChildren(SectionHeader):
         header.set_open(True)
@@ -177,7 +179,7 @@ def menus(program: Program, judge: Judge) -> None:
 
 
 def notices(program: Program, judge: Judge) -> None:
-    """Show a notice, the lines of the streaming and the commands to undo, and judge each."""
+    """Show and check a notice, the lines of streaming, and the undo commands."""
     session = program.session
     session.streaming.set(state="no_receiver", lines=session.streaming.planned(session.project, session.players))
     session.notice(Message("midi.empty", {"file": judge.canary.name("notice")}), Severity.ERROR)
@@ -213,7 +215,7 @@ def dialogs(program: Program, judge: Judge) -> None:
 
 
 def questions(program: Program, judge: Judge) -> None:
-    """Boxes that wait for an answer."""
+    """Check message boxes that wait for an answer."""
     asked, name = DialogQuestions(), judge.canary.name
 
     def answer(state: str) -> None:
@@ -249,7 +251,7 @@ def test_no_name_from_a_file_is_taken_for_html(walked: Program, watched: Canary,
 def test_unsaved_work_whose_title_is_html_is_offered_and_opened(
     start: Start, watched: Canary, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
-    """A title that ended the editor would end it again at every start."""
+    """A title that crashes the editor would do so at every start."""
     title = watched.name("title")
     first = start()
     first.editor.files.begin()

@@ -1,4 +1,4 @@
-"""An opened piece that takes long to plan: the players in front move first, in the editor as it runs."""
+"""In a piece that takes long to plan, the selected players move first in the running editor."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ pytestmark = pytest.mark.drawn
 
 
 class SlowPlanning:
-    """Planning in which every player waits to be let through."""
+    """Planning in which every player waits until the test continues."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self._through = threading.Semaphore(0)

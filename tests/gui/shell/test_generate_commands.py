@@ -1,4 +1,4 @@
-"""Commands of generating, and what they say."""
+"""Commands that generate motion, and their messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plans and motion follow the document by themselves, and only what an edit touches is made again."""
+"""Plans and motion follow the document automatically, and only affected parts are recomputed."""
 
 from __future__ import annotations
 
@@ -176,7 +176,7 @@ def test_the_viewport_is_reported_only_of_poses_at_the_playhead(
 
 
 class Clock:
-    """Clocks that stand still until they are moved."""
+    """Clocks that the test advances."""
 
     def __init__(self) -> None:
         self.now_s, self.this_thread_s, self.others_s = 100.0, 3.0, 5.0
@@ -195,7 +195,7 @@ class Clock:
 
 
 class Work:
-    """Motion that takes 20 ms, 10 ms of this thread, while other threads work too."""
+    """Motion that takes 20 ms, of which 10 ms are in this thread, while other threads work too."""
 
     def __init__(self, clock: Clock, others_s: float, is_seen: bool) -> None:
         self.clock, self.others_s, self.is_seen = clock, others_s, is_seen
@@ -214,7 +214,7 @@ class Work:
 def test_motion_that_no_one_waits_for_gives_way(
     generator: Generator, monkeypatch: pytest.MonkeyPatch, others_s: float, is_seen: bool, rests: bool
 ) -> None:
-    """The worker rests longer where others had the processor, unless someone waits for its result."""
+    """The worker pauses longer if others used the processor, unless its result is awaited."""
     generator.close()
     clock = Clock()
     live = Work(clock, others_s, is_seen)
@@ -322,7 +322,7 @@ def test_an_edit_that_makes_a_piece_too_long_is_refused_and_the_last_performance
 def test_a_broken_contact_is_listed_walked_and_gone_when_it_is_mended(
     session: Session, generator: Generator, qtbot: QtBot
 ) -> None:
-    """Lowered by hand while it plays, the instrument leaves the lips: the lane and F8 show it, undo takes it away."""
+    """An instrument lowered by the user while playing leaves the lips: the lane and F8 show it, and undo removes it."""
     player = session.project.players[0]
     qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     before = session.problems(player.id)

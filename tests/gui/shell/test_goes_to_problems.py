@@ -1,4 +1,4 @@
-"""Problems come to the user: playhead, player and camera go there; the playhead also follows a selected note."""
+"""Playhead, selection and camera move to problems; the playhead also moves to a selected note."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from widgets.inspector.problem_list import ProblemList
 
 
 def _spoil(program: Program) -> tuple[str, tuple[str, str]]:
-    """Make two notes of the second player too high; the player and the notes."""
+    """Make two notes of the second player too high; return the player and the notes."""
     session = program.session
     player = session.project.players[1]
     notes = session.project.part(player).notes

@@ -35,7 +35,7 @@ F1 = Qt.Key.Key_F1
 
 
 def help_window(program: Program) -> HelpWindow:
-    """The window of the guides, opened and in front."""
+    """Window of the guides, open and in front."""
     trigger(program, "help.guides")
     window = child(program.window, HelpWindow)
     assert wait_until(lambda: QApplication.activeWindow() is window)
@@ -43,7 +43,7 @@ def help_window(program: Program) -> HelpWindow:
 
 
 def shown(program: Program) -> str:
-    """The place that is shown, as the table writes it."""
+    """Displayed place in the form used by the table."""
     window = program.window.findChild(HelpWindow)
     if window is None or not window.isVisible() or window.place is None:
         return ""
@@ -309,7 +309,7 @@ def test_larger_letters_keep_the_place(program: Program) -> None:
 
 @pytest.mark.drawn
 def test_every_dialog_has_a_button_that_opens_its_guide(studio: Studio) -> None:
-    """The dialog stays open, and the guides take clicks while it waits for an answer."""
+    """The dialog stays open, and the guides accept clicks meanwhile."""
     program = studio.program
     program.editor.files.open(QUARTET, ask=False)
     window = HelpWindow(program.session, program.editor.language, program.window)

@@ -1,4 +1,6 @@
-"""Room in the inspector: a short list of problems leaves it to the selected note, until the user drags the divider."""
+"""Division of the inspector: a short list of problems leaves space to the selected note, until the user drags the
+divider.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,7 @@ from widgets.inspector.panel import InspectorPanel
 
 
 def _saxophone_alone(program: Program) -> None:
-    """Let a saxophone alone play the first part, which it can."""
+    """Replace all players by a saxophone that can play the first part."""
     session = program.session
     first = msgspec.structs.replace(session.project.players[0], instrument_id="sax_alto_Eb")
     session.apply(Message("edit.remove_players", {"of": "Trumpet 1"}), replace(session.project, players=(first,)))

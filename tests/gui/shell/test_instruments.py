@@ -1,4 +1,4 @@
-"""The user's own instruments in the running editor: edited beside it, they play on at once."""
+"""The user's own instruments in the running editor are updated immediately after edits."""
 
 from __future__ import annotations
 

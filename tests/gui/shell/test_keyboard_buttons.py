@@ -1,4 +1,4 @@
-"""Keys that fields and buttons have before shortcuts of the window."""
+"""Keys handled by fields and buttons before the window's shortcuts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Keys belong to what is open or has the keyboard, and which panel that is can be seen."""
+"""Keys go to the open menu or the focused panel, which is visibly marked."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ KEYS = (Qt.Key.Key_M, Qt.Key.Key_S, Qt.Key.Key_B, Qt.Key.Key_1, Qt.Key.Key_P, Qt
 
 @pytest.fixture
 def fired(program: Program) -> list[str]:
-    """Ids of the actions that were done."""
+    """Ids of the triggered actions."""
     result: list[str] = []
     for id, action in actions(program.session).items():
         action.triggered.connect(lambda *_, id=id: result.append(id))
@@ -36,7 +36,7 @@ def _closed() -> Iterator[None]:
 
 
 def press(program: Program, key: Qt.Key) -> None:
-    """Press a key as the display reports it: to the window, which finds out whose it is."""
+    """Send a key to the window like the display does; the window finds the receiver."""
     pause(1)
     QTest.keyClick(program.window.windowHandle(), key)
     pause(1)

@@ -1,4 +1,4 @@
-"""Both languages: everything that is seen changes with a switch, and every sign can be drawn."""
+"""Both languages: all visible texts change with a switch, and every character can be drawn."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ WORD = re.compile(r"[A-Za-z]{3,}")
 
 
 def texts(root: QWidget) -> Iterator[tuple[str, str]]:
-    """Every text of a widget and those in it, with where it is."""
+    """Every text of a widget and its children with its place."""
     for widget in (root, *root.findChildren(QWidget)):
         where = f"{type(widget).__name__} {widget.objectName()}"
         yield where, widget.toolTip()
@@ -81,7 +81,7 @@ def texts(root: QWidget) -> Iterator[tuple[str, str]]:
 
 
 def english(text: str, names: tuple[str, ...]) -> list[str]:
-    """Words of a text that are English and no names."""
+    """English words of a text that are no names."""
     if "<" in text:
         text = re.sub(r"<[^>]*>", " ", text)
     for name in sorted((*KEPT, *names), key=len, reverse=True):

@@ -1,4 +1,4 @@
-"""Learn Choreography from the menu and from the dancers' section; what was learned is danced, and undone."""
+"""Learn Choreography from the menu and from the dancers' section; the result is danced and can be undone."""
 
 from __future__ import annotations
 

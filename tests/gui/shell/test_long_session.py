@@ -1,4 +1,4 @@
-"""A long day leaves nothing behind: what the process holds after some rounds is what it held before them."""
+"""A long session leaves nothing behind: memory and objects after some rounds equal those before."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ MB; only growth that persists in all later rounds is a leak.
 
 @pytest.fixture
 def program(qt_app: QApplication, settings: Settings, tmp_path: Path) -> Iterator[Program]:
-    """An editor whose work is done in threads, as it is when it runs."""
+    """An editor that works in threads, as in use."""
     result = Program(settings, autosave=Autosave(Presence(tmp_path / "recovery")))
     result.window.resize(800, 500)
     result.window.show()

@@ -1,4 +1,4 @@
-"""The whole editor at 100 and 125 %, in both languages: nothing cut, nothing too small to hit."""
+"""The whole editor at 100 and 125 % in both languages: nothing is cut, and nothing is too small to click."""
 
 from __future__ import annotations
 

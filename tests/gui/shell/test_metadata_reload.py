@@ -1,4 +1,4 @@
-"""The whole editor plays by a table of the user's as soon as its file is saved, and goes on with the last good one."""
+"""The editor applies a user's table as soon as its file is saved, and keeps the last valid one."""
 
 from __future__ import annotations
 

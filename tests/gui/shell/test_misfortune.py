@@ -1,5 +1,6 @@
-"""Damaged files, full disks, files that others write, pieces no one would write: a clear word in both languages, and
-nothing is lost."""
+"""Damaged files, full disks, files changed by others and absurd pieces: a clear message in both languages, and no loss
+of work.
+"""
 
 from __future__ import annotations
 
@@ -36,14 +37,14 @@ from widgets.common.text import message_text
 
 
 class Reported:
-    """Everything the user is informed, in the language of the moment."""
+    """All messages to the user in the current language."""
 
     def __init__(self, program: Program) -> None:
         self.messages: list[tuple[Message, Severity]] = []
         program.session.noticed.connect(lambda message, severity: self.messages.append((message, severity)))
 
     def says(self, program: Program) -> str:
-        """The last word; it is a whole sentence in both languages."""
+        """Last message, checked to be a whole sentence in both languages."""
         assert self.messages, "no message was shown"
         message = self.messages[-1][0]
         texts = []
@@ -78,7 +79,7 @@ def good_file(tmp_path: Path) -> Path:
 
 
 def damaged(path: Path, what: str) -> None:
-    """Do something bad to a good file."""
+    """Damage a valid file."""
     content = path.read_bytes()
     raw: Any = msgspec.json.decode(content)
     match what:
@@ -168,7 +169,7 @@ def test_files_that_are_not_there(program: Program, reported: Reported, tmp_path
 
 
 def refused(program: Program, reported: Reported) -> str:
-    """Saving failed: it is reported, and the work is still unsaved."""
+    """Check that a failed save is reported, and that the work is still unsaved."""
     tasks = program.tasks
     assert isinstance(tasks, ImmediateTasks)
     assert tasks.errors
@@ -250,7 +251,7 @@ def click(program: Program, name: str, qtbot: QtBot) -> None:
 
 @pytest.fixture
 def overtaken(program: Program, answers: Answers, tmp_path: Path) -> Path:
-    """A file that someone else has written since this editor saved it, and an edit here."""
+    """A file changed by another program after this editor saved it, and an edit in the editor."""
     answers.path = path = tmp_path / "shared.suisou"
     trigger(program, "file.save")
     storage.save(set_title(program.session.project, "Of another user"), path)
@@ -358,7 +359,7 @@ def test_a_recording_that_is_removed_while_it_is_open(program: Program, answers:
 
 
 def with_notes(project: Project, notes: tuple[Note, ...]) -> Project:
-    """The first part plays these."""
+    """Project whose first part has these notes."""
     parts = list(project.score.parts)
     parts[0] = msgspec.structs.replace(parts[0], notes=notes)
     return with_parts(project, tuple(parts))

@@ -1,4 +1,4 @@
-"""The way from MIDI to the MusicXML of the same piece, as a user goes it in the window."""
+"""Update of a piece from MIDI with the MusicXML of the same piece, as a user does it in the window."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A MIDI file in which no one plays is not opened without a word."""
+"""Opening a MIDI file without playable parts shows a message."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def written(folder: Path, name: str, *tracks: list[mido.Message | mido.MetaMessa
 
 
 def banner(program: Program) -> tuple[str, list[QPushButton]]:
-    """Return the banner's text and its buttons."""
+    """Text and buttons of the banner."""
     assert program.window.banner.isVisible()
     text = program.window.banner.findChild(QLabel, "banner_text")
     assert isinstance(text, QLabel)

@@ -1,4 +1,4 @@
-"""Files whose names are not UTF-8 in the editor: dropped, saved, exported, opened again; shown as they were meant."""
+"""Files whose names are not UTF-8 are dropped, saved, exported and opened in the editor, and displayed readably."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ pytestmark = on_bytes
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """A folder of such a name, with such a piece and a recording in it."""
+    """Folder with such a name that contains such a piece and a recording."""
     result = odd(tmp_path)
     result.mkdir()
     named_piece(odd(result, ".mid"), "trumpet")
@@ -164,7 +164,7 @@ def test_a_path_that_is_typed(qt_app: QApplication, folder: Path) -> None:
 def test_dialogs_give_the_bytes_and_begin_where_qt_can_be(
     qt_app: QApplication, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The desktop's own dialogs have such names; Qt's does not list them."""
+    """The desktop's own dialogs support such names; Qt's does not list them."""
     begun: list[str] = []
 
     def chosen(parent: object, title: str, start: object, *more: object, **options: object) -> object:
@@ -183,7 +183,7 @@ def test_dialogs_give_the_bytes_and_begin_where_qt_can_be(
 
 @pytest.mark.drawn
 def test_names_that_no_file_can_have(start: Start, settings: Settings, answers: Answers, qtbot: QtBot) -> None:
-    """Longer than the system takes them: from a settings file, a project and a field, each is refused and named."""
+    """Names that exceed the system's limit, from a settings file, a project and a field, are refused and named."""
     name = "長" * 2_000
     folder = Path("/tmp") / name
     settings.folder = settings.export_folder = str(folder)
@@ -218,7 +218,7 @@ def test_names_that_no_file_can_have(start: Start, settings: Settings, answers: 
 
 @pytest.mark.drawn
 def test_a_name_is_proposed_that_a_file_can_have(empty: Program, answers: Answers) -> None:
-    """Whatever the piece is called."""
+    """Tested for pieces with any name."""
     proposals: list[str] = []
 
     def save_file(title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> None:

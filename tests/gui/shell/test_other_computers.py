@@ -1,4 +1,4 @@
-"""A project with files on another computer: nothing is touched before the user says so in the window."""
+"""Files of a project on another computer are not accessed before the user agrees in the window."""
 
 from __future__ import annotations
 

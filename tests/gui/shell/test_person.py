@@ -1,4 +1,4 @@
-"""A person made by sliders: shown, kept, changed and cast like any other."""
+"""A person made with sliders: displayed, saved, changed and assigned like any other character."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""File > Piece Settings: what is typed and clicked is in the document in one step, and nothing else is."""
+"""File > Piece Settings: all entries change the document in one step, and nothing else changes."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ OTHER = PieceSettings(
 
 @pytest.fixture
 def dialog(program: Program) -> PieceSettingsDialog:
-    """Opened by its keys, while the keyboard is in the timeline."""
+    """Dialog opened by its shortcut with the focus in the timeline."""
     program.editor.table.refresh()
     QTest.keyClick(program.window.timeline.roll.plot, Qt.Key.Key_Return, Qt.KeyboardModifier.AltModifier)
     return visible(program)
@@ -73,7 +73,7 @@ def click(dialog: PieceSettingsDialog, name: str) -> None:
 
 
 def fill_in(dialog: PieceSettingsDialog) -> None:
-    """Enter the settings of `OTHER` with the keyboard alone."""
+    """Enter the settings of `OTHER` by keyboard only."""
     type_into(part(dialog, QLineEdit, "title"), OTHER.title)
     type_into(part(dialog, QComboBox, "rate"), "23.976")
     type_into(part(dialog, QDoubleSpinBox, "preroll"), "2.5")

@@ -1,4 +1,4 @@
-"""The problem that the user goes to: its row in the list, its notice, and the notes that its fix moves."""
+"""The problem that the user navigates to: its row in the list, its notice, and the notes moved by its fix."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ OUTSIDE = "fingering.out_of_range"
 
 
 def _lower(program: Program, number: int, octaves: int = 4, first: int = 4, count: int = 8) -> tuple[str, list[str]]:
-    """Move notes of a player far below its range; the player and the notes."""
+    """Move notes of a player far below its range; return the player and the notes."""
     session = program.session
     player = session.project.players[number]
     ids = [note.id for note in session.project.part(player).notes[first : first + count]]
@@ -46,7 +46,7 @@ def _pitches(project: Project, ids: list[str]) -> list[int]:
 
 
 def _in_sight(program: Program, ids: list[str]) -> bool:
-    """True if most of the notes are in the part of the roll that is shown."""
+    """Return whether most of the notes are in the visible part of the roll."""
     bottom, top = child(program.window, TimelinePanel)._front.roll.y_range
     seen = [bottom <= pitch < top for pitch in _pitches(program.session.project, ids)]
     return sum(seen) > len(seen) / 2

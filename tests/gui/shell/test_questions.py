@@ -1,4 +1,4 @@
-"""Test which file is written: nothing is replaced without a question."""
+"""Choice of the file to write: nothing is replaced without a question."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ D = TypeVar("D", bound=QDialog)
 
 
 def when_shown(kind: type[D], act: Callable[[D], None]) -> None:
-    """Do something with the next dialog of a kind, whenever it is shown; it is closed if that fails."""
+    """Call a function with the next dialog of a kind when it is shown; close the dialog if that fails."""
 
     def look() -> None:
         dialog = QApplication.activeModalWidget()
@@ -41,7 +41,7 @@ def when_shown(kind: type[D], act: Callable[[D], None]) -> None:
 
 
 class Typed:
-    """Names that someone types one after the other, and what they answer when asked about a file."""
+    """Names typed one after another, and answers to questions about a file."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, folder: Path, *names: str) -> None:
         self.left = [str(folder / name) if name else "" for name in names]
@@ -117,7 +117,7 @@ ASKED: Mapping[str, Callable[[Path], object]] = {
 
 
 def rows_of(dialog: QFileDialog) -> list[list[str]]:
-    """Rows of the list of files, once it is read: name, size, type and date."""
+    """Rows of the list of files once it is read: name, size, type and date."""
     view = child(dialog, QTreeView, "treeView")
 
     def rows() -> list[list[str]]:
@@ -132,7 +132,7 @@ def rows_of(dialog: QFileDialog) -> list[list[str]]:
 def test_file_dialogs_speak_the_language_of_the_editor(
     qt_app: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
-    """Qt's own dialog is used where the system speaks another one, and all of its texts are translated."""
+    """Qt's own dialog is used if the system has another language, and all of its texts are translated."""
     monkeypatch.setattr("app.editor.translated.system_language", lambda: "en")
     seen: list[set[str]] = []
     (tmp_path / "a folder").mkdir()

@@ -33,7 +33,7 @@ from widgets.dialogs.reimport_midi import ReimportDialog
 
 @pytest.fixture(params=["kept", "an older program's"])
 def program(request: pytest.FixtureRequest, start: Start, tmp_path: Path) -> Program:
-    """An editor with a quintet that has 13 corrections; one whose decisions at the import were not kept."""
+    """An editor with a quintet with 13 corrections, or one whose import decisions were not stored."""
     project = quintet(written(tmp_path / "quintet.mid", tracks()))
     for number, player in enumerate(project.players):
         notes = project.part(player).notes
@@ -98,7 +98,7 @@ def test_update_from_a_newer_file_keeps_players_and_corrections(
 def test_a_source_that_is_gone_is_named_where_another_is_asked_for(
     program: Program, answers: Answers, tmp_path: Path
 ) -> None:
-    """Test in both languages, by the title of the file dialog."""
+    """In both languages, the title of the file dialog names it."""
     (tmp_path / "quintet.mid").unlink()
     trigger(program, "file.reimport")
     with speaking():

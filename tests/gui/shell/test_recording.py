@@ -1,4 +1,4 @@
-"""Recording, driven by the keys, with a recorder that a test speaks for."""
+"""Recording by keys, with a recorder whose reports the test provides."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The dialogs of recording, by mouse and keys, beside a wind controller that a test speaks for."""
+"""Dialogs of recording by mouse and keys, with a wind controller whose messages the test provides."""
 
 from __future__ import annotations
 
@@ -353,7 +353,7 @@ def latency(studio: Studio) -> LatencyDialog:
 
 
 def blow_on_clicks(studio: Studio, dialog: LatencyDialog, late_s: float, jitter_s: float, every: int = 1) -> None:
-    """Play on the clicks by the test's own clock: the first sample is heard when the playback began."""
+    """Play on the clicks by the test's clock; the first sample is audible at the start of playback."""
     chance = random.Random(3)
     begin_ns = studio.clock.ns
     for number, click_s in enumerate(CLICKS_S):

@@ -1,4 +1,4 @@
-"""The recording panel in its workspace, beside a wind controller that the test speaks for."""
+"""The recording panel in its workspace, with a wind controller whose messages the test provides."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Unsaved work: written down by itself, offered after a crash, taken over or thrown away; faults are reported."""
+"""Unsaved work is autosaved, offered after a crash, and restored or discarded; errors are reported."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def edit(program: Program, title: str) -> None:
 
 
 def crash(program: Program) -> None:
-    """End like a process that was killed: no file is touched, and the system takes the lock away."""
+    """End like a killed process: no file is touched, and the system releases the lock."""
     autosave = program.editor.files.autosave
     autosave.presence._stream.close()
     program.editor.files._timer.stop()
@@ -40,14 +40,14 @@ def crash(program: Program) -> None:
 
 
 def offered(program: Program) -> tuple[Recoverable, ...]:
-    """Return the unsaved work that closed or crashed editors left behind."""
+    """Unsaved work left by closed or crashed editors."""
     found: list[tuple[Recoverable, ...]] = []
     program.editor.files.find_recoverable(found.append)
     return found[-1]
 
 
 def later(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Long enough after an edit that unsaved work is written down."""
+    """Advance the clock until unsaved work is autosaved."""
     import time
 
     now = time.monotonic()

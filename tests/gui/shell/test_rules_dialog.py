@@ -1,4 +1,4 @@
-"""File > Acting Metadata > Acting Rules: by mouse and keys, judged by what is played and by the user's files."""
+"""File > Acting Metadata > Acting Rules by mouse and keys, compared with the performance and the user's files."""
 
 from __future__ import annotations
 

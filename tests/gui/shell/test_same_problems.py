@@ -1,4 +1,4 @@
-"""Test that a place that a body cannot reach is the same problem wherever it is reported."""
+"""An unreachable place is reported as the same problem everywhere."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ KINDS = {"character.instrument_size", "contact.out_of_reach", "contact.hand_off"
 def test_inspect_export_stream_and_editor_report_the_same(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], qtbot: QtBot
 ) -> None:
-    """A figure of two and a half heads, and all positions of a tenor trombone."""
+    """A figure whose height is two and a half heads, and all positions of a tenor trombone."""
     project = performance_of("trombone_tenor_F_attachment", [(240 * i, 240, 36 + i) for i in range(12)]).project
     players = tuple(msgspec.structs.replace(player, character_id="chibi") for player in project.players)
     project = replace(project, players=players)

@@ -1,4 +1,4 @@
-"""The editor from the command line, in a process of its own."""
+"""The editor started from the command line in a separate process."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[3]
 
 
 def suisou(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Run the program; variables that are empty are not set."""
+    """Run the program; empty variables are unset."""
     variables = {name: value for name, value in {**os.environ, **environment}.items() if value}
     return subprocess.run(
         [sys.executable, "-m", "app", *arguments],

@@ -1,4 +1,4 @@
-"""The camera follows what is selected or corrected, if the user wants that: hands, mouth, feet, or the whole player."""
+"""The camera follows selected or corrected objects if the setting is on: hands, mouth, feet, or the whole player."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def test_a_correction_without_a_selection_is_shown_and_undo_is_not(program: Prog
 
 
 def test_an_edit_of_a_player_who_is_not_selected_moves_nothing(program: Program) -> None:
-    """A cue of the conductor is edited from the lane of a player who takes it."""
+    """A conductor's cue is edited in the lane of a player who receives it."""
     session = program.session
     session.viewport.set(camera_follows="always")
     front, other = session.players, session.project.players[1]

@@ -1,4 +1,4 @@
-"""Every file of the user's own is bad at once: the editor starts, names each, and what is bundled works."""
+"""Despite invalid files of every kind among the user's own, the editor starts, reports them and uses bundled ones."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ BAD: dict[str, Callable[[Path], object]] = {
 
 @pytest.fixture
 def homes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The user's folders, with libraries that have not been read yet."""
+    """The user's folders, with libraries not read yet."""
     for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME"):
         monkeypatch.setenv(name, str(tmp_path / name.lower()))
     for module in (instrument_library, character_library):
@@ -59,7 +59,7 @@ def homes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def fill(folder: Path) -> set[str]:
-    """Put one file of each kind into a folder; returns their names."""
+    """Put a file of each kind into a folder and return their names."""
     folder.mkdir(parents=True)
     for name, make in BAD.items():
         make(folder / f"{name}.toml")

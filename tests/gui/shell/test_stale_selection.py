@@ -1,4 +1,4 @@
-"""Test that selected things that are gone, by undo for one, are selected no more; no command trips over them."""
+"""Selected objects that disappear, for instance by undo, are deselected, and no command fails because of them."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_undo(program: Program, lag: bool, qtbot: QtBot, monkeypatch: pytest.Mon
 
 
 def test_an_event_whose_note_is_gone(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The plan still has it: a lane shows it until the next plan is made."""
+    """The old plan still contains it, and a lane shows it until the next plan."""
     session = program.session
     player = session.project.players[0]
     breath = next(event for event in session.performance.plan(player).breaths if event.id.startswith("breath:"))

@@ -1,4 +1,4 @@
-"""Test that work for the costliest files is done beside the window: its thread is never busy for long."""
+"""Work for the costliest files is done in the background: the window's thread is never busy for long."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ FILES = {"tracks of sixteen channels": 620, "lines of 40": 6_000}
 
 
 def test_the_costliest_files_do_not_stall_the_window(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Imported without and with the dialog, edited, saved and read again; CPU of the window's thread alone counts."""
+    """Imported with and without the dialog, edited, saved and read again; only processor time of the window's thread
+    counts.
+    """
     monkeypatch.setenv("SUISOU_LOOK_S", "0.1")
     stalls_s = {}
     with Child(("midi",), WINDOW) as window:

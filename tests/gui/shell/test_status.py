@@ -1,4 +1,4 @@
-"""Test what the status line says: it costs no picture of its own, and nothing is listed twice in a row."""
+"""Texts of the status line: they cause no repaint of the players, and are not listed twice in a row."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test the editor's stream, received by a receiver of our own over real UDP."""
+"""The editor's stream, received by an independent receiver over real UDP."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The theme: what is written can be read, what is drawn can be seen."""
+"""The theme's texts are readable, and its graphics visible."""
 
 from __future__ import annotations
 

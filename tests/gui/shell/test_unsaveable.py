@@ -1,4 +1,4 @@
-"""A value that cannot be saved is named in the window as its panel names it: player, bar and field."""
+"""An unsavable value is reported in the window with the names of its panel: player, bar and field."""
 
 from __future__ import annotations
 

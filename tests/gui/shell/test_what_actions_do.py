@@ -1,4 +1,4 @@
-"""Every row of the table of actions in the whole editor, by its shortcut where it has one, judged by what it did."""
+"""Every action in the whole editor, triggered by its shortcut if it has one, compared with its required effect."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ def moved(sign: int, quarters: float | None) -> Case:
 
 
 def typed(desk: Desk, label: str) -> None:
-    """Select a note that has a fingering of this label; there may be none in the piece."""
+    """Select a note that has a fingering with this label; the piece may contain none."""
     for player in desk.project.players:
         instrument = desk.session.performance.instrument(player)
         for note in desk.project.part(player).notes:
@@ -167,7 +167,7 @@ def gesture_case(kind: str) -> Case:
 
 
 def mark_case(kind: str, text: str = "") -> Case:
-    """The mark stands over the selected notes."""
+    """Case in which the selected notes get the mark."""
 
     def right(desk: Desk) -> bool:
         made = [item.mark for item in desk.made(SetMark)]  # type: ignore[attr-defined]
@@ -222,7 +222,7 @@ def playing(desk: Desk) -> bool:
 
 
 def camera_kept(desk: Desk, number: int = 1) -> None:
-    """Keep the camera, so many times; the last one is in hand."""
+    """Store the camera a number of times; the last bookmark is active."""
     for _ in range(number):
         actions(desk.session)["cameras.keep"].trigger()
     desk.seen["camera"] = desk.project.cameras[-1]
@@ -265,7 +265,7 @@ def view(name: str) -> Case:
 
 
 def problem(desk: Desk) -> None:
-    """A note that no one can play, twice."""
+    """Add an unplayable note, twice."""
     notes = desk.notes()
     for note in (notes[4], notes[10]):
         desk.session.select(Selection(frozenset({note.id})))
@@ -283,7 +283,7 @@ def within_bar_3(desk: Desk) -> None:
 
 
 def began_at(desk: Desk) -> float:
-    """Return the first position of the playhead: on a slow machine it may be seconds further by now."""
+    """First position of the playhead, which may have advanced by seconds on a slow machine."""
     places = desk.seen["places"]
     assert isinstance(places, list)
     return float(places[0])
@@ -313,7 +313,7 @@ def set_language(code: str) -> Deed:
 
 
 def owners(desk: Desk) -> list[str]:
-    """Return the ids of the takes that the part is made of, in order of time."""
+    """Ids of the takes that form the part, in order of time."""
     return [span.take_id for span in desk.project.takes[desk.player.id].comp]
 
 
@@ -322,7 +322,7 @@ def lanes(desk: Desk) -> list[str]:
 
 
 def recorded_take(desk: Desk) -> RecordedTake | None:
-    """The take that is listened to; it is over when the sound stops."""
+    """The take under audition, which ends with the sound."""
     take = desk.session.listening.take
     assert playing(desk)
     assert desk.session.listening.take is None
@@ -368,7 +368,7 @@ def go(ready_s: Callable[[Desk], float], requested_s: Callable[[Desk], float]) -
 
 
 def reads_back(desk: Desk, path: Path) -> bool:
-    """Return whether a MIDI file holds what the players play."""
+    """Return whether a MIDI file contains the players' notes."""
     score = read_midi(path, maps=map_choices(bundled_maps().values()))
     played = [(part.name, [(n.onset_tick, n.duration_tick, n.pitch) for n in part.notes]) for part in score.parts]
     return played == [
@@ -381,14 +381,14 @@ FELT = {"eighth": 0.5, "quarter": 1.0, "dotted_quarter": 1.5, "half": 2.0, "dott
 
 
 def own_tables(desk: Desk) -> None:
-    """The user's tables are in a folder of the test's, and the file manager is one of the test's."""
+    """Use a temporary folder for the user's tables, and a fake file manager."""
     desk.patch.setattr("app.shell.commands.piece_metadata.show_folder", lambda path: desk.seen.update(folder=path))
     for folder in FOLDERS:
         desk.patch.setenv(folder.variable, str(desk.folder / folder.name))
 
 
 def has_metadata(desk: Desk) -> None:
-    """A file says something else of the first player."""
+    """Write metadata with other values for the first player."""
     project = set_parameters(desk.project, (desk.project.players[0].id,), style="jazz")
     desk.answers.path = desk.folder / "jazz.toml"
     save_metadata(metadata_of(project), desk.answers.path)
@@ -907,13 +907,13 @@ def with_alternates(desk: Desk) -> frozenset[str]:
 
 
 def unbreathed(desk: Desk) -> str:
-    """A note that no breath comes before."""
+    """Select a note without a breath before it."""
     breathed = {breath.id.partition(":")[2] for breath in desk.plan.breaths}
     return next(note.id for note in desk.notes()[4:] if note.id not in breathed)
 
 
 def twice_the_players(desk: Desk) -> None:
-    """Enough of them for sections, which are shown."""
+    """Double the players, so that the list shows sections."""
     desk.session.set_groups_players(True)
     for name in ("players.select_all", "players.duplicate"):
         actions(desk.session)[name].trigger()
@@ -958,7 +958,7 @@ def quantise_asked(desk: Desk) -> bool:
 
 
 def focus(desk: Desk, context: str) -> QWidget:
-    """Bring the keyboard to where the shortcut holds."""
+    """Move the keyboard focus to the panel in which the shortcut applies."""
     window = desk.program.window
     # After a dialog was closed the display may take its time, and shortcuts belong to the active window.
     show_in_front(window)
@@ -984,7 +984,7 @@ def focus(desk: Desk, context: str) -> QWidget:
 
 
 def do(desk: Desk, action_id: str) -> None:
-    """By its shortcut where it has one, else from its menu or the palette."""
+    """Trigger an action by its shortcut if it has one, else from its menu or the palette."""
     row = desk.program.editor.table.rows[action_id]
     keys = desk.program.editor.table.keys(action_id)
     action = actions(desk.session)[action_id]
@@ -1026,7 +1026,7 @@ def test_every_other_action_does_what_it_says(desk: Desk) -> None:
 
 
 def check(desk: Desk, action_ids: list[str]) -> None:
-    """Trigger actions one after the other; report all that are wrong at once."""
+    """Trigger actions one after another and report all failures together."""
     wrong: list[str] = []
     opened: Project | None = None
     for action_id in action_ids:

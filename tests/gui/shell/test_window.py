@@ -49,7 +49,7 @@ def edit(program: Program, title: str = "Another") -> None:
 
 
 def drop(program: Program, path: Path) -> bool:
-    """Drag a file onto the window; whether it was welcome."""
+    """Drag a file onto the window; return whether it was accepted."""
     mime = QMimeData()
     mime.setUrls([QUrl.fromLocalFile(str(path))])
     action, left, none = Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
@@ -238,7 +238,7 @@ def test_the_layout_is_remembered(start: Start) -> None:
 
 
 def test_nothing_is_written_beside_the_example(empty: Program, tmp_path: Path) -> None:
-    """It lies within the program: files of the user go where the last ones did."""
+    """The example is within the program; the user's files go to the last used folder."""
     files = empty.editor.files
     trigger(empty, "file.open_example")
     assert files.folder == str(Path.home())

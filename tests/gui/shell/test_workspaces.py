@@ -1,4 +1,4 @@
-"""Workspaces and lanes that remember themselves, in the whole window, by mouse and keys."""
+"""Workspaces and lanes store their layout in the whole window, by mouse and keys."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def at_size(start: Start, width: int, height: int) -> Program:
 
 
 def switch_to(program: Program, workspace: str) -> None:
-    """Click on the switch in the bar of menus."""
+    """Click the workspace switch in the menu bar."""
     button = program.window.findChild(QToolButton, f"workspace_{workspace}")
     assert isinstance(button, QToolButton)
     QTest.mouseClick(button, LEFT)

@@ -1,4 +1,4 @@
-"""A timeline over four bars of a scale: quarters from C4 up, a second player a third below."""
+"""A timeline of a scale over four bars: quarters from C4 upwards, and a second player a third below."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def scale_project() -> Project:
 
 @dataclass
 class Stage:
-    """The timeline, with the means to touch it."""
+    """The timeline with mouse actions."""
 
     session: Session
     panel: TimelinePanel
@@ -73,7 +73,7 @@ class Stage:
         return Hand(self.roll.plot)
 
     def place(self, tick: float, pitch: float) -> Place:
-        """Pixels of the roll; a pitch's row is hit in its middle."""
+        """Pixel position in the roll, in the middle of a pitch's row."""
         seconds = self.session.project.score.tempo_map.seconds(float(tick))
         return self.roll.axis.x_px(seconds), self.roll.y_px(pitch + 0.5)
 
@@ -125,7 +125,7 @@ def stage(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[Stage]
 
 @pytest.fixture
 def panel(session: Session, qtbot: QtBot) -> TimelinePanel:
-    """The timeline of the bundled quartet, with room for all lanes; its plans follow the project."""
+    """Timeline of the bundled quartet, with space for all lanes and plans that follow the project."""
     result = shown_panel(session)
     qtbot.addWidget(result)
     result.axis.show(-3.0, 27.0)

@@ -1,4 +1,4 @@
-"""A hand at the mouse: events with any button and modifier, sent to a widget."""
+"""Mouse events with any button and modifier, sent to a widget."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Place = tuple[float, float]
 
 
 class Hand:
-    """A mouse over one widget; places are its pixels."""
+    """Mouse over one widget; positions are in its pixels."""
 
     def __init__(self, widget: QWidget) -> None:
         self._widget = widget
@@ -50,7 +50,7 @@ class Hand:
         self.release(place)
 
     def drag(self, start: Place, end: Place, keys: Qt.KeyboardModifier = NONE, button: Qt.MouseButton = LEFT) -> None:
-        """Press, go half way, go all the way, let go."""
+        """Press, move half way, move all the way, release."""
         self.press(start, button, keys)
         self.move(((start[0] + end[0]) / 2, (start[1] + end[1]) / 2), keys)
         self.move(end, keys)

@@ -1,4 +1,4 @@
-"""Hands for tests of lanes: a panel with plans that follow the project, and places to press."""
+"""Helpers for tests of lanes: a panel whose plans follow the project, and mouse actions."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ALT = Qt.KeyboardModifier.AltModifier
 
 
 def planned(session: Session) -> None:
-    """Let plans follow the project at once."""
+    """Update plans immediately after each edit."""
 
     def follow(change: Change) -> None:
         performance = Performance(change.after, session.performance)
@@ -37,7 +37,7 @@ def planned(session: Session) -> None:
 
 
 def shown_panel(session: Session, width: int = 1400, height: int = 1000) -> TimelinePanel:
-    """The timeline with room for all lanes."""
+    """Timeline with space for all lanes."""
     planned(session)
     panel = TimelinePanel(session)
     panel.resize(width, height)
@@ -46,23 +46,23 @@ def shown_panel(session: Session, width: int = 1400, height: int = 1000) -> Time
 
 
 def front_plan(session: Session) -> PlayerPlan:
-    """The plan of the player in front."""
+    """Plan of the first selected player."""
     assert session.player is not None
     return session.performance.plan(session.player)
 
 
 def region_of(lane: RegionLane, event_id: str) -> Region:
-    """Return the region that shows an event in a lane."""
+    """Region that shows an event in a lane."""
     return next(region for region in lane.regions if region.event_id == event_id)
 
 
 def middle(lane: RegionLane, event_id: str) -> QPoint:
-    """The middle of a region."""
+    """Centre of a region."""
     return lane.box(region_of(lane, event_id)).center().toPoint()
 
 
 def viewport(lane: Lane) -> QWidget:
-    """Return the widget that receives the lane's mouse events."""
+    """Widget that receives the lane's mouse events."""
     return lane.plot
 
 
@@ -97,7 +97,7 @@ def drag(
 
 
 def move_to(widget: QWidget, place: QPoint, modifiers: Qt.KeyboardModifier) -> None:
-    """Move with the left button held: `QTest.mouseMove` knows no buttons and no modifiers."""
+    """Move with the left button pressed; `QTest.mouseMove` supports neither buttons nor modifiers."""
     event = QMouseEvent(
         QEvent.Type.MouseMove, QPointF(place), QPointF(widget.mapToGlobal(place)), Qt.MouseButton.NoButton, LEFT,
         modifiers,

@@ -1,4 +1,4 @@
-"""Bar lines and beats put where they sound in the recording, by mouse and keys, judged by the project."""
+"""Bar lines and beats moved to their times in the recording by mouse and keys, compared with the project."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def panel(panel: TimelinePanel) -> TimelinePanel:
 
 @pytest.fixture
 def lane(panel: TimelinePanel, session: Session) -> WaveformLane:
-    """A recording that begins half a second before the piece, with two doubtful bars."""
+    """Recording that begins half a second before the piece, with two uncertain bars."""
     metre_map = session.project.metre_map
     bars = [int(metre_map.tick_of_bar(number)) for number in (4, 5, 6)]
     doubts = (Doubt(bars[0], bars[1], 0.31), Doubt(bars[1], bars[2], 0.0))
@@ -51,7 +51,7 @@ def bar(session: Session, number: int) -> int:
 
 
 def handle(lane: WaveformLane, tick: int) -> QPoint:
-    """Return the point at which the mouse grips a bar line or beat."""
+    """Point at which the mouse grabs a bar line or beat."""
     x = lane.axis.x_px(lane.session.project.score.tempo_map.seconds(float(tick)))
     return QPoint(round(x), lane.plot.height() - 4)
 

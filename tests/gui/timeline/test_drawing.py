@@ -1,4 +1,4 @@
-"""Many rectangles and lines at once are all drawn, where they should be."""
+"""Many rectangles and lines drawn together are all at the right places."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def pixels(image: QImage) -> Pixels:
 
 @pytest.mark.parametrize("count", [1, 16, 100, 400])
 def test_every_rectangle_is_drawn(image: QImage, count: int) -> None:
-    """The first too: its memory was given back before Qt had read it."""
+    """Including the first, whose memory was formerly freed before Qt had read it."""
     left = 4.0 * np.arange(count)
     painter = QPainter(image)
     draw_rects(painter, left, np.full(count, 2.0), np.full(count, 3.0), np.full(count, 4.0), QColor("blue"))

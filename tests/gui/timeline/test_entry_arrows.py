@@ -1,4 +1,4 @@
-"""Arrows of entries in the roll, dragged by mouse and judged by the document."""
+"""Arrows of cues in the roll, dragged by mouse and compared with the document."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ START = 4 * TPQ
 
 @pytest.fixture
 def trio(stage: Stage) -> Stage:
-    """Three players who begin together at the second bar; the third an octave below the first."""
+    """Three players who enter together in the second bar, the third an octave below the first."""
     project = stage.session.project
     parts = []
     for number, part in enumerate((*project.score.parts, project.score.parts[0]), 1):
@@ -67,7 +67,7 @@ def arrow_to(stage: Stage, taker: str) -> EntryArrow:
 
 
 def head(stage: Stage, arrow: EntryArrow) -> Place:
-    """A place in the head, just before the note."""
+    """Position in the arrow's head, just before the note."""
     return stage.roll.axis.x_px(arrow.to_s) - 4.0, stage.roll.y_px(arrow.to_pitch + 0.5)
 
 

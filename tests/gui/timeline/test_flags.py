@@ -1,4 +1,4 @@
-"""The markers of the piece over the ruler."""
+"""Markers of the piece above the ruler."""
 
 from __future__ import annotations
 

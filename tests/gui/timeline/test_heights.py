@@ -1,4 +1,4 @@
-"""Heights of lanes and rows: legible at first, changed by wheel and keys, and in sight when they are opened."""
+"""Heights of lanes and rows: legible by default, changed by wheel and keys, and scrolled into view when opened."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def settle() -> None:
 
 
 def is_seen(panel: TimelinePanel, lane: Lane) -> bool:
-    """True if a lane is in sight from top to bottom, or fills what is in sight."""
+    """Return whether a lane is visible from top to bottom, or fills the visible area."""
     room = panel.stack.viewport()
     top = lane.mapTo(room, lane.rect().topLeft()).y()
     return top >= 0 and (top + lane.height() <= room.height() or top == 0)

@@ -1,4 +1,4 @@
-"""Additive curves by mouse and keys, judged by the project."""
+"""Additive curves by mouse and keys, compared with the project."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def place(lane: AdditiveLane, tick: float, value: float) -> QPointF:
 
 
 def given(lane: AdditiveLane, *keys: CurveKey, name: str = "own-1", channel: str = "head.up", **more: object) -> None:
-    """A curve of the player in front, put there without the mouse."""
+    """Add a curve of the first selected player without the mouse."""
     curve = AdditiveCurve(name, channel, keys, QUARTER, QUARTER, **more)
     lane.session.attempt(
         Message("edit.change_curve"), lambda project: with_corrections(project, player_of(lane), (curve,))

@@ -1,4 +1,4 @@
-"""The fingerings of a woodwind: a chart at each note, its names under the mouse, and what else would do."""
+"""Fingerings of a woodwind: a chart at each note, names under the mouse, and alternates."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def middle(lane: FingeringLane, event: FingeringEvent) -> QPoint:
 
 
 def closed(lane: FingeringLane, event: FingeringEvent, colour: str) -> str:
-    """Look at the column: "x" where as many pixels as a hole is wide have the colour."""
+    """Column of the chart as text: "x" where enough pixels for a hole's width have the colour."""
     charts, picture, wanted = charts_of(lane), lane.plot.grab().toImage(), QColor(colour).rgb()
     left, right = (round(float(lane.axis.x_px(time_s))) for time_s in (event.start_s, event.end_s))
     seen = ""

@@ -1,4 +1,4 @@
-"""The keys of the timeline that are about events: pressed, and judged by the project."""
+"""Keys of the timeline for events, compared with the project."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def panel(session: Session, qtbot: QtBot, tmp_path: Path) -> Iterator[TimelinePa
 
 
 def press(panel: TimelinePanel, key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
-    """A key while the keyboard is in the timeline."""
+    """Press a key with the focus in the timeline."""
     QApplication.processEvents()
     QTest.keyClick(panel.lanes["fingering"].plot, key, modifiers)
     QApplication.processEvents()
@@ -76,7 +76,7 @@ def note_with(session: Session, *labels: str) -> Note:
 
 
 def labels_of(session: Session, note: Note) -> set[str]:
-    """The fingerings of a note that are not obsolete."""
+    """Fingerings of a note except for obsolete ones."""
     assert session.player is not None
     instrument = session.performance.instrument(session.player)
     return {fingering.label for fingering in instrument.offered_for(note.pitch, "")}
@@ -222,7 +222,7 @@ def test_what_is_no_fingering_is_said(session: Session) -> None:
 
 
 def test_what_does_not_fit_is_said_beside_the_note_with_what_does(panel: TimelinePanel, session: Session) -> None:
-    """1 and 3 are 13 though 1 alone would do: that one is not left behind."""
+    """1 and 3 are 13 although 1 alone would fit; no pin of 1 alone remains."""
     lane = panel.lanes["fingering"]
     assert isinstance(lane, FingeringLane)
     note = next(note for note in notes(session) if labels_of(session, note) & {"1", "13"} == {"1"})
@@ -243,7 +243,7 @@ def test_what_does_not_fit_is_said_beside_the_note_with_what_does(panel: Timelin
 
 
 def test_what_is_shown_again_while_it_is_shown_has_its_room(panel: TimelinePanel, session: Session) -> None:
-    """Neither 1 nor 2 fits: it is said at the first key, and again at the second."""
+    """Neither 1 nor 2 fits: the message appears at the first key, and again at the second."""
     lane = panel.lanes["fingering"]
     assert isinstance(lane, FingeringLane)
     choose(session, next(note for note in notes(session) if not labels_of(session, note) & {"1", "12", "2"}))

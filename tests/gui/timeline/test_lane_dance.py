@@ -1,4 +1,4 @@
-"""The lane of dances by mouse and keys, judged by the project and by what is danced then."""
+"""The lane of dances by mouse and keys, compared with the project and the resulting dance."""
 
 from __future__ import annotations
 
@@ -69,13 +69,13 @@ def lane(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[DanceLa
 
 
 def place(lane: DanceLane, number: int, row: int = 0) -> QPointF:
-    """The middle of a dancer's step."""
+    """Centre of a dancer's step."""
     step = lane.dances[lane.dancers[row].id].steps[number]
     return QPointF(lane.axis.x_px((step.start_s + step.end_s) / 2), lane.row_rect(row).center().y())
 
 
 def states(lane: DanceLane, dancer_id: str = MARY) -> list[int]:
-    """Return the states of the steps of a dancer of the project, computed anew."""
+    """States of a dancer's steps in the project, computed again."""
     performance = lane.session.performance
     return [step.state for step in dancing_of(performance, lane.session.project.dancer(dancer_id)).steps()]
 

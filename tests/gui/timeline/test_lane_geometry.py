@@ -1,4 +1,4 @@
-"""Rows, visible spans and curves by column against slow, obvious ways."""
+"""Rows, visible spans and curves by column compared with slow direct calculations."""
 
 from __future__ import annotations
 

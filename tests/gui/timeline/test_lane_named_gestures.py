@@ -1,4 +1,4 @@
-"""Gestures written in tables: added from the menu, moved, sized, deleted and taken back, judged by the project."""
+"""Gestures defined in tables: added from the menu, moved, resized, deleted and undone, compared with the project."""
 
 from __future__ import annotations
 

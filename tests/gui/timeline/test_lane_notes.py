@@ -1,4 +1,4 @@
-"""Fingerings, curves, the recording and problems by mouse and keys, judged by the project."""
+"""Fingerings, curves, the recording and problems by mouse and keys, compared with the project."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def place_of(lane: FingeringLane | CurvesLane, start_s: float, end_s: float) -> 
 
 
 def with_alternates(session: Session) -> FingeringEvent:
-    """A note of the player in front that can be played in several ways, and is in the picture."""
+    """A visible note of the first selected player with several fingerings."""
     player = session.player
     assert player is not None
     pitches = {note.id: note.pitch for note in session.project.part(player).notes}
@@ -323,7 +323,7 @@ def test_a_press_just_beside_a_fingering_takes_its_note(panel: TimelinePanel, se
 
 
 def test_values_of_several_notes_are_not_one_until_typed(panel: TimelinePanel, session: Session) -> None:
-    """Enter in a field that nobody changed makes no step, whether it shows one value or none for several."""
+    """Enter in an unchanged field makes no undo step, whether it shows one value or several notes' different ones."""
     lane = curves_lane(panel)
     lips = [event for event in front_plan(session).embouchures if event.start_s > 0.5]
     apart = next(b for b in lips if round(b.tension, 2) != round(lips[0].tension, 2))

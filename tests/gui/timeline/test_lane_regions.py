@@ -1,4 +1,4 @@
-"""Breaths, cues, gestures and expressions by mouse and keys, judged by the project."""
+"""Breaths, cues, gestures and expressions by mouse and keys, compared with the project."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def corrections(session: Session) -> tuple[object, ...]:
 
 
 def second_breath(session: Session) -> str:
-    """The second breath that rests give and the picture shows."""
+    """The second visible breath in a rest."""
     return [event.id for event in front_plan(session).breaths if event.kind == "breath"][2]
 
 

@@ -1,4 +1,4 @@
-"""Takes by mouse and keys: swiped, chosen, renamed, cleaned away, judged by the project."""
+"""Takes by mouse and keys: swiped, selected, renamed and cleaned, compared with the project."""
 
 from __future__ import annotations
 
@@ -222,7 +222,7 @@ def test_lanes_are_put_in_another_order(lane: TakesLane) -> None:
 
 
 def edge_at(lane: TakesLane, beat: float, row: int | None = None) -> QPointF:
-    """A place on an edge of the comp: in a row, or in the strip above."""
+    """Point on an edge of the selected takes: in a row, or in the strip above."""
     at = place(lane, beat, row or 0)
     return at if row is not None else QPointF(at.x(), 12.0)
 
@@ -301,7 +301,7 @@ def test_a_click_on_an_edge_selects(lane: TakesLane) -> None:
 
 
 def head(lane: TakesLane, row: float) -> QPoint:
-    """A place on a take's head; with halves, between two."""
+    """Point on a take's head; between two for fractional numbers."""
     return QPoint(40, round(lane.row_rect(0).top() + (row + 0.5) * lane.row_px - 26))
 
 

@@ -1,4 +1,4 @@
-"""The lane of curves shows what was recorded within the notes."""
+"""The lane of curves shows the recorded values within notes."""
 
 from __future__ import annotations
 

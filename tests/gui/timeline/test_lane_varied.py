@@ -1,4 +1,4 @@
-"""Bars performed anew: seen in the acting lane, taken back from there, listed among what was done by hand."""
+"""Regenerated bars are displayed in the acting lane, can be reverted there, and are listed among the user's changes."""
 
 from __future__ import annotations
 

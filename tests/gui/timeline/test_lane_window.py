@@ -1,4 +1,4 @@
-"""Lanes in the whole editor, where plans are made beside the window and arrive later."""
+"""Lanes in the whole editor, where plans arrive later from the background."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Marks on the timeline by mouse and keys, judged by the document; and what is drawn of them."""
+"""Marks on the timeline by mouse and keys, compared with the document and with the drawing."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ SWELL = Mark("crescendo", tick=3 * TPQ, end_tick=6 * TPQ)
 
 @pytest.fixture
 def marked(stage: Stage) -> Stage:
-    """The stage with marks that the score of the first player has."""
+    """The timeline with marks in the first player's score."""
     project = stage.session.project
     first, *others = project.score.parts
     part = msgspec.structs.replace(first, marks=(SLUR, ACCENT, FORTE, SWELL))
@@ -56,7 +56,7 @@ def chosen(stage: Stage) -> set[EventKey]:
 
 
 def where(stage: Stage, mark: Mark) -> Place:
-    """A place of the roll where a mark is caught."""
+    """Point of the roll at which a mark is grabbed."""
     placed, item = stage.roll.marks.placed, stage.roll.marks
     assert placed is not None
     place = placed.place_of(item.marks.of_player.by_id[mark.id])
@@ -199,7 +199,7 @@ def test_a_hairpin_is_dragged_by_its_ends_and_whole(marked: Stage) -> None:
 
 
 def choose(text: str) -> None:
-    """Choose a dynamic in the list that is open."""
+    """Choose a dynamic in the open list."""
     [menu] = [widget for widget in QApplication.topLevelWidgets() if isinstance(widget, QMenu) and widget.isVisible()]
     [entry] = [action for action in menu.actions() if action.objectName() == f"dynamic_{text}"]
     entry.trigger()
@@ -332,14 +332,14 @@ def test_a_mark_under_the_mouse_says_what_it_is_and_where_it_is_from(marked: Sta
 
 
 def pixels(stage: Stage) -> np.ndarray:
-    """The roll as it is drawn, without what lies over it."""
+    """Pixels of the roll without overlays."""
     image: QImage = stage.roll.plot.grab().toImage().convertToFormat(QImage.Format.Format_RGB32)
     rows = np.frombuffer(image.constBits(), np.uint32).reshape(image.height(), image.bytesPerLine() // 4)
     return rows[:, : image.width()].copy()
 
 
 def drawn(stage: Stage) -> tuple[np.ndarray, np.ndarray]:
-    """Rows and columns of the pixels that are there because of the marks."""
+    """Rows and columns of the pixels drawn for marks."""
     with_marks = pixels(stage)
     # The lane of dynamics stays: the roll keeps its size.
     stage.roll.marks.set_shown(False)

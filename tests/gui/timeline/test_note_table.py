@@ -1,4 +1,4 @@
-"""Notes of many players found and drawn together."""
+"""Notes of many players searched and drawn together."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ def test_all_lanes_share_one_axis_and_one_width(stage: Stage) -> None:
 
 @pytest.fixture
 def drawn(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
-    """Counts by lane how often it is drawn; the ruler counts as one."""
+    """Number of redraws by lane; the ruler counts as a lane."""
     result: Counter[str] = Counter()
     background, scale = Background.paint_px, Ruler._paint_scale
 

@@ -1,4 +1,4 @@
-"""A lane's session of one player takes the place of the session: what the type checker cannot look behind."""
+"""A lane's session of one player replaces the whole session, which the type checker cannot verify."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ STEP = TPQ // 4
 
 
 def press_key(stage: Stage, key: Qt.Key, keys: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
-    """Press a key of the keyboard: shortcuts hear it too."""
+    """Press a key through the shortcut system."""
     stage.roll.plot.setFocus()
     stage.table.refresh()
     QTest.keyClick(stage.roll.plot, key, keys)
@@ -524,7 +524,7 @@ def test_a_contact_that_the_motion_breaks_is_said_at_its_note(stage: Stage) -> N
 
 
 def test_the_notes_behind_are_drawn_once_until_they_or_what_is_shown_change(stage: Stage) -> None:
-    """Selecting and playing draw nothing of them anew; a change of theirs is never missed."""
+    """Selecting and playing redraw no other players' notes, and every change of them is drawn."""
     session, roll = stage.session, stage.roll
 
     def colour(note_id: str) -> str:
@@ -554,7 +554,7 @@ def test_the_notes_behind_are_drawn_once_until_they_or_what_is_shown_change(stag
 
 @pytest.mark.parametrize(("dx", "dy"), [(0, 1), (0, -1), (1, 0)])
 def test_a_click_just_off_a_note_takes_it(stage: Stage, dx: int, dy: int) -> None:
-    """Whoever misses a thin row by 5 px and types a fingering means that note."""
+    """A click 5 px beside a thin row selects the note, so that fingerings can be typed."""
     note, half = stage.note("1:3"), stage.roll.row_px / 2
     x, y = stage.place(note.end_tick, note.pitch) if dx else stage.middle("1:3")
     stage.hand.click((x + 5 * dx, y + dy * (half + 5)))

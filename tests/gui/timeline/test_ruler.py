@@ -337,7 +337,7 @@ def test_the_first_metre_and_tempo_stay_and_that_is_said(stage: Stage) -> None:
 
 
 def test_delete_removes_the_mark_that_was_clicked_and_nothing_else(stage: Stage) -> None:
-    """The notes that are selected stay, although Delete is theirs elsewhere."""
+    """Selected notes stay, although Delete removes them elsewhere."""
     ruler = with_metre(stage, 2)
     stage.session.select(Selection(frozenset({"1:0"})))
     Hand(ruler).click(on_mark(stage, "metre", 2 * BAR))
@@ -362,7 +362,7 @@ def test_enter_and_a_double_click_edit_a_metre(stage: Stage) -> None:
 
 
 def slow_marks(score: Score, axis: TimeAxis, metrics: QFontMetricsF) -> list[tuple[str, int, str, float]]:
-    """Kind, tick, text and left edge of the marks of a ruler from 100 to 700 pixels: every one is looked at."""
+    """Kind, tick, text and left edge of a ruler's marks from 100 to 700 pixels, found by examining every one."""
     found = [(metre.tick, 0, "metre", f"{metre.numerator}/{metre.denominator}") for metre in score.metres]
     found += [(tick, 1, "tempo", f"♩={bpm:.4g}") for tick, bpm in score.tempo_map.bpm]
     laid = [(100.0 + axis.x_px(score.tempo_map.seconds(float(tick))), tick, kind, text)

@@ -1,4 +1,4 @@
-"""Lanes of several players one under another, by mouse and keys: each shows and edits its own player."""
+"""Lanes of several players below each other, by mouse and keys: each shows and edits its own player."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def table(session: Session, tmp_path: Path) -> ActionTable:
 
 @pytest.fixture
 def stacked(panel: TimelinePanel, session: Session, table: ActionTable) -> TimelinePanel:
-    """Lanes of the second, third and fourth player, the third in front."""
+    """Lanes of the second, third and fourth player, the third selected first."""
     table.attach("timeline", panel)
     ids = player_ids(session)
     session.set_players((ids[2], ids[1], ids[3]))
@@ -60,7 +60,7 @@ def of(panel: TimelinePanel, player_id: str) -> PlayerLanes:
 
 
 def note_place(place: PlayerLanes, number: int = 0) -> tuple[str, tuple[float, float]]:
-    """A note in sight of a player's roll, and the middle of its box."""
+    """A visible note of a player's roll, and the centre of its box."""
     front = place.roll.model.front()
     assert front is not None
     table, _ = front

@@ -1,4 +1,4 @@
-"""Playback on a device and a clock that the test turns by hand."""
+"""Playback with a device and a clock controlled by the test."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def playback(qapp: object, devices: FakeDevices, time: Time) -> Iterator[Playbac
 
 @pytest.fixture
 def elapse(playback: Playback, time: Time) -> Elapse:
-    """Let time go by; the device is fed as its timer would."""
+    """Advance the clock, feeding the device like its timer."""
 
     def run(seconds: float) -> None:
         for _ in range(round(seconds / STEP_S)):
@@ -55,7 +55,7 @@ def elapse(playback: Playback, time: Time) -> Elapse:
 
 @pytest.fixture
 def sound(session: Session, playback: Playback, devices: FakeDevices) -> Iterator[EditorSound]:
-    """The session's sound, with everything rendered at once."""
+    """Sound of the session, rendered synchronously."""
     result = EditorSound(session, playback)
     yield result
     playback.stop()

@@ -1,4 +1,4 @@
-"""A sound device and a clock that tests turn by hand."""
+"""A sound device and a clock controlled by tests."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Time:
 
 
 class FakeSink:
-    """Plays what it is given as its time goes by, and keeps it."""
+    """Plays the data as its clock advances, and records them."""
 
     def __init__(self, time: Time) -> None:
         self._time = time
@@ -61,7 +61,7 @@ class FakeSink:
 
 
 class FakeDevices:
-    """The system's device, which can be taken away."""
+    """The system's device, which can be removed."""
 
     def __init__(self, time: Time) -> None:
         self._time = time
@@ -76,5 +76,5 @@ class FakeDevices:
 
     @property
     def sink(self) -> FakeSink:
-        """The one opened last."""
+        """Most recently opened sink."""
         return self.sinks[-1]

@@ -1,4 +1,4 @@
-"""Every command of playing, as the menu and the keys run it."""
+"""Every playback command, triggered like by menu and keys."""
 
 from __future__ import annotations
 

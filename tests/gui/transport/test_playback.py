@@ -1,4 +1,4 @@
-"""Playing: where it is, at any speed, in loops, without a device, with one that goes away."""
+"""Playback: position, speed, loops, without a device, and with a device that is removed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test that sound follows the project, playing moves the playhead, and the recording finds its place."""
+"""Sound follows the project, playback moves the playhead, and the recording is aligned."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ NAME = Message("edit.set_offset")
 
 @pytest.fixture
 def ready(sound: EditorSound, session: Session, qtbot: QtBot) -> EditorSound:
-    """A short duet, rendered."""
+    """A short duet with rendered sound."""
     session.document.open(piece(melody((0, 960, 70), (960, 960, 72)), melody((1920, 960, 65))))
     wait_ready(sound, qtbot)
     return sound
@@ -48,7 +48,7 @@ def wait_ready(sound: EditorSound, qtbot: QtBot) -> None:
 
 
 def excerpt(sound: EditorSound, start_s: float, end_s: float) -> np.ndarray:
-    """Return the samples that the playback would play between two times."""
+    """Samples played between two times."""
     return sound.playback.mix.read(round(start_s * RATE_HZ), round((end_s - start_s) * RATE_HZ))
 
 
@@ -181,7 +181,7 @@ def test_the_loop_and_the_speed_reach_the_playback(
 
 @pytest.fixture
 def recording(tmp_path: Path, session: Session, ready: EditorSound) -> Path:
-    """The duet, two seconds into a file."""
+    """The duet as a file that begins two seconds earlier."""
     played = mixdown(session.project, -2.0, 5.0)
     played += np.random.default_rng(0).normal(scale=1e-3, size=played.shape).astype(np.float32)
     path = tmp_path / "録音.flac"
@@ -390,7 +390,7 @@ def first(session: Session) -> str:
 
 @pytest.fixture
 def recorded(ready: EditorSound, session: Session, qtbot: QtBot) -> EditorSound:
-    """Two takes of the first player: one of the second second, one of nothing."""
+    """Two takes of the first player: one of the second second, and an empty one."""
     takes = [take_of([(1.0, 1.9, 74, 0.8)], tempo_map=session.project.score.tempo_map), take_of([])]
     edit(session, add_takes(session.project, first(session), takes)[0])
     wait_ready(ready, qtbot)

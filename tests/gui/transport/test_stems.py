@@ -1,4 +1,4 @@
-"""The players' sound in the background: stopped, begun anew, and more than fits into memory."""
+"""Players' sound rendered in the background: cancelled, restarted, and larger than memory."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tests.unit.audio.pieces import melody, piece
 
 
 class HeldTasks:
-    """Keeps work until the test lets it go, and can stop it in its midst."""
+    """Task runner that holds work until the test continues it, and can cancel it in between."""
 
     def __init__(self) -> None:
         self.held: list[tuple[Callable[..., Any], Callable[..., None]]] = []

@@ -1,4 +1,4 @@
-"""A viewport of the bundled quartet, with its motion made when it is asked for."""
+"""A viewport of the bundled quartet, with motion computed on request."""
 
 from __future__ import annotations
 
@@ -36,24 +36,24 @@ def _live(project: Project) -> LiveMotion:
 
 
 class MadeNow:
-    """Poses of a session's project as it is now, made on the spot."""
+    """Poses of a session's current project, computed synchronously."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
         self.missing = False
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> list[Pose | None]:
-        """None while nothing is reported as made yet."""
+        """None until motion is reported as available."""
         return [None if self.missing else self.pose_now(player_id, time_s) for player_id in player_ids]
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """The pose of the newest project."""
+        """Pose of the newest project."""
         return _live(self._session.project).pose_now(player_id, time_s)
 
 
 @pytest.fixture
 def poses(session: Session) -> MadeNow:
-    """The session's motion."""
+    """Motion of the session."""
     return MadeNow(session)
 
 
@@ -72,7 +72,7 @@ def viewport(qtbot: QtBot, session: Session, poses: MadeNow) -> ViewportPanel:
 
 @pytest.fixture
 def shot(viewport: ViewportPanel) -> Callable[..., Picture]:
-    """A small picture of a view at a time."""
+    """Small picture of a view at a time."""
 
     def take(view: str | None = None, time_s: float = AT_S) -> Picture:
         return viewport.render_image(320, 180, time_s, view)

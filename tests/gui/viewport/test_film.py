@@ -1,4 +1,4 @@
-"""Films, frames and contact sheets from the command line are what the viewport shows."""
+"""Films, frames and contact sheets from the command line equal the viewport's pictures."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ ROOT = Path(__file__).parents[3]
 
 
 def film(capsys: pytest.CaptureFixture[str], *options: str | Path) -> str:
-    """Return the text that the command ``film`` prints."""
+    """Text printed by the command ``film``."""
     assert main(["film", str(QUARTET), *map(str, options)]) == 0
     captured = capsys.readouterr()
     assert captured.err == ""
@@ -61,7 +61,7 @@ def test_frames_are_the_pictures_of_the_window(
 def test_a_large_piece_is_seen_whole(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], qt_app: object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The camera looks at everyone, not at the one whose figure was loaded first."""
+    """The camera shows all performers, not only the one whose figure was loaded first."""
     pictures = []
     for number, few in enumerate((12, 3)):
         monkeypatch.setattr(scene, "FEW", few)
@@ -100,7 +100,7 @@ def test_a_film_has_sound(tmp_path: Path, capsys: pytest.CaptureFixture[str], qt
 
 
 def small(path: Path, *options: str) -> int:
-    """A small contact sheet of a project; the exit status."""
+    """Make a small contact sheet of a project and return the exit status."""
     return main(["film", str(path), "--sheet", f"{path}.png", "--every", "1", "--size", "64x64", *options])
 
 

@@ -1,4 +1,4 @@
-"""The figure of the player in front is there before those of a large cast."""
+"""In a large cast, the first selected player's figure is loaded first."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The row of buttons above the players, and the note between them."""
+"""The row of buttons above the players, and the note in it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Test that a player who is played live moves as played, and the others as in the performance."""
+"""A player controlled live moves as played, the others as in the performance."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from widgets.viewport.panel import ViewportPanel
 
 
 class Still(PlayAlong):
-    """Asked for a pose it counts."""
+    """A constant pose that counts its requests."""
 
     asked = 0
 
@@ -125,8 +125,7 @@ def test_who_begins_and_ends_goes_there_and_back_without_a_jump(
     assert far > 0.05
 
     def steps(count: int) -> list[float]:
-        """Return the distance from the performance in each of some frames, as a share of the live pose's distance from
-        it."""
+        """Distance from the performance's pose in each of some frames, relative to the live pose's distance from it."""
         found = []
         for _ in range(count):
             now_s[0] += 1 / 60
@@ -163,7 +162,7 @@ def test_who_begins_and_ends_goes_there_and_back_without_a_jump(
 
 
 def away(one: Pose, other: Pose) -> float:
-    """The farthest that any joint is turned, in quaternions."""
+    """Greatest rotation of any joint in quaternions."""
     return float(np.max(np.abs(np.abs(np.einsum("ji,ji->j", one.rotations, other.rotations)) - 1.0)) ** 0.5)
 
 

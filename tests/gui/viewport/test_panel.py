@@ -1,4 +1,4 @@
-"""The viewport under hands: pictures, views, selection, the pose tool; driven by mouse and keys."""
+"""The viewport by mouse and keys: pictures, views, selection, the pose tool."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def send(
     button: Qt.MouseButton = Qt.MouseButton.LeftButton,
     modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier,
 ) -> None:
-    """A mouse event with fractions of a pixel and modifiers on moves, which QTest does not send."""
+    """Send a mouse event with fractional pixels and modifiers, which QTest does not support."""
     held = Qt.MouseButton.NoButton if kind == QEvent.Type.MouseButtonRelease else button
     own = Qt.MouseButton.NoButton if kind == QEvent.Type.MouseMove else button
     event = QMouseEvent(kind, at, QPointF(widget.mapToGlobal(at)), own, held, modifiers)
@@ -86,7 +86,7 @@ def drag(
 
 
 def place_of(viewport: ViewportPanel, row: int, joint: str = "chest") -> QPointF:
-    """Return the point of a joint in the picture."""
+    """Point of a joint in the picture."""
     assert viewport.scene.loaded is not None
     size = canvas(viewport).size()
     (place,), _ = viewport.camera.project(viewport.scene.stage.joint_m(row, joint), size.width(), size.height())
@@ -94,7 +94,7 @@ def place_of(viewport: ViewportPanel, row: int, joint: str = "chest") -> QPointF
 
 
 def differing(one: npt.NDArray[np.uint8], other: npt.NDArray[np.uint8]) -> int:
-    """Pixels that clearly differ."""
+    """Mask of the pixels that clearly differ."""
     return int((np.abs(one.astype(int) - other.astype(int)).max(axis=2) > 12).sum())
 
 
@@ -115,7 +115,7 @@ def test_every_view_is_another_picture_and_the_same_picture_twice(shot: Shot) ->
 
 
 def test_a_valve_that_goes_down_is_seen(session: Session, viewport: ViewportPanel, poses: MadeNow) -> None:
-    """Same pose but for one control."""
+    """The poses differ in one control only."""
     real = poses.pose_now(session.project.players[0].id, AT_S)
     assert real is not None
 
@@ -177,7 +177,7 @@ def test_the_picture_on_the_screen_is_that_of_the_file(viewport: ViewportPanel, 
 
 
 def drawn_small(viewport: ViewportPanel, texture: object) -> npt.NDArray[np.uint8]:
-    """Return a texture (16, 16, 4) as drawn in a few pixels."""
+    """Texture (16, 16, 4) as drawn in a few pixels."""
     vertex = "attribute vec2 at; varying vec2 uv; void main() {uv = at * 0.5 + 0.5; gl_Position = vec4(at, 0.0, 1.0);}"
     fragment = "uniform sampler2D map; varying vec2 uv; void main() {gl_FragColor = texture2D(map, uv);}"
     program = gloo.Program(vertex, fragment)
@@ -264,7 +264,7 @@ def test_who_is_moved_on_the_stage_stands_there_at_once(viewport: ViewportPanel,
 def test_the_windows_thread_copies_no_figures(
     session: Session, poses: MadeNow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Drawing data of all players is made with the figures, beside the window, and forgotten once it is sent."""
+    """Drawing data of all players are made with the figures in the background, and freed once they are sent."""
     session.set_playhead(AT_S)
     panel = ViewportPanel(session, poses)
     qtbot.addWidget(panel)
@@ -378,7 +378,7 @@ def test_dragging_orbits_pans_and_the_wheel_dollies(viewport: ViewportPanel) -> 
 
 @pytest.mark.parametrize("button", [Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton])
 def test_control_and_a_drag_dolly(viewport: ViewportPanel, button: Qt.MouseButton) -> None:
-    """For who has no wheel: a pen has one button, a mouse of Blender's and Maya's users the middle one."""
+    """For users without a wheel: pens have one button, and users of Blender and Maya use the middle one."""
     before = viewport.camera
     drag(canvas(viewport), QPointF(20, 60), QPointF(0, -40), button, Qt.KeyboardModifier.ControlModifier)
     assert viewport.camera == replace(before, distance_m=viewport.camera.distance_m)
@@ -500,7 +500,7 @@ def test_who_is_under_the_pointer_is_known(viewport: ViewportPanel, session: Ses
 
 @pytest.fixture(scope="module")
 def danced(tmp_path_factory: pytest.TempPathFactory) -> Project:
-    """The quartet with two dancers, whose motion is made once for all tests."""
+    """The quartet with two dancers, whose motion is cached for all tests."""
     path = tmp_path_factory.mktemp("dances") / "steps.choreography"
     write_model(path, model())
     project = quartet_project()
@@ -512,7 +512,7 @@ def danced(tmp_path_factory: pytest.TempPathFactory) -> Project:
 
 @pytest.fixture
 def two_dancers(viewport: ViewportPanel, session: Session, danced: Project) -> tuple[str, str]:
-    """Two dancers beside the players, the second one selected; their ids."""
+    """Ids of two dancers beside the players, the second one selected."""
     first, second = danced.dancers
     session.apply(Message("edit.add_dancer"), danced)
     session.set_dancer(second.id)
@@ -783,7 +783,7 @@ def test_a_picture_needs_no_visible_window(qtbot: QtBot, session: Session, poses
 def test_another_piece_opens_framed_and_without_the_bodies_of_the_one_before(
     viewport: ViewportPanel, session: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The new bodies take a while to load: meanwhile no one stands there under the new names."""
+    """While the new bodies are loading, no old bodies have the new names."""
     first = session.project
     session.viewport.set_view("hands")
     session.set_players((first.players[2].id,))
@@ -812,7 +812,7 @@ def test_a_film_has_no_names_and_no_rings_unless_they_are_asked_for(viewport: Vi
 
 
 def test_hovering_leaves_the_body_as_it_is(viewport: ViewportPanel, session: Session) -> None:
-    """Only the floor says who is under the pointer."""
+    """Only the floor marks the player under the pointer."""
     session.viewport.show("names", False)
     session.viewport.set_view("mouth")
     viewport._eye.jump(viewport.camera)

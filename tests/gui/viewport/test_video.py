@@ -1,4 +1,4 @@
-"""The reference video at the playhead: the right picture, beside or behind the players, placed by its sound."""
+"""The reference video at the playhead: the right picture, beside or behind the players, aligned by its sound."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def film(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def video(session: Session) -> Iterator[ReferenceVideo]:
-    """Reads the session's video."""
+    """Reader of the session's video."""
     reader = ReferenceVideo(session)
     yield reader
     reader.close()

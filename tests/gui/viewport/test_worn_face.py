@@ -1,4 +1,4 @@
-"""The face that is being made is worn by the player in front, and by no one else."""
+"""Only the first selected player shows the expression being edited."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from app.performance.chunks import Pose
 
 
 class Standing:
-    """Everybody stands still with an open mouth."""
+    """Poses in which all players are motionless with an open mouth."""
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> list[Pose | None]:
         return [self.pose_now(player_id, time_s) for player_id in player_ids]
