@@ -219,8 +219,9 @@ class Choreographer:
         clip = out_of_body(without_haste(clip, self._fastest_rad_s))
         falls = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm))
         clip = planted(clip, falls.standing, manner.weight, falls.shown)
-        clip = without_twitches(clip, falls.standing, self._usual_accelerations(fps))
         on_floor = planted_frames(falls.standing, len(clip))
+        # Joints first: a hand that a slower shoulder carries along has to be calmed, too.
+        clip = without_twitches(within_speeds(clip, on_floor), falls.standing, self._usual_accelerations(fps))
         clip = within_speeds(grounded(clip, on_floor), on_floor)
         return Dance(clip, first_s, plan.steps, speeds, seams, falls.standing)
 
