@@ -21,7 +21,7 @@ settings.register_profile("suisou", deadline=None, derandomize=True)
 settings.register_profile("explore", deadline=None)
 settings.load_profile("suisou")
 
-# No test reads or writes what the user of this machine has: characters, instruments, tables, settings.
+# Tests neither read nor write the user's own characters, instruments, tables and settings.
 _USER: Final = tempfile.TemporaryDirectory(prefix="suisou-user-")
 for _variable in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME"):
     os.environ[_variable] = f"{_USER.name}/{_variable.lower()}"

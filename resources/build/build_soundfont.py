@@ -243,7 +243,7 @@ def _shortened(sample: Sample) -> Sample:
     _, loop_start, loop_end = best
     blend = np.linspace(0.0, 1.0, fade)
     out = audio[: loop_end + fade].copy()
-    # Towards the loop's end the tone becomes what comes before the loop's start, so that the jump is inaudible.
+    # Towards the loop's end the tone is blended with the sound before the loop's start, so that the jump is inaudible.
     out[loop_end - fade : loop_end] = (
         audio[loop_end - fade : loop_end] * (1 - blend) + audio[loop_start - fade : loop_start] * blend
     )

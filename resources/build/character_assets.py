@@ -161,7 +161,7 @@ def read_asset(path: Path, base_vertices: int = HM08_VERTICES) -> Asset:
         if words[0] in ("verts", "delete_verts"):
             section = words[0]
         elif words[0][0].isalpha():
-            # Keywords may stand between `verts` and its numbers.
+            # Keywords may come between `verts` and its numbers.
             header[words[0]] = words[1:]
         elif section == "verts":
             rows.append(_bound(words))

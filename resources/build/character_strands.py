@@ -164,7 +164,7 @@ def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Te
     alpha = _fringe(alpha, along, used)
     shade = _steps(to_srgb(grey), GREYS)
     colour = png(f"hair_{style}_color", np.stack([shade, shade, shade, _steps(alpha, ALPHAS)], axis=-1))
-    # Normals at half the size: locks from what is painted, strands from the noise.
+    # Normals have half the size: locks follow the painted picture, strands the noise.
     rows = slice(None, None, 2)
     heights = gaussian_filter(np.log(grey), 1.5)[rows, rows] * LOCK_HEIGHT + gaussian_filter(fine, 0.6)[rows, rows]
     return colour, jpeg(f"hair_{style}_normal", normals_of(heights, STRAND_SLOPE), quality=85)

@@ -191,7 +191,7 @@ class Contrabassoon:
         ):
             spatula = touch(left, -0.0300, along, back, 0.0074, 0.0105)
             JOINTS.thumb_key(work, name, label, self.second, cup, spatula, along, angle, 0.0038)
-        # As on the bassoon; for A 4 it lies on C sharp and the vent above it.
+        # Same as on the bassoon; for A 4 the thumb is on C sharp and the vent above it.
         JOINTS.thumb_over_low_keys(work, "vent_B")
 
     def right_hand(self) -> None:

@@ -200,7 +200,7 @@ class Ewi:
             tab = slab(middle, normal, X * side, oval(0.0170, 0.0078), 0.0030, hollow_m=0.0002)
             self.work.add(tab.pieces)
             self.work.covered(name, label, f"{finger}.pad", tab.point, tab.normal)
-        # For low B flat it lies over two tabs, on the rim of the one that is next to the other.
+        # For low B flat the finger is on two tabs, at the rim between them.
         low = next(row for row in self.work.contacts if row["control"] == "key_C_low")
         point, normal = np.asarray(low["point"]), np.asarray(low["normal"])
         self.work.contact("right.little.pad", point - 0.0032 * Z, normal, control="key_C_low",
@@ -225,7 +225,7 @@ class Ewi:
             add("dark_plastic", plate(middle + 0.0020 * Y, (0.0070, 0.0020, 0.0014), X, Y))
         for number in range(1, ROLLERS):
             self.work.control(f"octave_{number}", "hole", f"o{number}", "left.thumb.pad", hover_m=0.0)
-        # Home is in the middle, so it stands first among the thumb's places.
+        # Home is in the middle and comes first among the thumb's places.
         for number in sorted(range(1, ROLLERS), key=lambda number: abs(number - HOME_OCTAVE)):
             middle = np.array([0.0, high + VALLEY_M, (places[number - 1] + places[number]) / 2])
             self.work.contact("left.thumb.pad", middle, -Y, control=f"octave_{number}")

@@ -185,7 +185,7 @@ class Oboe:
                      opening_m=0.0030, half_value=0.85)  # fmt: skip
         self.plate("L2", "left.middle.pad", 0.1830, 0.0080)
         self.plate("L3", "left.ring.pad", 0.2140, 0.0080)
-        # What the plates close besides: the small cups of C and B flat between them.
+        # Small cups of C and B flat between the plates, which the plates also close.
         work.linked("cup_C", ("plate_L1",), self.rod(0.112, 0.132, -52.0), cups=[self.cup(0.1260, -4.0, 0.0058)],
                     drop_m=0.0025)  # fmt: skip
         work.linked("cup_B_flat", ("plate_L2", "plate_R1"), self.rod(0.198, 0.206, -58.0, 0.0050),

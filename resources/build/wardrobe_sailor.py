@@ -52,7 +52,7 @@ def _lying(wearer: Wearer, cloth: Cloth, points: np.ndarray, lift_m: float) -> n
         shares /= shares.sum(axis=1, keepdims=True)
         normal = np.einsum("nk,nka->na", shares, normals[rows])
         normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-        # As high as the highest of what is near, so that nothing comes through.
+        # Raised to the highest nearby point of the cloth below, so that nothing comes through.
         height = ((below[rows] - points[:, None]) * normal[:, None]).sum(axis=2).max(axis=1)
         points = points + normal * (height + lift_m)[:, None]
     return points

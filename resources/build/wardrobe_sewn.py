@@ -172,7 +172,7 @@ def _arm_share(wearer: Wearer, cloth: Cloth) -> np.ndarray:
 def over(wearer: Wearer, outer: Cloth, inner: Cloth, from_m: float, margin_m: float) -> Cloth:
     """A garment moved out below a height until it lies over another one; sleeves stay."""
     low = float(outer.points[:, 1].min()) - 0.02
-    # The upper edge of what is below gives no whole hull.
+    # The hull is incomplete at the upper edge of the garment below.
     from_m = min(from_m, float(inner.points[:, 1].max()) - 0.02)
     levels = np.arange(low, from_m + 0.04, 0.012)
     arm = _arm_share(wearer, inner) < 0.3

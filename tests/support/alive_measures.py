@@ -125,7 +125,7 @@ def effort_correlations(read: Read) -> tuple[float, float, float]:
     long = (last - first >= 3) & (read.end_s - read.onset_s >= 0.1)
     means = np.array([np.mean(shown[a:b]) for a, b in zip(first[long], last[long], strict=True)])
     loudness, pitch = read.loudness[long], read.pitch[long]
-    # Equal ones share a rank: constant loudness says nothing, and not the order of the notes.
+    # Equal values share a rank, so that constant loudness has no correlation with the order of the notes.
     both = rankdata(loudness) + rankdata(pitch)
     with np.errstate(all="ignore"):
         results = [

@@ -149,7 +149,7 @@ class Judge:
         if widget.isWindow():
             title = widget.windowTitle()
             self._note(title)
-            # Qt takes a single mark out of what the window's frame shows.
+            # Qt removes a single placeholder from the title in the window's frame.
             handle = widget.windowHandle()
             if "&8" in title and handle is not None and "&8[*]" not in handle.title():
                 self._fault(f"{_described(widget)}: the title has a mark")

@@ -91,7 +91,7 @@ class GroupedDepths:
             for group, possible in blocks.possible_depths(body, self._radii_m)
         ]
         points: dict[int, FloatArray] = {}
-        # The likely deepest first: what cannot be deeper than what was found is not looked at.
+        # The probably deepest groups come first; those that cannot be deeper than the result are skipped.
         for _, group, body, possible in sorted(found, key=lambda item: -item[0]):
             frames = possible > deepest
             if not frames.any():

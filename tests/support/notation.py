@@ -129,7 +129,7 @@ def differences(own: Read, other: Read) -> set[str]:
 
 def _near(rows: Sequence[tuple[float, ...]], others: Sequence[tuple[float, ...]]) -> bool:
     """Return whether rows are equal except for rounding."""
-    # Sorted by rounded values, so that what is rounded differently stays in its place.
+    # Sorted by rounded values, so that differently rounded values keep their order.
     mine, theirs = (sorted(each, key=lambda row: [round(value * 8) for value in row]) for each in (rows, others))
     return len(mine) == len(theirs) and all(
         abs(one - other) < NEAR

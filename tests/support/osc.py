@@ -92,7 +92,7 @@ def frames(packets: list[tuple[float, bytes]]) -> list[Frame]:
                 found.append(Frame(at_s))
                 continue
             if not found:
-                # The rest of a frame whose beginning was sent before anyone listened.
+                # The remainder of a frame whose beginning was sent before listening began.
                 continue
             if message.address == "/VMC/Ext/Blend/Apply":
                 assert message.arguments == ()

@@ -69,7 +69,7 @@ class Wind:
         try:
             self._process.wait(3.0)
         except subprocess.TimeoutExpired:
-            # JACK may hold up who closes a port.
+            # JACK may block the process that closes a port.
             self._process.kill()
             self._process.wait()
 

@@ -363,7 +363,7 @@ class Restless:
         while document.undo() is not None:
             pass
         assert document.project is first
-        # No farther: what was taken back before is no part of it.
+        # No further, since steps undone before are not included.
         for _ in steps:
             document.redo()
         assert document.project is project

@@ -41,7 +41,7 @@ class Artist:
         settings = Settings(folder / "editor.toml")
         settings.language, settings.theme = language, theme
         settings.export_into = "unreal"
-        # Relative, so that the picture shows no one's folders.
+        # A relative path, so that the picture shows no real folders.
         os.chdir(folder)
         project = Path("Concert", "Concert.uproject")
         project.parent.mkdir(exist_ok=True)

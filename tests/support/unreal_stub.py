@@ -42,7 +42,7 @@ def excerpt(names: set[str]) -> str:
     head, functions = _head_and_functions()
     classes = "".join(text for name, (text, _) in blocks.items() if name in chosen)
     classes = _ANY.sub(r"\1 -> Any:", classes)
-    # The engine takes Python's strings for both, and a property is of whatever type its documentation says.
+    # The engine accepts Python's strings for both types, and a property has the type given in its documentation.
     return "\n".join([head, "Name = Text = str", classes, functions])
 
 

@@ -173,7 +173,7 @@ def main() -> None:
                 sent.append((time.perf_counter_ns(), message))
                 send(raw)
             print(json.dumps(sent), flush=True)
-    # What the libraries do at the end of a process is no concern of a test.
+    # Errors of the libraries at the end of the process are irrelevant to tests.
     os._exit(0)
 
 

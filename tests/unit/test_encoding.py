@@ -15,7 +15,7 @@ from app.errors import FileError, Message
 from app.messages import error_text
 
 on_bytes = pytest.mark.skipif(os.name == "nt", reason="names are no bytes there")
-# What a name may be: any bytes but NUL and the slash.
+# Valid file names: any bytes except NUL and the slash.
 NAMES = st.lists(st.binary(min_size=1, max_size=12).map(lambda b: b.replace(b"\0", b"\1")), min_size=1, max_size=4)
 KURARINETTO = "クラリネット 50%.mid"
 

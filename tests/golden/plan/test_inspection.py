@@ -30,7 +30,7 @@ ASSIGNED = {
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
 def test_everything_printed_about_real_music_is_true(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assigned = [f"--assign={one}" for one in ASSIGNED.get(path.name, ())]
-    # The judge knows pitches as the file has them.
+    # The judge uses sounding pitches, as in the file.
     options = ["--json", "--no-contacts", "--sounding", "*", "--set", "*.breath_need=0", "--felt-beat", "1", *assigned]
     assert main(["inspect", str(path), *options]) == 0
     assert faults(path, json.loads(capsys.readouterr().out)) == []

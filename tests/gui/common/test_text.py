@@ -59,7 +59,7 @@ def test_a_note_of_another_player_is_found(session: Session) -> None:
     message = Message("note.overlaps", {"note": note.id, "other": "99:1", "overlap_ms": 5})
     reported = message_text(message, session)
     assert "(1." in reported
-    # A note that is gone is reported by what is known of it.
+    # A deleted note is reported by the known data.
     assert "overlaps 99:1 by" in reported
     assert message_text(message, session, other.id) == reported
 

@@ -69,7 +69,7 @@ def test_it_exports_into_a_project_and_again(dialog: ExportDialog, game: Path) -
     assert description["rate"] == {"numerator": 24, "denominator": 1}
     assert reported == [("unreal", game / "Game.uproject")]
     assert dialog._shown_folder == sources
-    # The same again says what it replaces, another player what goes.
+    # A second export lists what it replaces; one of another player, what it removes.
     dialog._players.item(1).setCheckState(Qt.CheckState.Checked)
     assert "will be replaced: " in outcome(dialog)
     assert "S_quartet.wav" in outcome(dialog)
@@ -97,7 +97,7 @@ def test_a_dancer_goes_into_the_project_alone(
     assert [path.name for path in sources.glob("*/*.fbx")] == ["SK_Ana.fbx"]
     description = json.loads((sources / "performance.json").read_text(encoding="utf-8"))
     assert [dancer["name"] for dancer in description["dancers"]] == ["Ana"]
-    # The same again says that the file is replaced.
+    # A second export reports that the file is replaced.
     last.setCheckState(Qt.CheckState.Unchecked)
     last.setCheckState(Qt.CheckState.Checked)
     assert "SK_Ana.fbx" in outcome(dialog)

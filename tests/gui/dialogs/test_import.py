@@ -220,7 +220,7 @@ def test_what_comes_of_the_choices_is_worked_out_beside_the_window(qt_app: QAppl
         assert dialog._table.columnWidth(column) >= widget.sizeHint().width(), column
     for place in (0, 1):
         child(dialog, QCheckBox, f"play_{place}").click()
-    # The newer one is done first: what the older one says is of rows that are no longer those of the dialog.
+    # The newer task is finished first: the older result refers to rows that the dialog no longer has.
     tasks.work(1)
     assert summary.text() == "Players: 1"
     tasks.work(0)

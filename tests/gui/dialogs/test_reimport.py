@@ -63,7 +63,7 @@ def test_conflicts_are_rows_and_what_stays_is_counted(session: Session, qtbot: Q
         assert texts[1].startswith(f"{part.name}: {'deleted' if language == 'en' else '削除'}")
         table = child(dialog, QTreeWidget, "reimport_parts")
         assert [table.topLevelItem(row).text(5) for row in range(table.topLevelItemCount())] == ["1", "0", "0", "0"]
-        # Conflicts of a player who keeps the notes are none.
+        # Conflicts of a player whose notes are kept are not counted.
         table.setCurrentItem(table.topLevelItem(0))
         QTest.keyClick(table, Qt.Key.Key_Space)
         assert not rows.isVisible()

@@ -58,7 +58,7 @@ def test_the_keys_of_a_chart_have_names_in_both_languages(panel: InspectorPanel,
     diagram = child(panel, FingeringDiagram, "fingering_diagram")
     assert diagram.names == ["L1·2", "side B♭ key"]
     assert diagram.accessibleDescription() == "L1·2, side B♭ key"
-    # A click does nothing here, so the tip says where it would.
+    # A click has no effect here, so the tool tip names the place where it has one.
     only_shown = "Display only: click another fingering below to choose it"
     assert tip_at(diagram, "key_octave") == f"octave key\nL thumb\n{only_shown}"
     with speaking():

@@ -116,6 +116,6 @@ def test_amount_and_variation_of_several_players(sections: ParameterSections, se
     assert (other.choreography, other.dance_amount, other.dance_variation) == ("", 0.5, 0)
     QTest.mouseDClick(amount, Qt.MouseButton.LeftButton, pos=QPoint(30, 10))
     assert front(session).parameters.dance_amount == 0.5
-    # Players who differ show neither.
+    # For players with different values neither is shown.
     session.set_players((chosen[0], session.project.players[2].id))
     assert combo(sections).shown is None

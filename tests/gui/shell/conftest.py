@@ -115,7 +115,7 @@ def _drawn(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
     if "drawn" not in marks:
         monkeypatch.setattr("widgets.viewport.panel.why_no_gl", lambda: "not in this test")
         if "moved" not in marks:
-            # Contacts are judged in motion that is made for it, also where no one looks at it.
+            # Judging contacts computes motion, even if no test examines it.
             for making in ("work", "judge"):
                 monkeypatch.setattr(f"app.performance.live.LiveMotion.{making}", lambda self, stop_requested: False)
 

@@ -165,7 +165,7 @@ def test_everyone_moves_around_the_playhead_before_all_are_planned(
     qtbot.waitUntil(lambda: moving(6.0) == ids and live.performance.project is session.project)
     assert not generator.up_to_date
     assert not live.is_seen
-    # Far from there only who is planned already moves, and whoever is brought to the front next.
+    # Far from the excerpt only planned players move, and the next selected one.
     session.set_playhead(40.0)
     qtbot.waitUntil(lambda: moving(40.0) == [ids[0]])
     session.set_players((ids[3],))

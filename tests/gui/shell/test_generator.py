@@ -170,8 +170,8 @@ def test_the_viewport_is_reported_only_of_poses_at_the_playhead(
         )
         qtbot.waitUntil(lambda: generator.ready_share == 1.0)
         qtbot.wait(100)
-        # Once that there are other plans: the player in front is right by then. Then that the pose of another is, where
-        # the playhead is in what changed.
+        # One report of new plans, when the selected player is up to date; then one for another player's pose,
+        # if the playhead is in the changed part.
         assert len(reported) == expected, (player.name, at_s)
 
 
@@ -379,7 +379,7 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
             session.apply(EDIT, players.change(session.project, [first.id], character_id="unmarked"))
             qtbot.waitUntil(lambda: bool(where))
             assert where[0] is not here
-            # The others play on, and what is edited meanwhile is seen; it begins nothing again.
+            # The other players continue, and edits meanwhile are displayed; the fitting is not restarted.
             qtbot.waitUntil(lambda: "character.hold_waiting" in reported())
             _correct(session, 0.8)
             qtbot.waitUntil(lambda: generator.live.pose(second.id, 1.0) is not None)

@@ -54,7 +54,7 @@ def test_the_chart_of_a_note_is_in_sight_until_the_divider_is_dragged(program: P
     rows = child(program.window, QListView, "problem_list")
     assert rows.viewport().height() >= rows.visualRect(rows.model().index(0, 0)).height()
 
-    # Other lists stand where this one does: the tabs stay under the mouse.
+    # Other lists have the same place: the tabs stay under the mouse.
     tabs, sizes = child(inspector, QTabWidget, "inspector_tabs"), splitter.sizes()
     for tab in (1, 2, 0):
         tabs.setCurrentIndex(tab)

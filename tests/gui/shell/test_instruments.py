@@ -64,7 +64,7 @@ def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_reported(
     assert session.performance.plans[trombone.id] is before.plans[trombone.id]
     assert program.generator.up_to_date
     assert reported[-1] == ("instruments.read_again", {"maps": "trumpet_Bb"})
-    # A wrong file: reported with its place; what was good plays on.
+    # An invalid file is reported with the place of the error; the last valid version stays in use.
     good = session.performance
     write(folder / "trumpet_Bb.toml", OWN.replace('label = "13"', 'label = "19"'), 2)
     qtbot.waitUntil(lambda: reported[-1][0] == "table.invalid")

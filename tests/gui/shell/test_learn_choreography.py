@@ -53,7 +53,7 @@ def test_a_learned_choreography_is_danced_by_the_selected_dancer_or_a_new_one(st
     session.document.undo()
     assert session.project.dancers == (dancer,)
     dialog.close()
-    # Closed, it takes no notice of what is edited.
+    # A closed dialog ignores edits.
     delete_now()
     trigger(program, "dancers.add")
     assert len(session.project.dancers) == 2

@@ -355,7 +355,7 @@ def test_a_recording_that_is_removed_while_it_is_open(program: Program, answers:
     assert program.session.project.audio is not None
 
 
-# Pieces no one would write
+# Absurd pieces
 
 
 def with_notes(project: Project, notes: tuple[Note, ...]) -> Project:

@@ -288,7 +288,7 @@ def test_a_take_stays_with_its_project_when_another_is_opened_meanwhile(studio: 
         studio.program.editor.files.save_as()
     studio.press(Qt.Key.Key_R)
     studio.blow(60, 0.2)
-    # The same players, by their ids; the recorder says only afterwards that it has finished.
+    # The players are the same, by id; the recorder reports its end only afterwards.
     report, studio.link.on_news = studio.link.on_news, lambda: None
     studio.program.editor.files.open(other)
     assert studio.link.writer is None

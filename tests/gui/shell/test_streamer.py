@@ -346,7 +346,7 @@ def test_who_cannot_be_seen_is_named_and_everyone_else_is_sent(program: Program,
     session.attempt(Message("edit.set_tempo"), lambda project: with_instrument(project, 0, "ophicleide"))
     session.streaming.set(everyone=True)
     first_id = session.project.players[0].id
-    # Shown as before, until it is found that there is no such instrument; that there is no pose yet says nothing.
+    # The display is unchanged until the instrument is found to be missing; a missing pose causes no report.
     qtbot.waitUntil(lambda: live.error(first_id) is not None and live.pose(first_id, session.playhead_s) is None)
     with Receiver(PORT) as first, Receiver(PORT + 1) as second:
         stream_to(program, PORT)

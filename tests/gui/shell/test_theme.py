@@ -65,7 +65,7 @@ def test_what_is_drawn_is_seen(tokens: Tokens) -> None:
     for ground in (tokens.surface, tokens.raised, tokens.sunken):
         for colour in tokens.players:
             assert contrast(colour, ground) >= VISIBLE, (colour, ground)
-    # The edges of boxes to tick, and what cannot be used but must not vanish.
+    # Edges of check boxes, and disabled controls that must stay visible.
     assert contrast(tokens.text_dim, tokens.sunken) >= VISIBLE
     assert contrast(faint(tokens), tokens.surface) >= 2.0
 

@@ -350,7 +350,7 @@ def test_the_audio_lane_is_there_with_a_recording(program: Program, tmp_path: Pa
     assert lane.isVisible()
     trigger(program, "edit.undo")
     assert not lane.isVisible()
-    # Shown by hand it says what to do.
+    # A lane opened by the user explains what to do.
     trigger(program, "lanes.audio")
     assert lane.isVisible()
 

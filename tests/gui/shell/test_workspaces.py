@@ -182,7 +182,7 @@ def test_the_switch_shows_the_workspace_and_goes_with_the_start_page(program: Pr
     switch_to(program, "record")
     down = [id for id in SHOWN if window.findChild(QToolButton, f"workspace_{id}").isChecked()]
     assert down == ["record"]
-    # A click on the one that is shown leaves it down.
+    # A click on the current workspace leaves its button pressed.
     switch_to(program, "record")
     assert window.findChild(QToolButton, "workspace_record").isChecked()
     trigger(program, "file.close")
@@ -214,7 +214,7 @@ def test_folds_are_remembered_at_once(program: Program, start: Start, settings: 
     QTest.mouseDClick(lane.header, LEFT, NONE, QPoint(lane.header.width() - 8, 12))
     settle()
     assert lane.folded
-    # The program is killed: only what was written counts.
+    # The program is killed: only written settings count.
     settings.sync()
     stored = Settings(settings.path).workspace_state("animate")
     second = start()

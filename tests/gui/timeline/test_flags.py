@@ -71,7 +71,7 @@ def test_flags_stand_at_their_places_and_none_over_another(stage: Stage) -> None
     assert laid[0].shown == "Intro"
     assert laid[1].shown.startswith("Fugue")
     assert laid[1].shown.endswith("…")
-    # No room for its letter: it still stands there.
+    # Without room for its text the flag is still drawn.
     assert laid[3].shown == ""
 
 

@@ -429,7 +429,7 @@ def test_the_pencil_makes_a_key_at_each_click(panel: TimelinePanel, lane: Additi
     click(lane, place(lane, 8 * QUARTER, -5.0))
     assert [tick for tick, _ in values(one(lane))] == [4 * QUARTER, 8 * QUARTER]
     assert [step.name.id for step in lane.session.document.done] == ["edit.add_curve_key"] * 2
-    # A key that is there is dragged, as by the arrow.
+    # An existing key is dragged, as with the arrow tool.
     key = one(lane).keys[0]
     drag(lane, place(lane, key.tick, key.value), dy=-10.0)
     assert len(one(lane).keys) == 2

@@ -259,7 +259,7 @@ def test_a_dynamic_at_one_midi_note_says_how_far_it_holds_and_shows_it(stage: St
     label = stage.session.project.metre_map.label(later.onset_tick)
     assert [text(message) for message in noted] == [f"mf holds up to {label}."]
     assert lane(stage).placed()[0].holds_px == pytest.approx(in_lane(stage, later.onset_tick)[0], abs=1.0)
-    # Over several notes it says the end of these.
+    # Over several notes, the text names the end of the last one.
     noted.clear()
     toggle_mark(stage.session, {FRONT: [stage.note("1:2"), stage.note("1:3")]}, "dynamic", "pp")
     assert [message.arguments["place"] for message in noted] == [
@@ -396,7 +396,7 @@ def test_hidden_marks_are_neither_drawn_nor_caught_and_that_is_remembered(marked
     assert where(marked, SLUR) == place
     marked.panel.restore_state(state)
     assert not marked.panel.marks_shown
-    # A layout of an older version knows no marks.
+    # A layout of an older version has no marks.
     marked.panel.restore_state('{"order": ["audio", "roll"]}')
     assert marked.panel.marks_shown
 

@@ -318,7 +318,7 @@ def test_notes_of_two_players_are_legible_and_their_breaths_in_sight(
         top = breath.mapTo(room, QPoint(0, 0)).y()
         assert 0 <= top < top + breath.height() <= room.height()
         assert breath.height() >= breath.least_height_px
-    # They stay in sight, whoever is in front.
+    # The lanes stay visible, whichever player is selected first.
     QTest.mouseClick(panel.players.shown[1].caption, Qt.MouseButton.LeftButton, pos=QPoint(40, 10))
     QApplication.processEvents()
     assert session.players[0] == player_ids(session)[1]

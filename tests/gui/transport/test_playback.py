@@ -220,7 +220,7 @@ def test_a_busy_window_only_makes_it_wait(playback: Playback, time: Time, elapse
     playback.play(1.0)
     elapse(1.0)
     time.now_s += 0.7
-    # The device ran dry after what was in it.
+    # The device ran out of data after playing its buffer.
     assert playback.position_s() == pytest.approx(2.0 + BUFFER_S, abs=0.035)
     playback.feed()
     before = playback.position_s()

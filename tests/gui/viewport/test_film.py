@@ -54,7 +54,7 @@ def test_frames_are_the_pictures_of_the_window(
     for index, name in enumerate(names):
         with Image.open(folder / name) as picture:
             off = np.abs(np.asarray(picture).astype(int) - draw(first_s + index)[..., :3])
-        # The times differ by what was printed of them.
+        # The pictures differ in their printed times.
         assert off.mean() < 0.5, name
 
 

@@ -152,7 +152,7 @@ def test_who_begins_and_ends_goes_there_and_back_without_a_jump(
     assert away(pose, performed) < 0.01 * far
     for course in ([0.0, *there], [there[-1], *back]):
         assert max(abs(a - b) for a, b in pairwise(course)) < 0.2
-    # Someone who comes back on the way goes on from there.
+    # A player who returns before the transition has ended continues from there.
     players.begin(live)
     steps(16)
     players.end(live.player_id)

@@ -634,7 +634,7 @@ def test_escape_gives_a_drag_up(qtbot: QtBot, posing: ViewportPanel, session: Se
     qtbot.keyClick(canvas(posing), Qt.Key.Key_Escape)
     assert session.project is before
     assert not session.document.done
-    # The button is still down: what follows is no drag any more.
+    # The button is still pressed, but further moves are no drag.
     send(canvas(posing), QEvent.Type.MouseMove, QPointF(100, 100))
     send(canvas(posing), QEvent.Type.MouseButtonRelease, QPointF(100, 100))
     assert session.project is before
@@ -764,7 +764,7 @@ def test_it_looks_for_changed_poses_while_anyone_is_there(viewport: ViewportPane
 
     session.set_performance(Performance(session.project, planned_quartet()))
     assert looking()
-    # After a piece is closed there is nobody, however short a while ago plans arrived.
+    # After a piece is closed no players are shown, even if plans have just arrived.
     session.document.open(new_piece())
     assert not looking()
     session.set_performance(Performance(session.project))

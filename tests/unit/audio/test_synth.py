@@ -106,7 +106,7 @@ def test_a_note_sounds_once_however_the_part_is_cut() -> None:
     total = np.zeros(max(piece.start + len(piece.samples) for piece in pieces))
     for piece in pieces:
         total[piece.start : piece.start + len(piece.samples)] += piece.samples
-    # Every half second is the same tone anew.
+    # The same tone is repeated every half second.
     levels = np.sqrt((total[: 12 * RATE_HZ] ** 2).reshape(24, -1).mean(axis=1))
     assert levels[1:] == pytest.approx(levels[1:].mean(), rel=0.05)
 

@@ -169,7 +169,7 @@ def test_what_was_guessed_of_a_motion_is_said(
 def test_an_offset_is_a_time_of_the_file(drums: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     clip = arm_swings(60)
     rotations = clip.rotations.copy()
-    # A rest pose that faces elsewhere stands before the motion for a frame; it is left out.
+    # A rest pose with another facing precedes the motion for a frame and is excluded.
     rotations[0, 0] = quaternion.from_axis_angle((0.0, 1.0, 0.0), 1.5)
     motion = write_clip(tmp_path / "jump.bvh", replace(clip, rotations=rotations))
     command = ["choreography", "learn", "--pair", str(motion), str(drums), "--offset", "1", "--states", "4"]

@@ -39,7 +39,7 @@ def test_a_sound_between_beats_says_who_dances(sound: int, own: int) -> None:
 
 
 def test_drums_of_both_are_like_those_of_the_dancers_and_are_for_both() -> None:
-    # Each sounds as often: the hits themselves say whose motion is danced to them.
+    # All sounds are equally frequent; the hits determine whose motion is danced to them.
     like, unlike = DRUMS.likeness(struck([7, 21]))
     assert like.min() > 0.9
     assert np.ptp(unlike, axis=1).max() < 0.3

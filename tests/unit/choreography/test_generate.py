@@ -79,7 +79,7 @@ def test_standing_feet_stand() -> None:
     for stand in found.standing:
         off = np.linalg.norm(tips[stand.start : stand.stop, stand.foot] - stand.place_m, axis=-1)
         assert off.max() < 1e-3
-    # Found again in the result, by what is seen of it alone.
+    # Detected again from the result alone.
     seen = foot_contacts(found.clip)
     slides = np.linalg.norm(np.diff(tips, axis=0), axis=-1) * 60.0
     slow = slides[seen[1:] & seen[:-1]]

@@ -35,7 +35,7 @@ def danced(clip: MotionClip, offset_s: float, seed: int) -> Rhythm:
 def test_motion_beats_are_where_the_body_stops() -> None:
     clip = random_clip(4, 1801)
     stops = np.array([120, 400, 555, 900, 1500])
-    # Time of the motion stands still at these frames.
+    # Time of the motion is constant at these frames.
     frames = np.arange(1801.0)
     speed = 1.0 - np.exp(-0.5 * ((frames[:, None] - stops) / 6.0) ** 2).sum(axis=1)
     warped = np.interp(np.cumsum(speed), frames, frames)

@@ -51,7 +51,7 @@ def test_limbs_are_where_another_reader_has_them(name: str) -> None:
     import bvhio  # warns at its first import
 
     names, side, tolerance_m, up = KNOWN[name]
-    # At the rate that its file says it would be faster than a body.
+    # At the rate stated in the file the motion would be faster than a body.
     read = read_motion(CLIPS / f"{name}.bvh", Fraction(60) if "salsa" in name else None)
     assert read.up == up
     # The neck moves the head by up to 26 mm.
@@ -126,7 +126,7 @@ def test_a_figure_of_any_unit_and_axes_stands_on_the_floor(
     read = read_motion(tmp_path / "a.bvh", Fraction(60))
     assert (read.unit, read.up, read.file_fps, read.clip.fps) == (unit, up, 40, 60)
     shape = read.clip.shape
-    # Feet that never move show how level their soles are only by what is usual.
+    # For feet that never move, only the usual shape determines how level their soles are.
     assert shape.offsets_m[0] == pytest.approx((0.0, 0.87, 0.0), abs=0.015)
     # The rest pose hangs its arms; the T-pose has them along +X.
     assert shape.offsets_m[SEGMENTS.index("leftLowerArm")] == pytest.approx((np.hypot(0.1, 0.25), 0, 0), abs=1e-4)
@@ -304,7 +304,7 @@ def test_frames_of_seconds_are_counted_as_they_are_learned_from(tmp_path: Path) 
     head, _, rows = bvh(np.eye(3), 0.01).partition("Frames: ")
     row = rows.splitlines()[2]
     for frames, is_read in ((800, True), (2000, False)):
-        # Seconds of a frame: the file grows with its frames, so does what it may have.
+        # Seconds per frame: the file grows with its frames, and so does the limit.
         path.write_text(f"{head}Frames: {frames}\nFrame Time: 1\n" + f"{row}\n" * frames)
         if is_read:
             assert len(read_motion(path).clip) == frames

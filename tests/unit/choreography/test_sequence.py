@@ -142,7 +142,7 @@ def test_no_way_through_a_small_grid_is_better(seed: int, arrive: bool) -> None:
     weights = Weights(chance=0.0, lately=0.0, join_per_m=5.0)
     found = choose(grid, own, struck(times_s, scores), seed=0, weights=weights)
     assert found[0][0] == 0
-    # All ways from the first place to the one that it ends at.
+    # All sequences from the first place to the final one.
     ways = []
     for used in product((False, True), repeat=found[-1][0] - 1):
         places = [0, *(at + 1 for at, one in enumerate(used) if one), found[-1][0]]
@@ -211,7 +211,7 @@ def test_constraints_are_met_and_solved_around() -> None:
     grid = grid_of(rhythm)
     heard = heard_by(emission(len(own.states), 9)).hits(rhythm, 0.0)
     free = choose(grid, own, heard, seed=5)
-    # A phrase that is not asked for anything begins on the beat.
+    # A phrase without requirements begins on the beat.
     place = 16
     there = dict(free).get(place)
     requested = next(state for state in range(8) if state != there)

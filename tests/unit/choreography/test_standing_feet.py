@@ -36,7 +36,7 @@ def test_a_foot_that_comes_down_elsewhere_takes_a_step() -> None:
         assert after.start - before.stop >= STEP_S * 60
         assert before.place_m[0] == pytest.approx(tips_m(clip)[0, foot, 0])
         assert after.place_m[0] == pytest.approx(before.place_m[0] + 0.15, abs=1e-6)
-    # The hips alone move the hip joints by 1.5 m/s at once: 3 rad/s for a leg whose foot stays.
+    # The hips alone accelerate the hip joints to 1.5 m/s immediately: 3 rad/s for a leg with a standing foot.
     assert angular_jumps(planted(clip, standing)).max() < 4.0
 
 
@@ -65,7 +65,7 @@ def test_a_knee_that_is_a_little_more_than_straight_bends_forwards() -> None:
     back = 0.05 * np.sin(np.arange(60) / 8.0)
     for name, part in (("leftUpperLeg", -0.5), ("leftLowerLeg", 1.0)):
         turns[:, SEGMENTS.index(name)] = quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), part * back)
-    # Below where the leg is straight the foot, which stands, has no room.
+    # Below the position of the straight leg there is no room for the standing foot.
     sunk = replace(clip, rotations=turns, hips_m=clip.hips_m - np.array((0.0, 0.04, 0.0)))
     found = planted(sunk, (FootPlant(0, 0, 60, (0.1, 0.0, 0.2)),))
     places_m = found.world().positions_m

@@ -20,7 +20,7 @@ from app.rig.grip.fitting.fitted_instrument import FittedInstrument
 from instrument_maps.load import bundled_maps
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "tin-whistle"
-# D E F sharp G A B C sharp D, then a cross fingering and a half hole: what any tutor says.
+# D E F sharp G A B C sharp D, then a cross fingering and a half hole, as in common tutors.
 TUNE = {
     74: "L1 L2 L3 R1 R2 R3", 76: "L1 L2 L3 R1 R2", 78: "L1 L2 L3 R1", 79: "L1 L2 L3", 81: "L1 L2", 83: "L1",
     85: "(open)", 86: "L2 L3 R1 R2 R3", 84: "L2 L3", 80: "L1 L2 L3h",

@@ -129,7 +129,7 @@ def test_the_felt_beat_counts_in_pre_roll_cue_and_breaths(run: Run) -> None:
         (cue,) = [
             cue for player in found["players"] for cue in player["cues"] if cue["end_s"] == pytest.approx(first_s)
         ]
-        # The preparatory beat lasts as long as the one that begins; this file has another tempo at every quarter.
+        # The preparatory beat is as long as the following one; this file has a tempo change at every quarter.
         assert cue["beat_s"] == pytest.approx(sum(60.0 / row["bpm"] for row in found["tempo"][:beats]))
         breaths = [player["breaths"][1] for player in found["players"]]
         assert all(breath["end_beat"] - breath["start_beat"] == pytest.approx(beats) for breath in breaths)
@@ -204,7 +204,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
 
 def test_inspect_lists_articulation_bends_and_dynamics(run: Run, tmp_path: Path) -> None:
     track = mido.MidiTrack([mido.MetaMessage("track_name", name="Trumpet")])
-    # Tongued, slurred into the next, staccato, and one that is soft and falls.
+    # One tongued note, one slurred to the next, one staccato, and a soft one that fades.
     for pitch, velocity, lasts, pause in (
         (67, 96, 440, 40), (69, 96, 480, 0), (67, 96, 440, 40), (69, 96, 200, 280), (67, 33, 400, 0),
     ):  # fmt: skip

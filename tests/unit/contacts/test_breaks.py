@@ -68,7 +68,7 @@ def test_what_stops_short_of_a_note_out_of_reach_is_reported_once() -> None:
 
     assert not reported(short(1.0, 2.0), out_of_reach(1.2, 1.8))
     assert not reported(short(1.2, 1.6), out_of_reach(1.0, 2.0))
-    # Two that adjoin cover what lies over both; a long one is not cut off by a short one within it.
+    # Two adjacent spans cover one that overlaps both; a long one is not cut by a short one within it.
     assert not reported(short(1.0, 3.0), out_of_reach(1.0, 1.8), out_of_reach(2.2, 3.0))
     assert not reported(short(1.0, 3.0), out_of_reach(1.0, 3.0), out_of_reach(1.2, 1.4))
     assert reported(short(1.0, 9.0), out_of_reach(1.0, 2.0), out_of_reach(8.0, 9.0))

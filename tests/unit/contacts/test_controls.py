@@ -70,7 +70,7 @@ def test_what_stops_where_the_hand_ends_is_distinguished_from_what_is_wrong() ->
     reported = measured(notes, slide, values, {"n"})
     assert (reported.right, reported.stopped_short, reported.held_wrong, reported.held_stopped_short) == (0, 1, 0, 10)
     assert reported.most_short_mm == pytest.approx(60.0)
-    # Beyond its place it is wrong all the same, and so is what no hand carries.
+    # Beyond its place a control is wrong too, and so is one that no hand moves.
     assert measured(notes, slide, np.ones(40), {"n"}).held_wrong == 10
     pressed = msgspec.structs.replace(slide, finger="right.index")
     assert measured(notes, pressed, values, {"n"}).held_wrong == 10

@@ -79,7 +79,7 @@ def test_what_is_reported_is_what_the_motion_shows(index: int) -> None:
         short_mm = travel_mm * (event.controls.get("slide", 0.0) - float(motion.controls["slide"][frame]))
         if event.note_id in reported:
             assert reported[event.note_id]["control"] == "slide"
-            # The report looks at a body that stands still; after a breath it leans back.
+            # The report assumes a motionless body, but after a breath the body leans back.
             assert short_mm == pytest.approx(reported[event.note_id]["gap_mm"], abs=20.0)
         else:
             assert abs(short_mm) < 5.0

@@ -34,7 +34,7 @@ def test_one_event_says_its_kind_player_and_place() -> None:
     place = project.score.metre_map.label(breath.start_tick)
     assert named == Message("edit.move_event", {"event": "breath", "of": f"{player.name} · {place}"})
     assert place in text(named)
-    # Before there are plans, the note that it belongs to says where it is.
+    # Without plans, the place is that of the event's note.
     unplanned = edit_of_events(
         Shown(project, Performance(project)), "edit.move_events", [EventKey(player.id, breath.id)]
     )

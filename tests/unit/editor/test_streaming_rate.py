@@ -77,7 +77,7 @@ def sending(monkeypatch: pytest.MonkeyPatch) -> Sending:
 
 
 def test_the_rate_is_kept_while_it_plays(sending: Sending) -> None:
-    # A window that says nothing for a second is taken to hang.
+    # A window without a report for a second is considered to hang.
     for until_s in (100.5, 101.0, 101.5, 102.0, 102.5, 103.0):
         sending.move(sending.clock.now_s - 95.0, 1.0)
         sending.go_on(until_s)

@@ -22,7 +22,7 @@ def test_they_are_made_here_in_order(qtbot: QtBot) -> None:
 
     worker = threading.Thread(target=thread)
     worker.start()
-    # More than a socket's buffer holds is asked for before the window looks.
+    # More calls than fit into a socket's buffer are requested before the window handles any.
     worker.join()
     assert made == []
     qtbot.waitUntil(lambda: len(made) == 2000)

@@ -77,7 +77,7 @@ def test_measures_stage_and_report(free: tuple[Path, dict[str, Any]], tmp_path: 
     own = world_m(in_world(instrument, character, player["socket"]))
     stands = np.eye(4) if "place" in options else places[0]
     np.testing.assert_allclose(stands @ own, where, atol=1e-4)
-    # A BVH has the socket that keeps its place in the hand; what is not below the hips it cannot have.
+    # A BVH contains the socket that is fixed in the hand; it cannot contain bones that are not below the hips.
     kept = [name for name in read_bvh(tmp_path / "Trombone 2.bvh").names if "socket" in name]
     assert kept == ([player["socket"]] if "socket" in options else [])
 

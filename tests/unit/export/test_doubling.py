@@ -81,7 +81,7 @@ def test_both_are_judged_with_that_character_and_keep_every_bound(written: tuple
         assert one.measures.sounding_frames > 40  # type: ignore[attr-defined]
         assert one.measures.breaths.shown == one.measures.breaths.planned > 0  # type: ignore[attr-defined]
         assert failures(one) == ()
-    # The body is one: what is measured of it alone is the same with both.
+    # There is one body, so measures of the body alone are equal for both instruments.
     (double,) = player.doubles
     assert double.measures.feet == player.measures.feet
     assert double.measures.acceleration == player.measures.acceleration

@@ -169,7 +169,7 @@ def test_a_chair_bears_the_thighs_and_nothing_goes_into_it(folder: Path) -> None
     assert np.ptp(placed, axis=0).max() < 1e-6
     fabric = placed[0][_of_material(mesh, "chair_fabric")]
     heights = np.sort(fabric[:, 1])
-    # The seat is what lies below the widest gap; above it is the back.
+    # The seat is below the widest gap, the back above it.
     top_m = heights[np.argmax(np.diff(heights))]
     seat = fabric[fabric[:, 1] <= top_m]
     (low_x, _, low_z), (high_x, _, high_z) = seat.min(axis=0), seat.max(axis=0)

@@ -55,7 +55,7 @@ def test_a_short_gap_is_silence_of_its_length(tmp_path: Path) -> None:
 
 
 def test_what_is_heard_twice_at_a_time_is_heard_once(tmp_path: Path) -> None:
-    # A splice: the second half says that it begins half a second before the first half ends.
+    # A splice: according to its time stamps the second half begins half a second before the first half ends.
     plain = clicks(tmp_path / "plain.wav", RATE_HZ, (1.0, 3.0))
     ffmpeg("-i", str(plain), "-af", "asetpts=PTS-gt(T\\,2)*0.5/TB", "-c:a", "pcm_s16le", str(tmp_path / "back.mkv"))
     samples = film_sound(str(tmp_path / "back.mkv"), RATE_HZ, at_most(60.0))

@@ -151,7 +151,7 @@ def test_an_fbx_file_has_its_textures_beside_it(tmp_path: Path) -> None:
     rough = decoded(packed.texture, 8)
     assert rough is not None
     assert abs(int(rough[4, 4, 1]) - 64) <= 2
-    # Metal is a number where no image says otherwise.
+    # Without an image, metalness is a single number.
     assert material.metallic == 0.0
 
 

@@ -69,7 +69,7 @@ def test_a_letter_is_read_the_right_way_round(importer: str, tmp_path: Path) -> 
     assert found["spaces"]["Normal"] == data
     assert found["spaces"]["Roughness"] == rough
     assert found["spaces"]["Alpha"] is not None
-    # Rows from below: the letter is above left, what is cut out below right.
+    # Rows from the bottom: the letter is at the upper left, the transparent part at the lower right.
     picture = letter()[::-1] / 255.0
     for shown, (x, y) in zip(found["pixels"], ((6, 58), (58, 6), (6, 6)), strict=True):
         assert np.allclose(shown[3], picture[y, x, 3], atol=0.01)

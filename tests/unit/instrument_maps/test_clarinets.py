@@ -63,7 +63,7 @@ def test_first_choices_are_the_charts_majority(written: int) -> None:
 def test_alternates_are_in_a_chart_and_have_a_reason() -> None:
     for fingering in CLARINET.fingerings:
         assert possible(fingering.label), fingering
-        # The charts know neither trills nor what is left down between notes.
+        # The charts contain neither trills nor keys kept pressed between notes.
         if not {"trill", "held"} & set(fingering.tags):
             assert fingering.label in CHARTS.notes[fingering.written_pitch], fingering
         assert bool(fingering.tags) == (fingering.rank > 1), fingering

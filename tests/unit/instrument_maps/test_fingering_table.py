@@ -93,7 +93,7 @@ def test_only_what_changed_is_written(tmp_path: Path) -> None:
     assert {row["written_pitch"] for row in said["fingerings"]} == {D5}
     assert all("controls" not in row for row in said["fingerings"])
     assert load_map(path).fingerings == table
-    # Back to what the bundled map says: nothing is left to say.
+    # A change back to the bundled map's value leaves no difference to store.
     assert edit.base_table(TRUMPET, path) == TRUMPET.fingerings
     assert edit.save_own(load_map(path), TRUMPET.fingerings, path.parent) is None
     assert not path.exists()

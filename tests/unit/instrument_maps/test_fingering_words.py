@@ -35,7 +35,7 @@ def test_every_control_has_a_name_of_its_own_in_both_languages(instrument: Instr
         names = [key_name(instrument, name, language) for name in controls]
         assert len(set(names)) == len(names)
         assert all(bool(_JAPANESE.search(name)) == (language == "ja") for name in names)
-        # None is the map's own sign: L1 and R2 are what players say themselves.
+        # No word is the map's own sign, since L1 and R2 are used by players.
         signs = {control.label for control in instrument.controls} - {f"{hand}{n}" for hand in "LR" for n in range(10)}
         assert not signs & set(names)
 
@@ -105,7 +105,7 @@ def test_messages_say_keys_by_their_names() -> None:
     assert "サイド C キー" in text(in_words(message, SAXOPHONE, "ja"), "ja")
     reach = Message("contact.out_of_reach", {"label": "pf", "control": "key_palm_F", "gap_mm": 5})
     assert text(in_words(reach, SAXOPHONE, "en")).startswith("palm F key is out of reach for this player: palm F key")
-    # Without an instrument nothing is known, and what a score says is quoted as it stands there.
+    # Without an instrument nothing is known, and the score's text is quoted unchanged.
     assert in_words(message, None, "en") == message
     quoted = Message("fingering.not_in_map", {"label": "oct", "note": "1:1"})
     assert in_words(quoted, SAXOPHONE, "en") == quoted

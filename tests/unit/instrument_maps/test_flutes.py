@@ -47,7 +47,7 @@ def test_first_choices_are_the_charts_majority(written: int) -> None:
 
 def test_every_fingering_is_in_a_chart_possible_and_has_a_reason() -> None:
     for fingering in FLUTE.fingerings:
-        # The charts know neither trills nor what is left down between notes.
+        # The charts contain neither trills nor keys kept pressed between notes.
         if not {"trill", "held"} & set(fingering.tags):
             assert fingering.label in CHARTS.notes[fingering.written_pitch], fingering
         assert not twice(FLUTE, fingering.label), fingering
@@ -69,7 +69,7 @@ def test_the_piccolo_is_fingered_as_the_flute_without_a_foot_and_sounds_an_octav
     assert {one.label for one in FLUTE.controls} - {one.label for one in PICCOLO.controls} == {"C", "C#"}
     for written in range(62, PICCOLO_HIGHEST + 1):
         found = [(one.label, one.tags) for one in PICCOLO.fingerings_for(written + 12)]
-        # What the foot joint's keys do is left away.
+        # Effects of the foot joint's keys are ignored.
         flutes = [(one.label, one.tags) for one in FLUTE.fingerings_for(written)]
         assert found == [(label, tags) for label, tags in flutes if "C" not in label.split()], written
         assert not any(twice(PICCOLO, label) for label, _ in found)

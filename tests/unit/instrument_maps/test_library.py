@@ -47,7 +47,7 @@ def test_own_maps_are_found_and_win(folder: Path) -> None:
     assert find_map("pocket_trumpet").name.en == "Pocket trumpet"
     assert list(all_maps()) == sorted({*bundled_maps(), "pocket_trumpet"})
     assert find_map("pocket_trumpet").fingerings == bundled_maps()["trumpet_Bb"].fingerings
-    # The bundled ones are what they were, and the bundled model serves where none lies beside the map.
+    # The bundled maps are unchanged, and the bundled model is used if there is none beside the map.
     assert bundled_maps()["trumpet_Bb"].short_name != "Mine"
     assert model_path(find_map("trumpet_Bb")) == MODELS / "trumpet_Bb.glb"
     with pytest.raises(MapError) as caught:

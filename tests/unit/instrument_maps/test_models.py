@@ -237,7 +237,7 @@ def test_bodies_are_not_fatter_than_the_mesh_near_the_hands(instrument: Instrume
     triangles = everything(instrument)
     # Axis by axis, which lie together.
     low, high = np.ascontiguousarray(triangles.min(axis=1).T), np.ascontiguousarray(triangles.max(axis=1).T)
-    # Where a corner, or the middle of a side or of the whole, is near, the triangle is.
+    # A triangle is near if a corner, the middle of a side or its centre is near.
     sides = (triangles + np.roll(triangles, 1, axis=1)) / 2
     marks = cKDTree(np.concatenate([triangles.reshape(-1, 3), sides.reshape(-1, 3), triangles.mean(axis=1)]))
     rng = np.random.default_rng(7)

@@ -63,7 +63,7 @@ def test_first_choices_are_the_charts(written: int) -> None:
 @pytest.mark.parametrize("fingering", OBOE.fingerings, ids=lambda one: f"{one.written_pitch}-{one.rank}")
 def test_every_fingering_is_in_the_chart_and_possible(fingering: Fingering) -> None:
     charted = {one for ranked in chart()[fingering.written_pitch].values() for one in ranked}
-    # The chart knows neither trills nor what is left down between notes.
+    # The chart contains neither trills nor keys kept pressed between notes.
     assert any(alike(fingering.label, one) for one in charted) or {"trill", "held"} & set(fingering.tags)
     assert bool(fingering.tags) == (fingering.rank > 1)
     at_work = [finger(sign) for sign in fingering.label.split()]

@@ -64,7 +64,7 @@ def test_first_choices_are_the_charts_majority(written: int) -> None:
 def test_alternates_are_in_a_chart_and_have_a_reason() -> None:
     for fingering in ALTO.fingerings:
         assert possible(fingering.label), fingering
-        # The charts know neither trills with palm keys nor what is left down between notes.
+        # The charts contain neither trills with palm keys nor keys kept pressed between notes.
         known = fingering.label in charts()[fingering.written_pitch] or {"trill", "held"} & set(fingering.tags)
         assert known or fingering.written_pitch in (*BY_MAKERS, *ALTISSIMO) or fingering.label in FRONT, fingering
         assert bool(fingering.tags) == (fingering.rank > 1), fingering

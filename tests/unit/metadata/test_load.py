@@ -39,7 +39,7 @@ READERS = {
     "skeletons": read_skeleton,
 }
 
-# What each positive axis does to a point of the T-pose: (joint, axis, point on the bone, direction it goes to).
+# Effect of each positive axis on a point in the T-pose: (joint, axis, point on the bone, direction of its motion).
 ANATOMY = [
     ("spine", "flexion", (0, 1, 0), (0, 0, 1)),
     ("spine", "sideways", (0, 1, 0), (1, 0, 0)),

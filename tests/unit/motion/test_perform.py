@@ -155,7 +155,7 @@ def test_feet_leave_the_ground_as_planned_and_else_stand(posture: str) -> None:
             lifted |= here
         for name in (f"{foot}Foot", f"{foot}Toes"):
             ((place_m, _),) = world(motion, name)
-            # While it stands no foot slides, and after its step it is where it was.
+            # A standing foot does not slide, and after a step it returns to its place.
             assert np.linalg.norm(np.diff(place_m, axis=0), axis=1)[~lifted[1:] & ~lifted[:-1]].max() < 1e-4
             assert np.ptp(place_m[(t < 1.9) | (t > 22.0)], axis=0).max() < 1e-3
             assert place_m[:, 1].min() > place_m[0, 1] - 1e-3

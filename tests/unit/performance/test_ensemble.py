@@ -58,6 +58,6 @@ def test_performances_do_not_hold_those_before_them() -> None:
     after = Performance(replace(project, seed=1), performance)
     after.prepare()
     assert after._before is None
-    # One that was never played does not keep the line from growing without end.
+    # A performance that was never played does not stay in memory.
     unplayed = Performance(replace(project, seed=2), after)
     assert Performance(replace(project, seed=3), unplayed)._before is after

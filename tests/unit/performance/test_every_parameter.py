@@ -81,7 +81,7 @@ def test_a_change_makes_anew_what_it_says_and_no_less(parameter: Parameter) -> N
     old = before(danced)
     first = old.project.players[0]
     seen = False
-    # One of them: random edits take any (tests/property/performance).
+    # One value only: random edits use any value (tests/property/performance).
     for value in others(parameter, getattr(first.parameters, parameter.name))[-1:]:
         changed = set_parameters(old.project, (first.id,), **{parameter.name: value})
         warm, cold = Performance(changed, old), Performance(changed)

@@ -114,7 +114,7 @@ def test_everyone_moves_before_the_others_are_planned_and_then_as_planned() -> N
     live.request(200.0, 4.0, (first,))
     while live.work():
         pass
-    # Outside of the excerpt only who is planned is there: the others would stand as at the end.
+    # Outside the excerpt only planned players are shown; the others would be in their final poses.
     assert [live.pose(one, 200.0) is not None for one in (first, *others)] == [True, *(False for _ in others)]
     assert live.is_moving
     assert live.pose_now(others[0], 200.0) is None
@@ -144,7 +144,7 @@ def test_everyone_moves_before_the_others_are_planned_and_then_as_planned() -> N
                 name: value for name, value in anew.morphs.items() if value
             }
             assert shown.controls == anew.controls
-    # Contacts are judged of what is kept as of what is made again.
+    # Contacts are judged for cached motion as for recomputed motion.
     plain = LiveMotion(Performance(piece()))
     plain.request(at_s, 4.0, (first,))
     while not plain.is_seen:

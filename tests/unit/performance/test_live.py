@@ -368,7 +368,7 @@ def test_it_is_asked_while_it_works(performance: Performance) -> None:
     for time_s in np.linspace(-2.0, 20.0, 70):
         one, other = live.pose(player.id, float(time_s)), fresh.pose(player.id, float(time_s))
         assert np.array_equal(one.rotations, other.rotations)
-        # What an edit took back stays in the list of shapes, at 0.
+        # Shapes removed by an edit stay in the list with weight 0.
         names = one.morphs.keys() | other.morphs.keys()
         assert all(one.morphs.get(name, 0.0) == other.morphs.get(name, 0.0) for name in names)
 
@@ -429,7 +429,7 @@ def test_a_fault_in_one_players_motion_is_reported_once_and_the_others_are_made(
     while live.judge():
         pass
     monkeypatch.undo()
-    # What is edited is tried again.
+    # An edited player is tried again.
     project = with_corrections(performance.project, first.id, [AddExpression("x", "smile", 0, 480)])
     live.show(Performance(project, performance))
     all_made(live)

@@ -94,7 +94,7 @@ def test_soon_after_every_onset_the_controls_are_those_of_the_performance(instru
             end = int((event.end_s - seen.motion.first_frame_s) * FPS) - 1
             late = min(frame + FPS // 4, end)
             if event.end_s - event.start_s > 0.4:
-                # Where the arm ends before the place, it stops where it stops for the performance too.
+                # If the arm ends before the place, the slide stops where it stops in the performance.
                 there = min(event.controls.get(name, 0.0), float(offline.controls[name][frame]))
                 assert seen.motion.controls[name][late] == pytest.approx(there, abs=0.01)
     assert compared > 25 * (instrument_id != "trombone_tenor_F_attachment")
@@ -216,7 +216,7 @@ def strokes(step_s: float, velocities: list[int]) -> list[tuple[float, float, fl
         breath.play(onset_s, 60, velocity, attacked=True)
         times_s = np.linspace(onset_s, onset_s + 0.9 * step_s, 40)
         shown = [(face.tongue[0], face.tongue_back[0], face.push[0]) for face in (faces(breath, at) for at in times_s)]
-        # What is left of the stroke before sinks; a stroke of its own comes up.
+        # The remainder of the previous stroke decreases; a new stroke rises.
         tip, back, push = np.maximum(np.array(shown) - np.array(shown[0]), 0.0).max(axis=0).tolist()
         found.append((tip, back, push))
     return found
@@ -312,7 +312,7 @@ def test_midi_messages_say_the_same() -> None:
     by_calls.note_off(1.2, 61)
     messages = [
         (1.0, "b00264"), (1.0, "903d5a"), (1.1, "b00128"), (1.1, "e00050"), (1.2, "903f5a"), (1.2, "903d00"),
-        # Another channel's, a clock, a broken one, and one that says nothing here.
+        # A message of another channel, a clock, an incomplete message, and a meaningless one.
         (1.2, "914050"), (1.2, "f8"), (1.2, "90"), (1.2, "b04000"),
     ]  # fmt: skip
     for time_s, raw in messages:

@@ -71,6 +71,6 @@ def test_problems_of_other_bars_are_left_out() -> None:
     assert problems_in_bars([slip], SCORE, PART.id, (4, 9)) == ()
     lasting = Problem(Message("character.no_lips", {}), None, -2.0, 60.0)
     assert problems_in_bars([lasting], SCORE, PART.id, (9, 9)) == (lasting,)
-    # The last bar has what follows the last note.
+    # Problems after the last note belong to the last bar.
     late = Problem(Message("contact.lips_off", {"gap_mm": 3}), None, 31.0, 31.5)
     assert problems_in_bars([late], SCORE, PART.id, (15, 15)) == (late,)

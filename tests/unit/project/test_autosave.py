@@ -179,7 +179,7 @@ def test_what_finishes_after_a_save_does_not_stay_in_place_of_newer_work(editor:
     autosave.changed(later(project), 0.0)
     held_up = autosave.due(4.0)
     assert held_up is not None
-    # It is in the midst of it and looks at nothing any more.
+    # The writing is in progress and checks nothing any more.
     held_up = replace(held_up, held=frozenset((autosave_path(document),)))
     autosave.opened(document, "saved")
     newer = later(later(project))
@@ -239,7 +239,7 @@ def test_a_folder_that_refuses_the_work_does_not_lose_it(
         assert str(document) in reported
         assert str(folder) in reported
         assert load(autosave.presence.own_path) == project
-    # As soon as the folder takes it again it is there, and there alone.
+    # The autosave appears as soon as the folder accepts it, and only there.
     disks.refusing.clear()
     autosave.changed(later(project), 0.0)
     writing = autosave.due(4.0)
@@ -313,7 +313,7 @@ def test_no_place_at_all(editor: Editor, folder: Path, document: Path, disks: Di
     assert raised.value.message.id == "autosave.refused"
     assert os.strerror(errno.ENOSPC) in reported
     assert os.strerror(errno.EROFS) in reported
-    # It is tried again.
+    # The autosave is tried again.
     assert autosave.due_s == 8.0
     disks.refusing.clear()
     assert write(autosave, 8.0) == autosave_path(document)
@@ -340,7 +340,7 @@ def test_a_disk_that_does_not_answer_is_not_waited_for(editor: Editor, folder: P
     autosave.changed(newer, 4.5)
     assert autosave.due_s == 4.0 + PATIENCE_S
     assert write(autosave, 9.0) == autosave.presence.own_path
-    # At last it does, one way or the other: what is newer stays what counts.
+    # At last one of both is written: newer work has priority.
     made(autosave, held_up, 60.0)
     assert not autosave_path(document).exists()
     crash(autosave)
@@ -396,7 +396,7 @@ def test_a_folder_of_unsaved_work_that_refuses_costs_nothing_else(tmp_path: Path
     assert load(autosave_path(document)) == project
     (item,) = recoverable_of(document, presence.folder)
     assert load_work(item)[0] == project
-    # The folder is there at last.
+    # The folder is available at last.
     blocked.unlink()
     autosave.changed(later(project), 8.0)
     write(autosave, 12.0)
@@ -463,7 +463,7 @@ def killed_in_mid_write(folder: Path, document: Path | None, after_s: float) -> 
         [sys.executable, "-c", SCRIPT, str(folder), str(document or "")], cwd=ROOT, stdout=subprocess.PIPE
     )
     assert process.stdout.readline().strip() == b"ready"
-    # It writes without a pause, so wherever this strikes it strikes a write.
+    # The process writes continuously, so the kill interrupts a write.
     time.sleep(after_s)
     process.send_signal(signal.SIGKILL)
     process.wait()
@@ -485,7 +485,7 @@ def test_killed_in_mid_write(editor: Editor, folder: Path, document: Path, after
     project = recover(item, mine)
     assert project.seed >= 3
     assert replace(project, seed=0) == replace(small_project(), seed=0)
-    # It is this editor's work at once, and would survive its crash too.
+    # The work belongs to this editor immediately and would survive its crash too.
     assert recoverable(folder) == ()
     assert write(mine, 4.0) == Path(mine.presence.note.autosave)
     assert load(Path(mine.presence.note.autosave)) == project
@@ -528,12 +528,12 @@ def test_work_on_a_file_that_has_changed_since_is_offered_and_says_so(
     left_behind(editor, document, later(project))
     base = file_hash(document)
     save(replace(project, seed=77), document)
-    # Whatever the clock says.
+    # The result is independent of the clock.
     os.utime(document, (1.0, 1.0))
     (item,) = recoverable_of(document, folder)
     assert recoverable(folder) == (item,)
     assert item.is_file_changed
-    # What is saved next is known to be based on what the file held then.
+    # The next save is known to be based on the file's content at that time.
     assert load_work(item) == (later(project), base)
 
 
@@ -555,7 +555,7 @@ def test_autosaves_of_older_versions_still_work(editor: Editor, folder: Path, do
     assert recoverable_of(document, folder) == (item,)
     assert (item.facts, item.is_file_changed) == (None, False)
     assert load_work(item) == (project, file_hash(document))
-    # No one knows what it is based on: perhaps it is older.
+    # The base is unknown: the work may be older.
     os.utime(document, (time.time() + 1e6, time.time() + 1e6))
     (item,) = recoverable(folder)
     assert item.is_file_changed

@@ -43,7 +43,7 @@ def test_a_value_of_any_field_that_no_file_holds_is_found(value: Any) -> None:
         "seed": replace(PROJECT, seed=value),
     }
     for place, project in broken.items():
-        # As an edit: what the two have in common is not looked at again.
+        # Compared with an edited project: common parts are not examined again.
         for found in (places(project), places(project, PROJECT)):
             assert [one.startswith(place) for one in found] == [True], (place, found)
     assert places(PROJECT) == []

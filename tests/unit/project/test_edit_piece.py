@@ -183,7 +183,7 @@ def test_settings_at_once_are_those_one_by_one(project: Project) -> None:
     assert edit.piece_settings(one_by_one) == others
     odd = edit.set_piece_settings(project, msgspec.structs.replace(usual, title="  two \n words "))
     assert odd.score.title == "two words"
-    # What a file was called is not cleaned behind the user's back.
+    # The stored name of a source file is never changed without the user's knowledge.
     read = replace(project, score=msgspec.structs.replace(project.score, title=" as read "))
     assert edit.set_piece_settings(read, edit.piece_settings(read)) is read
     for wrong in ({"fps": Fraction(0)}, {"preroll_beats": math.nan}, {"felt_beat_quarters": 0.0}, {"seed": 2**63}):

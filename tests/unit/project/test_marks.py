@@ -250,7 +250,7 @@ def test_a_sforzando_stands_beside_the_dynamic_that_holds(deleted: str, left: st
     changed = remove(project, plan, [marks[deleted].id])
     assert player_marks(changed, player) == {marks[left]: "score"}
     assert give_back(changed, player, [marks[deleted].id]) == project
-    # So it does where it is written by hand.
+    # Same result for a mark added by the user.
     project = _piece((marks["p"],), "score")
     struck = toggle_marks(project, _notes(project, 1, 1), "dynamic", "sfz").project
     assert player_marks(struck, player) == {marks["p"]: "score", marks["sfz"]: "hand"}

@@ -11,7 +11,7 @@ from app.project.moved_ticks import place_map
 
 @pytest.mark.parametrize(("tick", "moved"), [(-50, -50), (0, 0), (90, 90), (400, 100), (480, 100), (500, 120)])
 def test_a_place_stays_between_the_notes_around_it(tick: int, moved: int) -> None:
-    # The second note came 380 ticks nearer: what was behind the first one cannot be beyond it.
+    # The second note moved 380 ticks earlier: positions after the first note must stay before it.
     assert place_map([(0, 0), (480, 100)], Fraction(1))(tick) == moved
 
 

@@ -30,7 +30,7 @@ def test_there_and_back(tmp_path: Path) -> None:
     found = presets.presets(folder)
     assert found.items == {"Lively": preset}
     assert found.problems == ()
-    # What makes one player differ from the others is not shared.
+    # Parameters that distinguish players are not part of presets.
     assert preset.parameters.keys().isdisjoint({"seed", "cue_leader"})
     project = set_parameters(small_project(), ["1.1.1", "2.1.1"], **preset.parameters)
     assert {(one.parameters.amplitude, one.parameters.posture) for one in project.players} == {(0.9, "seated")}

@@ -104,7 +104,7 @@ def test_parts_read_as_written_pitches_are_read_so_again() -> None:
 
     project = project_from_score(score(written=True), MAPS)
     assert project.score.parts[0].transposed_semitones == -2
-    # Files are read as they stand.
+    # Files are read unchanged.
     assert reimport(project, score(written=False), MAPS).project is project
     last = project.score.parts[0].notes[-1]
     new = Note("1:999", last.end_tick + BAR, 480, 70, 80)
@@ -323,7 +323,7 @@ def test_title_source_and_tempo() -> None:
     assert result.project.score.title == project.score.title
     assert result.project.source == "/music/new.mid"
     assert result.project.score.tempo_map is score.tempo_map
-    # Where it is not known what the file had, its notes as they were say that the tempo was changed here.
+    # Without a stored version of the file, the original notes show that the tempo was changed by the user.
     assert reimport(small, score, MAPS).project is small
 
 
@@ -358,7 +358,7 @@ def test_twenty_thousand_notes() -> None:
     assert survivors <= kept
 
 
-# What was done to notes by hand
+# Notes changed by the user
 
 
 def by_hand(project: Project, index: int, change: dict[int, dict[str, int] | None]) -> Project:
@@ -413,7 +413,7 @@ def test_what_a_hand_did_to_notes_stays_where_the_file_did_not_touch_them() -> N
     assert after[first[15].id].pitch == first[15].pitch - 2
     assert result.conflicts == ()
     assert (result.added, result.removed) == ((), ())
-    # Once more: the file's version of before is the one that was read last.
+    # Again: the file's previous version is the one read last.
     again = reimport(result.project, file_with(project, 0, {15: {"pitch": first[15].pitch - 2}}, BAR), MAPS)
     assert again.project is result.project
 

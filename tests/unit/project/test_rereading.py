@@ -102,7 +102,7 @@ def test_a_shifted_reordered_and_renamed_file_costs_nothing(
     for player in project.players:
         former, now = project.part(player).notes, outcome.project.part(player).notes
         assert [note.onset_tick + bars * BAR for note in former] == [note.onset_tick for note in now]
-    # Once taken in, the file says nothing new.
+    # The file reports nothing new once it was imported.
     assert reimported(outcome.project, path, MAPS).project is outcome.project
 
 
@@ -218,7 +218,7 @@ def test_tempo_metre_and_dynamics_edited_here_stay_while_the_file_has_its_own(tm
         change.tick + BAR * (change.tick > 0) for change in edited.score.tempo_map.changes
     ]
     assert [(metre.tick, metre.numerator) for metre in after.metres] == [(0, 4), (3 * BAR, 3)]
-    # Where the file changed its tempo as well, that is taken, and reported.
+    # If the file also changed its tempo, the new one is used and reported.
     content = tracks()
     content[0].insert(0, mido.MetaMessage("set_tempo", tempo=400_000))
     outcome = reimported(edited, written(tmp_path / "faster.mid", content), MAPS)

@@ -91,7 +91,7 @@ def test_the_autosave_goes_on_without_it_and_says_which_value_it_is(tmp_path: Pa
                 assert "bell.up" in text(written.without, language)
             titles.append(load(autosave_path(document)).score.title)
             assert autosave.has(project)
-        # What was written before gives the seed that cannot be saved; the title is the new one.
+        # The unsavable seed is replaced by the previously saved one; the title is the new one.
         assert titles == ["Edited 0", "Edited 1"]
         assert written.without.arguments["count"] == 2
         assert load(document) == full_project(str(tmp_path))

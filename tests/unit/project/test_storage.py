@@ -183,8 +183,8 @@ def test_every_version_that_ever_was_can_be_read(version: int) -> None:
 
 
 def test_the_present_version_is_written_as_its_sample_says() -> None:
-    # Whoever changes what a file holds adds a migration and a sample, and leaves the old samples as they are. What only
-    # parameters are new in needs none: its file is the newest sample with them.
+    # Changing a file's content requires a migration and a sample; old samples stay unchanged. New parameters
+    # alone require none: their file is the newest sample with them.
     path = SAMPLES / f"version_{VERSIONS[-1]}.suisou"
     content = encode(load(path), path)
     assert json.loads(content) == migrated(json.loads(path.read_bytes()), VERSIONS[-1])
@@ -391,7 +391,7 @@ def test_paths_of_other_systems_stay_what_they_are(tmp_path: Path, path: str) ->
     project = replace(small_project(), audio=AudioTrack(path))
     save(project, tmp_path / "piece.suisou")
     assert load(tmp_path / "piece.suisou") == project
-    # One on another computer is not looked for before the user agrees.
+    # A file on another computer is not accessed before the user agrees.
     assert missing_media(project) == (None if elsewhere(project) else Path(path))
 
 

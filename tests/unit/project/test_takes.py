@@ -74,7 +74,7 @@ def test_the_part_has_of_each_take_what_was_swiped() -> None:
     assert [(span.start_tick, span.take_id) for span in spans] == [(0, "take:1"), (480, "take:2"), (1440, "take:1")]
     project = comp(project, TRUMPET, BEFORE, 960, 1440)
     assert [pitch for _, _, pitch in line(project)] == [70, 81, 62, 73]
-    # Taking it back to the first take gives the very same part.
+    # Reverting to the first take gives an identical part.
     again = comp_whole(project, TRUMPET, "take:1")
     assert line(again) == line(comp_whole(recorded(ONE, TWO), TRUMPET, "take:1"))
     assert again.takes[TRUMPET].comp == (CompSpan(0, 1920, "take:1"),)
@@ -183,7 +183,7 @@ def test_a_free_take_gives_the_piece_its_beats() -> None:
     ticks = np.array([note.onset_tick for note in notes(project)])
     assert np.abs(ticks - 480 * np.rint(ticks / 480)).max() <= 30
     assert len(ticks) == len(played)
-    # What was played is heard as it was.
+    # Played notes keep their times.
     seconds = project.score.tempo_map.seconds(ticks)
     assert np.abs(np.diff(seconds) - np.diff(beats)).max() < 0.02
 

@@ -104,7 +104,7 @@ def lengths_mm(character: Character) -> dict[str, float]:
     hand = character.at("left.hand")
     knuckles = [joints[f"left{finger}Proximal"] for finger in ("Index", "Little")]
     across = hand[(hand[:, 0] > knuckles[1][0] - 0.004) & (hand[:, 0] < knuckles[0][0] + 0.004)]
-    # Of the thumb nothing.
+    # Without the thumb.
     across = across[across[:, 2] < knuckles[0][2] + 0.016]
     trousers = character.meshes["trousers"].t_pose
     low, high = joints["leftLowerLeg"][1] + 0.15, joints["hips"][1]

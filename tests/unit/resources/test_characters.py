@@ -336,7 +336,7 @@ def test_a_full_breath_widens_chest_and_belly_clothes_and_all(character: Charact
     for share in (0.35, 0.45, 0.55):
         height_m = low + share * (high - low)
         assert 0.02 < _girth_m(character, height_m, 1.0) - _girth_m(character, height_m, 0.0) < 0.043
-    # What lies one over the other goes along with it: a shirt does not come through the belt.
+    # Layers of clothes move together: a shirt does not come through the belt.
     shirt, trousers = character.meshes["shirt"], character.meshes["trousers"]
     for point, delta in zip(trousers.positions, trousers.morphs["bellyExpand"], strict=True):
         if np.linalg.norm(delta) > 1e-3:

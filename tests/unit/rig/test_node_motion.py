@@ -169,7 +169,7 @@ def test_scaled_armatures_are_multiplied_out(tmp_path: Path) -> None:
         for channel in animation["channels"]
         if channel["target"] == {"node": hips_at, "path": "translation"}
     )
-    # The way of the hips is a hundred times as long too: its keys are written anew.
+    # The path of the hips is also a hundred times as long, so its keys are rewritten.
     clip = scene_of(CLIP, 3).clip
     keys = np.asarray(clip.translations_cm[1], "<f4")
     binary = data[20 + length + 8 :] + keys.tobytes()

@@ -24,7 +24,7 @@ KITS = {
     "xg": (0, 1, 8, 16, 24, 25, 32, 40, 48, 56),
     "gm2": (0, 8, 16, 24, 25, 32, 40, 48),
 }
-# What some notes of a kit are, where the standard kit of General MIDI 2 has another number for it: note, number.
+# Notes of kits with another sound number than in the standard kit of General MIDI 2: note, number.
 DIFFERENT = {
     ("xg", 0): ((25, 38), (28, 38), (31, 38), (33, 35), (13, 86), (22, 34), (30, 85)),
     ("gs", 0): ((25, 38), (26, 39)),

@@ -38,7 +38,7 @@ SELECT = ((101, 0), (100, 0))
         ((*SELECT, (38, 50), (6, 0)), 0.5),
         ((*SELECT, (6, 0), (38, 50), (6, 2)), 2.0),
         ((*SELECT, (6, 0), (38, 0)), 0.0),
-        # Null, another parameter, an unregistered one, a reset: what follows is not for the range.
+        # Null parameter, another parameter, an unregistered one, and a reset: following data do not set the range.
         ((*SELECT, (6, 12), (101, 127), (100, 127), (6, 1)), 12.0),
         ((*SELECT, (6, 12), (100, 1), (6, 64)), 12.0),
         ((*SELECT, (99, 1), (98, 8), (6, 64)), 2.0),

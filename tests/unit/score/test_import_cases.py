@@ -95,7 +95,7 @@ def unnamed(lines: list[list[int]], program: int | None) -> bytes:
 
 
 COMPASSES = {
-    # What orchestration books give as the good compass, at concert pitch.
+    # Good compasses according to orchestration books, at sounding pitch.
     "sax_soprano": (60, 82), "sax_alto": (52, 78), "sax_tenor": (46, 72), "sax_baritone": (38, 62),
     "clarinet_": (53, 82), "clarinet_bass": (40, 65), "trumpet_": (58, 80), "trombone_tenor": (45, 67),
     "trombone_bass": (35, 60), "horn_": (48, 74), "tuba_": (31, 52), "flute": (62, 91), "oboe": (60, 84),

@@ -15,7 +15,7 @@ def choice(map_id: str, plays: str, low: int, high: int, *substitutes: str) -> M
     return MapChoice(map_id, (plays,), substitutes, low, high)
 
 
-# Concert ranges as method books give them; the maps of a wind band, each playing what it is.
+# Sounding ranges according to method books; the maps of a wind band, each assigned to the instrument of its name.
 BAND = (
     choice("bassoon", "bassoon", 34, 75),
     choice("clarinet_A", "clarinet_A", 49, 93),

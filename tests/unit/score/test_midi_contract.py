@@ -158,7 +158,7 @@ def test_a_status_of_a_channel_does_what_its_row_says_on_every_channel() -> None
         if status >> 4 == 0xB:
             continue
         size = 1 if status >> 4 in (0xC, 0xD) else 2
-        # A note-off ends what sounds, on its own channel only.
+        # A note-off ends the sounding note on its own channel only.
         message = mido.Message.from_bytes([status, 60, 100][: size + 1])
         expected = set(READ_STATUS[status >> 4].split()) if status >> 4 != 0x8 or status == 0x80 else set()
         assert changed(events_with(message)) - {"hanging"} == expected, hex(status)

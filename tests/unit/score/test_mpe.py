@@ -90,7 +90,7 @@ def test_each_note_has_the_bend_and_the_pressure_of_its_channel() -> None:
         (0, bytes([0xD1, 20])),
         (48, bytes([0xD1, 80])),
         (96, bytes([0xD2, 40])),
-        # After the next note has begun the first channel says nothing more.
+        # After the next note has begun, the first channel sends nothing relevant.
         (100, bytes([0xD1, 0])),
         (60, bytes([0xE1, 0, 0x41])),
     ]

@@ -169,5 +169,5 @@ def test_a_part_beyond_its_range_that_fits_as_written_is_read_and_said_so() -> N
     # Beyond both, or within as it sounds: nothing is known.
     assert one_part(51, 60, 72, name="Clarinet", maps=(CLARINET,)).warnings == ()
     assert one_part(52, 60, 70, name="Clarinet", maps=(CLARINET,)).warnings == ()
-    # One wrong note in a long part says nothing.
+    # A single wrong note in a long part is ignored.
     assert one_part(*[60] * 120, 72, name="Clarinet", maps=(CLARINET,)).warnings == ()

@@ -147,7 +147,7 @@ def test_format_0_is_split_by_channel() -> None:
     ("events", "players"),
     [
         (note(60) + note(62, channel=1) + note(64), 1),
-        # One tick together.
+        # Both notes sound together for one tick.
         (note(60) + bytes([0, 0x91, 62, 64, 47, 0x90, 64, 64, 1, 0x81, 62, 0, 47, 0x80, 64, 0]), 1),
         # The first note of two that overlap lasts longer than the second.
         (bytes([0, 0x90, 60, 64, 6, 64, 64, 18, 64, 0, 0, 0x91, 67, 64, 12, 0x81, 67, 0, 12, 0x80, 60, 0]), 3),
@@ -320,7 +320,7 @@ def test_lilypond_contexts_are_cut_from_names_in_lilypond_files_only() -> None:
         return [part.name for part in score_of(header(1, 4) + chunks).parts]
 
     assert names(b"LilyPond 2.24.1") == ["Sopran", "trumpet", "trumpet"]
-    # A voice tells the instrument where its staff does not.
+    # A voice determines the instrument if its staff does not.
     tracks = [meta(3, name) + SCALE_BYTES + END for name in (b"winds:trumpetMusic", b"upper:trumpetI", b"trumpet:one")]
     chunks = b"".join(chunk(b"MTrk", track) for track in (meta(1, b"LilyPond 2.24.1") + END, *tracks))
     parts = score_of(header(1, 4) + chunks).parts
@@ -392,7 +392,7 @@ def test_a_note_that_is_ended_where_it_is_struck_again_lasts_until_then() -> Non
 
 
 def test_a_note_struck_again_and_ended_twice_is_no_drone_below_a_melody() -> None:
-    # What a wind controller sends: 62 is struck again without an end, and ended once more after 64.
+    # Messages of a wind controller: 62 is struck again without an end, and ended once more after 64.
     melody = bytes([0, 0x90, 62, 64, 48, 62, 64, 48, 62, 0, 48, 64, 64, 48, 64, 0])
     score = one_track(melody + bytes([48, 62, 0]))
     assert notes_of(score) == [(0, 48, 62), (48, 48, 62), (144, 48, 64)]

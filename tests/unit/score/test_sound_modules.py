@@ -80,7 +80,7 @@ def found(*tracks: bytes) -> tuple[int, int, list[str]]:
 @pytest.mark.parametrize(
     ("tracks", "expected"),
     [
-        # A bank waits for a program change, and one that none follows before the first note was meant to.
+        # A bank takes effect with the next program change; one without a later change was meant for the first note.
         ((XG_ON + bank(0) + TRUMPET_11 + TUNE + bank(127) + TUNE,), "tune"),
         ((XG_ON + bank(0) + TRUMPET_11 + TUNE + bank(127) + TRUMPET_11 + BEAT,), "both"),
         ((XG_ON + TRUMPET_11 + bank(127) + BEAT,), "beat"),
@@ -102,7 +102,7 @@ def found(*tracks: bytes) -> tuple[int, int, list[str]]:
         ((TRUMPET_11 + BEAT, bytes([0, 0xF7, 11]) + RHYTHM_11[:1] + RHYTHM_11[2:]), "beat"),
         ((TRUMPET_11 + BEAT, bytes([0, 0xF0, 9]) + RHYTHM_11[2:-1]), "beat"),
         ((bytes([0, 0xF0, 10, 0x41, 0x10, 0x42, 0x12, 0x40, 0x1A, 0x15, 1, 0, 0xF7]) + TRUMPET_11 + BEAT,), "beat"),
-        # A reset takes it back; a mode of another part says nothing.
+        # A reset restores the default; a mode of another part has no effect.
         ((b"\0" + RHYTHM_11 + b"\1" + GS_RESET[1:] + TRUMPET_11 + TUNE,), "tune"),
         ((bytes([0, 0xF0, 10, 0x41, 0x10, 0x42, 0x12, 0x40, 0x1B, 0x15, 1, 0xF, 0xF7]) + TRUMPET_11 + TUNE,), "tune"),
         # Part 10 receives on channel 11.
@@ -144,7 +144,7 @@ def test_a_port_has_its_own_programs_and_modes() -> None:
     assert found(rhythm_1, *both)[:2] == (0, 8)
     assert found(port_1 + rhythm_1, *both)[:2] == (4, 4)
     assert found(port_0 + rhythm_1_b, *both)[:2] == (4, 4)
-    # A module with two ports is reset at one of them; settings without a device's name are for what has one.
+    # A module with two ports is reset at one of them; settings without a device's name apply to the named device.
     effects = bytes([0, 0xB0, 0, 64]) + trumpet + tune
     assert found(port_0 + XG_ON, port_0 + trumpet + tune, port_1 + effects)[2] == ["score.sound_effect"]
     assert found(port_0 + rhythm_1, port_0 + meta(9, b"SC-88") + trumpet + tune, port_1 + trumpet + tune)[:2] == (4, 4)

@@ -44,7 +44,7 @@ def test_one_overlap_in_many_notes_is_a_slur(overlap_s: float) -> None:
     (line,) = shared.voices
     assert [note.pitch for note in line] == [pitch for _, _, pitch in rows]
     assert shared.left_out == []
-    # It still lasts into the next note, so that the slur can be seen, but no longer than planning takes for legato.
+    # The note still overlaps the next one, so that the slur is recognised, but no longer than legato allows.
     assert 0 < line[20].end_tick - line[21].onset_tick <= 60
     assert [note.id for note in shared.shortened] == (["1:21"] if overlap_s == 0.4 else [])
     assert (line[20].duration_tick < rows[20][1] * 1000) == (overlap_s > LEGATO_OVERLAP_S)
@@ -110,7 +110,7 @@ def test_the_players_of_a_section_play_a_long_line_together() -> None:
     upper, lower = split_voices(notes(*thirds, *line), TEMPO, unison=True).voices
     assert [note.pitch for note in upper[8:]] == [note.pitch for note in lower[8:]] == [70, 71, 72, 73]
     assert len({note.id for note in (*upper, *lower)}) == 24
-    # Of lines that merely share a staff, one goes on and the other rests.
+    # In lines that share a staff temporarily, one continues while the other rests.
     assert sorted(map(len, split_voices(notes(*thirds, *line), TEMPO).voices)) == [8, 12]
 
 
@@ -143,7 +143,7 @@ def test_a_line_stays_with_the_player_who_began_it() -> None:
 
 
 def test_a_line_that_ends_in_the_lower_note_of_a_chord_is_the_lower_players() -> None:
-    # After a rest a line begins; only the chord it leads to shows whose it is.
+    # After a rest a line begins, and only the chord it leads to shows which player's it is.
     upper, lower = pitches(
         (0, 1, 64), (0, 1, 60), (4, 1, 66), (5, 1, 64), (6, 1, 62), (7, 1, 76), (7, 1, 64), every_chord=True
     )

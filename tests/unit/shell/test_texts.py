@@ -137,7 +137,7 @@ def test_what_is_used_is_there_and_what_is_there_is_used() -> None:
                 part.value for argument in given for part in ast.walk(argument) if isinstance(part, ast.Constant)
             )
             used.update(text for text in strings if isinstance(text, str) and ID.fullmatch(text))
-    # Tips name the actions whose keys they have.
+    # Tool tips refer to the actions whose keys they contain.
     used = {text for text in used if not any(row.id.startswith(text) for row in rows())}
     actions = {f"action.{row.id}" for row in rows()}
     actions |= {f"menu.{part}" for row in rows() for part in row.menu.split("/") if part}

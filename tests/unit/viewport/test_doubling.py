@@ -37,7 +37,7 @@ def test_the_body_is_drawn_once_and_both_instruments_have_a_stand() -> None:
     assert flute.stand_m is not None
     assert piccolo.stand_m is not None
     assert np.linalg.norm((flute.stand_m - piccolo.stand_m)[[0, 2]]) > 0.08
-    # A stand ends on the floor: its bone takes (0, -1, 0), the foot of a rod that is one high, there.
+    # A stand ends on the floor: its bone moves (0, -1, 0), the foot of a rod of height one, there.
     for row in (0, 1):
         bone = stage.bones[row, stage.stand_bone].astype(float)
         assert abs((bone[:, :3] @ [0.0, -1.0, 0.0] + bone[:, 3])[1]) < 1e-6

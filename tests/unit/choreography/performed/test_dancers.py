@@ -103,7 +103,7 @@ def test_who_dances_alike_is_made_once(choreography: str) -> None:
     one, same, different = (dancing_of(Performance(project), who) for who in (dancer, elsewhere, other))
     assert one is same
     assert one is not different
-    # Players' notes were edited: what the dancer hears of the percussion is the same, so is the dance.
+    # After the edit of players' notes, the percussion and thus the dance are the same.
     assert len(one.changed_s(one)) == 0
     assert len(one.changed_s(different)) == 1
 
@@ -197,7 +197,7 @@ def test_dancers_are_seen_beside_the_players(choreography: str) -> None:
     assert len(pose.rotations) > 50
     player = project.players[0].id
     assert live.pose(player, time_s) is not None
-    # An edit of a player leaves the dance as it is made; another seed makes it anew.
+    # An edit of a player does not affect the dance; another seed generates another one.
     moved = replace(project, players=(msgspec.structs.replace(project.players[0], muted=True), *project.players[1:]))
     live.show(Performance(moved))
     assert live.pose("dancer:1", time_s) is not None

@@ -269,7 +269,7 @@ def test_names_do_not_depend_on_who_is_exported() -> None:
     names = [place.animation for places in (alike.characters, alike.instruments) for place in places.values()]
     assert len({name.casefold() for name in names}) == 8
     assert len({place.mesh.casefold() for place in alike.instruments.values()}) == 4
-    # A player whose name is another's with the instrument's after it.
+    # The name of one player equals that of another with the instrument appended.
     clash = layout_of(renamed(quartet(), ["A", "A_trumpet_Bb", "B", "C"]), "x")
     files = [place.file.name for places in (clash.characters, clash.instruments) for place in places.values()]
     assert len({name.casefold() for name in files}) == 8

@@ -106,7 +106,7 @@ def test_nothing_is_different_before_and_after(channel: str) -> None:
     assert morphs[0]
     seen = not (same[1] and morphs[1]) or not np.array_equal(plain.hips_m[inside], other.hips_m[inside])
     lips = channel.startswith(("face.jaw", "face.mouth"))
-    # Here the lips are at the mouthpiece all the time: what holds it is not changed.
+    # Here the lips are at the mouthpiece all the time, and morphs of the embouchure are not changed.
     assert seen != lips
 
 

@@ -95,7 +95,7 @@ def test_the_fitted_player_and_the_one_who_moves_stand_alike() -> None:
     turns = forward(skeleton, _still(instrument)).rotations[0]
     head, chest = turns[skeleton.index("head")], turns[skeleton.parents[skeleton.index("leftShoulder")]]
     facing = quaternion.rotate(head, np.array([0.0, 0.0, 1.0]))
-    # About the upright; leaning and nodding take a little of it.
+    # Rotation about the vertical axis; leaning and nodding reduce it slightly.
     assert np.degrees(np.arctan2(facing[0], facing[2])) == pytest.approx(50.0, abs=3.0)
     shoulders = quaternion.rotate(chest, np.array([1.0, 0.0, 0.0]))
     assert np.degrees(np.arctan2(-shoulders[2], shoulders[0])) == pytest.approx(20.0, abs=1.0)
@@ -105,7 +105,7 @@ def test_the_fitted_player_and_the_one_who_moves_stand_alike() -> None:
     position_m = forward(skeleton, motion.rotations, motion.hips_m)
     _, turn = position_m.of(skeleton.index("head"))
     off = quaternion.to_rotation_vector(quaternion.multiply(quaternion.conjugate(head), turn))
-    # What is left of the motion of someone who keeps still, and the nods of the cues.
+    # Remaining motion of a player who keeps still, and the nods of the cues.
     assert np.degrees(np.median(np.linalg.norm(off, axis=1))) < 6.0
     # The instrument is where the carriage has it, whichever way the head is turned.
     still = carriage_rotation(10.0, 0.0, 0.0)
@@ -184,6 +184,6 @@ def test_only_what_goes_below_the_chin_swings_ahead_on_its_way(down_m: float, ah
     motion = made(put_down((0.0, -down_m, 0.0)), 0.0, lowered=True)
     start, end = round((2.0 + 12.9) * 60), round((2.0 + 15.5) * 60)
     ahead = motion.instrument_position_m[start:end, 2].astype(np.float64)
-    # The trunk leans a little over what it has put down.
+    # The trunk leans slightly forward over the lowered instrument.
     straight = np.minimum(ahead[0], ahead[-1])
     assert ahead.max() - straight == pytest.approx(ahead_m, abs=0.02 if down_m == 0.0 else 0.012)

@@ -57,7 +57,7 @@ def test_the_arm_is_never_quite_straight_and_the_slide_never_jumps() -> None:
     share = np.linalg.norm(posed.of(joints[1])[0] - posed.of(joints[0])[0], axis=1) / arm(bones, "right").length_m
     assert LONGEST - EASE < share.max() <= LONGEST + 1e-6
     assert motion.controls["slide"].max() < 0.9
-    # It goes no faster than it would if the way were free.
+    # Its speed does not exceed that without the limit.
     asked = np.abs(np.diff(near.controls["slide"])).max()
     assert np.abs(np.diff(motion.controls["slide"])).max() <= asked + 0.002
 

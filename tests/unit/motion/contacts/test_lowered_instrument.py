@@ -136,7 +136,7 @@ def test_the_instrument_goes_down_outside_of_the_body(rest: Case) -> None:
         _depth_m(skin, place_m[frame] + quaternion.rotate(turn[frame][None], points_m))
         for frame, skin in enumerate(_skins(rest.character, rest.joints))
     ]
-    # Where it is in the body while it is played is the carriage's matter: it goes no deeper on its way.
+    # The depth while playing depends on the carriage; on the way down it must not increase.
     assert max(deep_m[1:-1]) <= max(DEEPEST_M, deep_m[0] + 0.003)
     assert deep_m[-1] <= DEEPEST_M
 

@@ -80,7 +80,7 @@ def test_to_a_third_place_it_goes_by_the_nearer_end(asked_s: float, through: int
     ways = list(dict.fromkeys((before, after) for before, after, _ in seen))
     assert ways == [(0, 3), (through, 1), (1, 1)]
     assert seen[-1] == (1, 1, 1.0)
-    # Between places and at them it is where it was: whoever looks sees no jump.
+    # Between and at these times the value is continuous, so no jump is visible.
     for (before, after, share), (then, there, gone) in itertools.pairwise(seen):
         if (before, after) == (then, there):
             assert abs(gone - share) < 0.12

@@ -34,7 +34,7 @@ from tests.support.performed import perform
 from tests.support.plan import PlainClock, line_of, make_plans, piece_of, time_frame
 
 KINDS = {
-    # Kind, what is between the lips, how far the instrument hangs down.
+    # Kind, the object between the lips, and the downward angle of the instrument.
     "cup": ("cup", 0.0, 8.0),
     "clarinet": ("single_reed", 0.013, 38.0),
     "saxophone": ("single_reed", 0.012, 10.0),

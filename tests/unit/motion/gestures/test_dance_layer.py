@@ -96,7 +96,7 @@ def test_hips_trunk_and_head_dance() -> None:
         assert np.quantile(large, 0.9) > np.deg2rad(7.0)
         # Half of a dance shows well, but for its nods, which move the bell.
         assert 0.55 < np.median(small / large) < 0.75
-    # The player stays on the place, and goes as far as is said: the hips lean by a little more.
+    # The player stays in place and moves by the stated amount; the hips lean by slightly more.
     path = np.abs(much.hips_m - generated.hips_m).max(axis=0)
     for axis, channel in ((0, "side_m"), (2, "ahead_m")):
         assert path[axis] == pytest.approx(MOST[channel], abs=0.005)
@@ -158,7 +158,7 @@ def test_the_bell_rises_and_sinks_no_more_than_the_trunk() -> None:
         for motion in (danced(1.0, amplitude=0.0), made(amplitude=0.0, frames=FRAMES))
     ]
     risen_deg = np.rad2deg(bell[0] - bell[1])
-    # Its 6 degrees, and what the leans to the side and the turns add to that.
+    # The layer's 6 degrees, and the effect of sideways leans and rotations.
     assert np.abs(risen_deg).max() < 8.0
     assert np.ptp(risen_deg) > 6.0
 

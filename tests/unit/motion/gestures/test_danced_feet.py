@@ -77,7 +77,7 @@ def test_what_the_animator_has_feet_do_is_left_to_the_animator() -> None:
     assert WALK.giving_way([correction("sway", 1.6, 2.1, corrected=True)]) is WALK
     left = WALK.giving_way([correction("tap", 1.6, 2.1, corrected=True)])
     assert left.lands_s.tolist() == [1.0, 3.0, 4.0]
-    # What follows goes from where the foot is.
+    # The next move starts from the foot's current place.
     found = left.sample(TIMES_S, steps=True)
     assert np.all(np.abs(np.diff(found["left_aside"])) < 0.005)
     assert not np.any(found.get("right_up", 0.0))

@@ -75,6 +75,6 @@ def test_a_hold_keeps_what_is_held_where_it_is() -> None:
     # The same frames are the same bits in every span.
     part = TIMES_S[1100:1300]
     np.testing.assert_array_equal(held_still(waving(part), holds, part, waving).height, levels.height[1100:1300])
-    # What changes where it begins changes all that is held.
+    # A change at the beginning of a hold changes everything held.
     assert with_holds(np.array([[4.3, 4.4]]), holds).tolist() == [[4.3, 4.4], [4.0, 7.0]]
     assert with_holds(np.array([[8.0, 9.0]]), holds).tolist() == [[8.0, 9.0]]

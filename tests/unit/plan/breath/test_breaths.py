@@ -181,7 +181,8 @@ def test_a_phrase_longer_than_a_lungful_is_flagged() -> None:
 
 @pytest.mark.parametrize("step_tick", [Q // 2, 7 * Q // 12])
 def test_quick_notes_without_a_rest_are_clipped_for_air(step_tick: int) -> None:
-    # 30 s of eighths at 120: of a quarter of a second a staccato note is left; no one plays them on one breath.
+    # 30 s of eighths at 120: a note shortened by a breath would be a staccato of a quarter of a second; the
+    # phrase is too long for one breath.
     plan_ = plan(even([65, 67, 69, 67] * 30, step_tick))
     catches = [event for event in plan_.breaths if event.reason.id == "breath.catch"]
     assert plan_.problems == ()
@@ -351,7 +352,7 @@ def test_an_instrument_that_takes_little_air_is_breathed_for_seldom() -> None:
     # However little air is taken, it goes stale.
     assert breaths(notes, Air(40.0, 32.0, 25.0)) == breaths(notes, Air(12.0, 12.0, 12.0))
     assert breaths(notes, Air(9.0, 9.0, 9.0)) == breaths(notes, None)
-    # What a map says is about usual lungs; larger ones last longer in proportion.
+    # Values in a map refer to usual lungs; larger ones last longer in proportion.
     assert len(breaths(notes, tuba, lung_s=18.0)) == len(breaths(notes, Air(20.0, 13.0, 8.0)))
     soft = with_velocities(notes, 24, 56)
     assert len(breaths(soft, flute)) < len(breaths(notes, flute))

@@ -162,7 +162,7 @@ def test_players_in_one_fast_line_leave_out_different_notes(above: tuple[int, ..
     assert all(len(each) >= 8 for each in missing)
     near = [{note + off for note in each for off in (-1, 0, 1)} for each in missing]
     assert not any(one & other for one, other in itertools.combinations(near, 2))
-    # No one breathes much more often than alone, and each after the note on a beat.
+    # No player breathes much more often than alone, and each breath follows a note on a beat.
     assert all(len(plan.breaths) <= len(own.breaths) + 1 for plan, own in zip(made, alone, strict=True))
     assert all(note % 4 for each in missing for note in each)
 

@@ -111,7 +111,7 @@ def test_no_one_nods_twice_at_once() -> None:
 
 @pytest.mark.parametrize(("bpm", "starts_s"), [(120.0, [1.25, 2.25]), (80.0, [1.25, 2.0]), (72.0, [1.25])])
 def test_after_a_cue_the_next_one_rises_for_as_long_as_is_left(bpm: float, starts_s: list[float]) -> None:
-    # The second entry, a second after the first, begins another tempo, whose beats its cue has.
+    # The second entry, a second after the first, begins with another tempo, whose beats its cue uses.
     clock = PlainClock(((0, 120.0), (6 * Q, bpm)))
     notes = line_of((4 * Q, Q, 60), (6 * Q, Q, 60))
     line = MonophonicPart("p", notes, valves())

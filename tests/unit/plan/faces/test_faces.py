@@ -113,7 +113,7 @@ def test_only_a_bright_ending_is_smiled_at(third: int, bpm: float, velocity: int
         return [event for event in plan.expressions if event.id == "expression:smile"]
 
     assert bool(smile(line)) == smiles
-    # Who changed or removed the smile of an old project finds it changed, or removed.
+    # In an old project, a changed or removed smile stays changed or removed.
     changed = (ChangeExpression("expression:smile", strength=0.3),)
     assert [event.strength for event in smile(msgspec.structs.replace(line, corrections=changed))] == [0.3]
     assert smile(msgspec.structs.replace(line, corrections=(RemoveEvent("expression:smile"),))) == []

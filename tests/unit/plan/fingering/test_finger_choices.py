@@ -79,7 +79,7 @@ def test_the_oboes_ring_finger_never_goes_from_its_hole_to_the_f_key() -> None:
                     assert not ("R3" in held and "F" in following)
                     assert not ("F" in held and "R3" in following)
     assert keys([62, 65, 62], oboes)[1] >= {"LF"}
-    # Where the left little finger is needed at once for A flat, F is forked.
+    # If the left little finger is needed immediately for A flat, F is forked.
     assert keys([62, 65, 68], oboes)[1] == {"L1", "L2", "L3", "R1", "R3"}
     # Between E and G nothing is in its way.
     assert keys([64, 65, 67], oboes)[1] >= {"F"}

@@ -72,6 +72,6 @@ def test_an_attack_is_tongued_or_slurred_up_over_a_break() -> None:
     register = np.array([0, 1, 1, 1])
     still = np.zeros(3, dtype=bool)
     assert attacked_notes(line(pitches, 240, sounds=1.02), register, still).tolist() == [True, True, False, False]
-    # Where everything touches and nothing is slurred, an engraved score was rendered: nothing is known to be slurred.
+    # If all notes touch and none is slurred, the file is a rendered score in which slurs are unknown.
     assert attacked_notes(line(pitches, 240), register, still).all()
     assert attacked_notes(line(pitches, 240, sounds=0.5), register, still).all()

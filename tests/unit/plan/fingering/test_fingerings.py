@@ -125,7 +125,7 @@ def test_the_slide_stays_near_and_comes_back_to_the_same_place(bpm: float) -> No
 @pytest.mark.parametrize("step_tick", [240, 120, 100, 80])
 @pytest.mark.parametrize("figure", [[48, 50, 48, 50], [48, 50] * 4, [50, 48, 50, 48], [43, 48, 50, 48, 43]])
 def test_d_beside_c_is_played_in_four_without_the_attachment(figure: list[int], step_tick: int) -> None:
-    # No one turns the lever with every note to save a hand's breadth of the slide's way.
+    # Players do not turn the lever at every note to save a small distance of the slide.
     assert "T4" not in labels(even(figure, step_tick), TROMBONE)
 
 

@@ -73,8 +73,8 @@ def test_gaps_are_those_of_a_slow_second_finder(steps: list[tuple[int, int]]) ->
     assert (found[1:, 0] > found[:-1, 1]).all(), "in order, and none touches the next"
 
 
-# Legato throughout but for three rests: in that from 2.0 to 2.6 s the player goes on blowing. A breath from 4.0 to 4.4
-# s within what touches in the score, and a tongued end of 0.15 s at 5.0.
+# Legato throughout except for three rests; in the rest from 2.0 to 2.6 s the player continues to blow. A breath from
+# 4.0 to 4.4 s between notes that touch in the score, and a tongued end of 0.15 s at 5.0.
 NOTES = [
     (0.5, 1.5, 65), (1.5, 2.0, 67), (2.6, 3.2, 69), (3.2, 4.4, 70), (4.4, 5.1, 72), (5.1, 6.0, 70), (6.5, 7.5, 69),
     (8.2, 9.0, 67),

@@ -18,7 +18,7 @@ FOLDER = Path(__file__).parents[3] / "data" / "midi" / "dynamics"
 ENSEMBLE = FOLDER.parent / "ensemble"
 MARKS = ("pp", "p", "mp", "mf", "f", "ff")
 WRITTEN = {
-    # What each program wrote for pp, p, mp, mf, f and ff; LilyPond's by General MIDI program.
+    # Velocities that each program writes for pp, p, mp, mf, f and ff; LilyPond's by General MIDI program.
     ("MuseScore", 56): (33, 49, 64, 80, 96, 112),
     ("Finale", 56): (36, 49, 62, 75, 88, 101),
     ("Sibelius", 56): (39, 61, 71, 84, 98, 113),

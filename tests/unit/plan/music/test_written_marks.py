@@ -145,5 +145,5 @@ def test_times_of_a_score_have_its_slurs_and_dynamics_only() -> None:
     assert times.slurs_next.tolist() == [True, False, False, False]
     assert times.loudness[2:] == pytest.approx([LEVEL["f"]] * 2)
     heard = note_times(overlapping, (), TempoMap(QUARTER), written_marks(overlapping, marks, "sound", QUARTER))
-    # What comes after the end of a slur is tongued, even where the notes overlap.
+    # The note after the end of a slur is tongued, even if the notes overlap.
     assert heard.slurs_next.tolist() == [True, False, True, False]

@@ -67,7 +67,7 @@ def test_who_gets_another_body_stays_where_the_artist_put_them(alike: Editor) ->
     played = alike.studio.assets[f"{ROOT}/Characters/Trombone_1/A_Trombone_1"]
     assert played._skeleton is binding._mesh._skeleton
     assert bodies(alike) == body_assets("woman_adult", "man_adult")
-    # A body that no one has any more goes.
+    # An unused body is removed.
     exported(alike.folder, cast("woman_adult", "woman_adult"), BOTH)
     alike.update_performance()
     assert bodies(alike) == body_assets("woman_adult")

@@ -292,7 +292,7 @@ def test_rehearsal_markers_are_marked_with_their_bars_and_an_artists_letters_sta
     exported(two.folder, marked(named), last_bar=2)
     two.update_performance()
     reported = description(two)
-    # What lies behind the bars that were exported is not of this performance.
+    # Markers after the exported bars are not part of this performance.
     assert [(marker["text"], marker["bar"]) for marker in reported["markers"]] == [
         ("A", 1), ("{rit.}", 1), ("B", 2), ("速く", 2),
     ]  # fmt: skip
@@ -466,5 +466,5 @@ def test_who_changes_instruments_is_one_character_with_an_actor_for_each(plugin:
     editor.import_performance()
     found = bindings(editor)
     assert set(found) == {"Flute", "Flute (flute)", "Flute (piccolo)"}
-    # All stand where the player does: the instruments move in the player's own space.
+    # All actors are where the player is: the instruments move in the player's own space.
     assert transform(found["Flute"]) == transform(found["Flute (flute)"]) == transform(found["Flute (piccolo)"])

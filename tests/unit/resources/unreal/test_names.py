@@ -58,7 +58,7 @@ def test_mypy_finds_no_other_name_in_the_engine_s_own_list(tmp_path: Path) -> No
     package.mkdir()
     (package / "__init__.py").write_text(unreal_stub.excerpt(set(stub_classes())), encoding="utf-8")
     config = tmp_path / "mypy.ini"
-    # What is cut out names classes that are not, and is not ours to judge.
+    # The excerpt names classes that it lacks, and is not checked itself.
     config.write_text("[mypy]\nexplicit_package_bases = True\n[mypy-unreal.*]\nignore_errors = True\n")
     wrong = tmp_path / "wrong.py"
     wrong.write_text("import unreal\n\nunreal.EditorAssetLibrary.load_assets('x')\n")

@@ -106,7 +106,7 @@ def test_who_is_left_out_of_a_later_export_stays_as_imported(
     assert left_out["name"] == "Trumpet 1"
     assert "mori.glb" in left_out["reason"]
     assert (sources / "Characters" / "SK_Trumpet_1.fbx").read_bytes() == kept
-    # Whoever was not asked for goes, as ever.
+    # Players excluded from the request are removed, as usual.
     assert not (sources / "Characters" / "SK_Trumpet_2.fbx").exists()
 
     reported = editor.update_performance()
@@ -114,6 +114,6 @@ def test_who_is_left_out_of_a_later_export_stays_as_imported(
     assert {path: id(asset) for path, asset in editor.studio.assets.items() if "/Trumpet_1" in path} == before
     assert bindings(editor)["Trumpet 1"] is trumpet
     assert "Trumpet 2" not in bindings(editor)
-    # What stayed is still ours: the next export takes its place.
+    # Remaining files still belong to the program, and the next export replaces them.
     exported(editor.folder, project, ("Trumpet 1",))
     assert (sources / "Characters" / "SK_Trumpet_1.fbx").read_bytes() != kept

@@ -95,7 +95,7 @@ def test_what_unreal_does_not_import_is_reported(editor: Editor) -> None:
     assert refused in reported
     assert "Output Log" in reported
     assert f"{ROOT}/LS_quartet" not in editor.studio.assets
-    # What was done is kept, and the next time goes on.
+    # Finished steps are kept, and the next import continues.
     editor.studio.refuse_import.clear()
     assert "is imported" in editor.import_performance()
 

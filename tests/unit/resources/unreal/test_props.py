@@ -57,7 +57,7 @@ def test_a_chair_is_attached_to_its_players_actor(editor: Editor) -> None:
     sitting, standing = sorted(reported["players"], key=lambda one: one["name"] != "Trumpet 1")
     assert (sitting["props"]["file"], standing["props"]) == (FILE, None)
     assert sitting["props"]["bones"] == ["root", "chair"]
-    # The actor of the player stands at the place; in the file the chair is around the player's own origin.
+    # The player's actor is at the place on the stage; in the file, the chair is around the player's own origin.
     (mesh,) = read_scene(editor.folder / "SuisouSource" / "quartet" / FILE).meshes
     low_cm, high_cm = mesh.vertices_cm.min(axis=0), mesh.vertices_cm.max(axis=0)
     assert low_cm[1] == pytest.approx(0.0, abs=0.5)

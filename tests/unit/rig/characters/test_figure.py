@@ -238,7 +238,7 @@ def test_what_is_missing_is_supplied_so_that_the_bones_can_follow_exactly(
         turns[bone] = quaternion.multiply(world.rotations[0, joint], own.joint_from_bone[joint])
         if skeleton.names[joint] == "hips":
             places[bone] = world.positions_m[0, joint]
-        # A finger's bone whose own parent was not named hangs from the hand still.
+        # A finger's bone whose parent has no name is still a descendant of the hand.
         assert np.linalg.norm(places[bone] - world.positions_m[0, joint]) < CLOSE_M, skeleton.names[joint]
     supplied = rest_positions(skeleton)
     known = rest_positions(ours.skeleton)
@@ -247,7 +247,8 @@ def test_what_is_missing_is_supplied_so_that_the_bones_can_follow_exactly(
             ("Proximal", "Intermediate", "Distal", "Metacarpal", "Eye", "Toes")
         ):
             off = supplied[skeleton.index(name)] - known[ours.skeleton.index(name)]
-            # As far as the next joint where it lies on that: a thumb's metacarpal of 45 mm.
+            # The tolerance is the distance to the next joint if the joint is placed there: a thumb's
+            # metacarpal of 45 mm.
             assert np.linalg.norm(off) < (0.046 if len(missing) == 3 else 0.02), name
     marks = found_landmarks(skeleton, again.joint_from_mesh, again.meshes)
     assert {"left.index.pad", "left.index.pad_proximal", "left.palm", "left.foot.sole"} <= set(marks) or len(
@@ -315,7 +316,7 @@ def test_a_textured_surface_keeps_its_texture_and_has_its_mean_colour_without(ou
             assert surface.textures.color.texture.content.startswith(png(green))
             assert surface.base_color == pytest.approx((0.5, 0.4, 0.3, 1.0))
             assert plain_material(surface, mesh.uvs).base_color == pytest.approx((0.0, 0.4, 0.0, 1.0))
-    # sRGB 188 is linear 0.5; what is cut out has no colour.
+    # sRGB 188 is linear 0.5; transparent pixels have no colour.
     green[:, :, 1] = 188
     half = replace(made, meshes=[replace(mesh, uvs=np.full_like(mesh.uvs, 0.3)) for mesh in made.meshes])
     green[4:] = 0
@@ -352,7 +353,7 @@ def test_a_lying_or_turned_figure_is_stood_up(
     figure = read_figure(write_glb(tmp_path / "x.glb", made))
     aside = turned_figure(figure, Rotation.from_euler("xyz", turn, degrees=True).as_matrix())
     again = made_again(aside, made)
-    # A figure that looks aside by no right angle is turned by what its body says, which is right to a degree.
+    # A figure with a facing other than a right angle is rotated according to its body, exact to a degree.
     if turn[1] % 90 == 0:
         assert_same_body(again, ours, some_pose(ours))
     else:

@@ -160,7 +160,7 @@ def test_of_a_rig_the_bones_that_move_the_skin_are_taken() -> None:
     mapping = map_joints(figure)
     assert by_name(bones, mapping) == {joint: f"DEF-{bone}" for joint, bone in known(own).items()}
     assert mapping.profile == "rigify"
-    # They do not hang on one another: whoever looks is reported.
+    # The bones are not connected, so the mapping is reported as doubtful.
     assert "leftUpperArm" in mapping.doubtful
 
 
@@ -321,7 +321,7 @@ def test_what_the_file_says_wins_over_names() -> None:
     names = by_name(bones, mapping)
     assert mapping.profile == "vrm1"
     assert names["spine"] == "spine04"
-    # Of the trunk nothing is added that the file leaves out; fingers and eyes are.
+    # Missing joints of the trunk are not added; those of fingers and eyes are.
     assert "upperChest" in mapping.missing
     assert names["leftIndexProximal"] == "finger2-1.L"
     assert names["rightEye"] == "eye.R"

@@ -79,7 +79,7 @@ def test_compressed_files_hold_what_their_index_names(tmp_path: Path) -> None:
     both = packed(a_xml=other, scores__piece_xml=PIECE, **{"META-INF__container_xml": INDEX.format("scores/piece.xml")})
     assert rows(read(tmp_path, both, "piece.mxl")) == ONE
     assert rows(read(tmp_path, packed(piece_xml=PIECE), "piece.mxl")) == ONE
-    # It is known by its content.
+    # The format is recognised from the content.
     assert rows(read(tmp_path, both, "piece.mid")) == ONE
 
 
@@ -200,7 +200,7 @@ def test_four_times_as_many_notes_take_about_four_times_as_many_calls(tmp_path: 
     calls = dict[int, int]()
     for bars in (100, 400):
         text = document(*[bar] * bars)
-        # What is made once for all scores is made here.
+        # Values cached for all scores are computed here.
         assert len(read(tmp_path, text).channels[0].pitches) == 8 * bars
         calls[bars] = calls_made(partial(read, tmp_path, text))
     assert calls[400] < 4.2 * calls[100]

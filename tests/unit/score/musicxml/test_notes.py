@@ -295,7 +295,7 @@ def test_a_sound_beats_a_name_which_says_size_and_key(tmp_path: Path) -> None:
     assert played_on("wind.reed.clarinet.bflat", "Clarinet", -2) == "clarinet"
     assert played_on("brass.trombone", "Bass Trombone", 0) == "bass_trombone"
     assert played_on("brass.tuba", "Flute", 0) == "tuba"
-    # A piano is what programs write for anything.
+    # Programs write a piano for any instrument.
     assert played_on("keyboard.piano", "Flute", 0) == ""
 
 

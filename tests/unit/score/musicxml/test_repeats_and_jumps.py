@@ -67,10 +67,10 @@ def bars(text: str) -> list[Bar]:
         (": a :|: b :|: c DC :", "112233123"),
         (": a :|: b :|: c :|: d :|e DC", "11223344512345"),
         ("a|TRIO b|c", "123"),
-        # Words that stand before the last repeat of a trio; a bracket whose beginning a program lost.
+        # Words before the last repeat of a trio; a bracket whose beginning a program omitted.
         ("a FINE|: b|c DC|d :|", "12342341"),
         ("a|b :]|2[ c ]|d", "12134"),
-        # After endings a repetition without a beginning is of what follows them.
+        # After endings, a repeat without a beginning applies to the measures after them.
         ("a|1[ b :]|2[ c ]|d :|e", "1213445"),
         ("a|1[ b :]|2[ c ]|d|1[ e :]|2[ f ]|g", "121345467"),
         (": a|1[ b :]|c|d :|e", "12134345"),

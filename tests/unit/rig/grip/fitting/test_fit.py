@@ -256,8 +256,8 @@ fit_hold(character_named("man_adult"), bundled_instrument(trumpet), trumpet, loa
 
 
 def test_a_second_fit_is_the_same_to_the_bit(monkeypatch: pytest.MonkeyPatch) -> None:
-    # One hand is fitted at many places of the slide, the other from many starts: both ways of fitting. Of these some
-    # are enough to show that nothing but the inputs counts.
+    # One hand is fitted at many places of the slide, the other one from many starts: both methods of fitting. A
+    # few of these suffice to show that only the inputs matter.
     monkeypatch.setattr(search, "TILTS", search.TILTS[:4])
     monkeypatch.setattr(search, "KNOTS", search.KNOTS[::2])
     for module in (fit, solved_fingers):

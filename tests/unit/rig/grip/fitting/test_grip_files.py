@@ -108,7 +108,7 @@ def test_the_digest_knows_what_the_hands_touch() -> None:
     assert digest_of(character, model, moved, body) != digest
     renamed = msgspec.structs.replace(instrument, short_name="other", fingerings=())
     assert digest_of(character, model, renamed, body) == digest
-    # What the face does is worked out anew each time.
+    # The face's shapes are calculated again each time.
     faces = {kind: msgspec.structs.replace(face, tight={}) for kind, face in body.embouchure.items()}
     assert digest_of(character, model, instrument, msgspec.structs.replace(body, embouchure=faces)) == digest
     between = msgspec.structs.replace(instrument.embouchure, lips_apart_m=0.014)

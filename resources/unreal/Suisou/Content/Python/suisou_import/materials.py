@@ -72,7 +72,7 @@ def make_material(performance: Performance, surface: Surface) -> None:
         there = tools.create_asset(name, folder, unreal.Material, unreal.MaterialFactoryNew())
     if not isinstance(there, unreal.Material):
         raise problem("not_imported", asset=surface.asset, file=performance.folder)
-    # First of all, so that one that is left half made is found to be ours.
+    # Tagged before anything else, so that an incomplete material is recognised as the plug-in's.
     assets.tag(there, performance)
     _settings(there, surface)
     unreal.MaterialEditingLibrary.delete_all_material_expressions(there)

@@ -291,7 +291,7 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
     surfaces = {one.asset for one in read_performance.surfaces}
     count = 2 * len(alike) + len(figures) + 2 + len(read_performance.textures) + len(read_performance.surfaces)
     apart = len({path.lower() for path in assets}) == len(assets) == count
-    # Those of an export of an earlier Suisou are in the piece's folder.
+    # In exports of earlier versions of Suisou textures are in the piece's folder.
     shared = {path for path in textures if path.startswith(SHARED)}
     own = [path for path in [*assets, *read_performance.staying] if path not in shared]
     if not apart or not all(path.startswith(inside) for path in own):

@@ -252,7 +252,7 @@ def _play(binding: unreal.MovieSceneBindingProxy, figure: Figure, performance: P
     section = _animation_section(binding, figure.animation)
     params = section.params
     params.animation = animation
-    # A copy was asked for: it has to be given back.
+    # The value was a copy and must be assigned back.
     section.params = params
     section.set_range(0, last_frame(performance))
 
