@@ -73,6 +73,7 @@ STEPS = (
             "resources/characters/wardrobe/*.bin",
             "resources/characters/wardrobe/*.glb",
             "resources/characters/wardrobe/*.jpg",
+            "resources/characters/wardrobe/*.json",
         ),
         lambda arguments: (
             (("resources/build/build_wardrobe.py", "--assets", str(arguments.assets)),)

@@ -25,6 +25,7 @@ from character_skin import skin_layout
 from character_source import Source, load_model
 from pygltflib import GLTF2, Buffer
 from wardrobe_atlas import CLOTH_MEAN_LINEAR, atlas_textures, write_atlas
+from wardrobe_made import write_record
 from wardrobe_outfits import OUTFITS, Outfit, Pieces
 from wardrobe_pieces import Wearer
 
@@ -125,6 +126,7 @@ def main() -> None:
                     build(outfit, pieces(wearer), wearer, path)
         for ending in (name for name, body in WEARERS.items() if body == character.name):
             share_buffer(sorted(arguments.to.glob(f"*_{ending}.glb")), arguments.to / f"{ending}.bin")
+    write_record(Path(__file__), arguments.to)
     for path in sorted(arguments.to.iterdir()):
         print(f"{path} {path.stat().st_size / 1e6:.2f} MB")
 

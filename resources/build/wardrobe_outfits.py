@@ -9,6 +9,7 @@ import numpy as np
 from character_cloth import Cloth, cut, relaxed
 from character_garments import collar, front_of
 from character_surface import Surface, modelled
+from wardrobe_marching import belt, cuffs, epaulettes, shako, stripes
 from wardrobe_pieces import ACCENT, MAIN, SECOND, Wearer, all_of, four_bones, linen_apart, piece, skin
 from wardrobe_sailor import sailor_collar, scarf
 from wardrobe_sewn import Skirt, bow_tie, moved_to, neck_band, over, plain, sewn_surface, shell, skirt, throat
@@ -86,7 +87,7 @@ def bare_chest(wearer: Wearer, depth_m: float = 0.17, width_m: float = 0.05) -> 
     def shown(places: np.ndarray, weights: np.ndarray) -> np.ndarray:
         low = wearer.tailoring.collar_point[1] - depth_m
         front = places[:, 2] > wearer.tailoring.collar_point[2] + 0.02
-        wide = width_m + 0.7 * np.maximum(places[:, 1] - low - 0.08, 0.0)
+        wide = width_m + 1.2 * np.maximum(places[:, 1] - low - 0.08, 0.0)
         return (np.abs(places[:, 0]) < wide) & (places[:, 1] > low) & front
 
     return skin(wearer, "skin_chest", shown)
@@ -226,7 +227,7 @@ def _marching(wearer: Wearer) -> Pieces:
     tailoring, legs = wearer.tailoring, grey_trousers(wearer)
     hem = tailoring.crotch_m + 0.14
     own = _closed(wearer, hem, legs)
-    top, low = tailoring.collar_point[1] - 0.085, tailoring.belt_m + 0.03
+    top, low = tailoring.collar_point[1] - 0.085, tailoring.belt_m + 0.055
     heights = np.linspace(top, low, 6)
     cords, places = [], []
     for height in heights:
@@ -236,12 +237,20 @@ def _marching(wearer: Wearer) -> Pieces:
             plain(ribbon(own, np.stack([x, height + 0.012 * np.cos(x / half * np.pi)], axis=1), 0.0055, 0.004))
         )
         places += [(-half, height - 0.012), (0.0, height + 0.012), (half, height - 0.012)]
+    crown, metal, plume = shako(wearer)
     parts = {
         MAIN: [plain(own), front_strip(own, top + 0.03, hem + 0.01)],
-        SECOND: [plain(stand_collar(wearer, own)), *cords],
-        ACCENT: [buttons(own, np.array(places))],
+        SECOND: [plain(stand_collar(wearer, own)), belt(wearer), cuffs(wearer, own), *cords],
+        ACCENT: [buttons(own, np.array(places), 0.010), *epaulettes(wearer, own)],
     }
-    return [(sewn_surface("tunic", parts, wearer), "top"), (legs, "bottom")]
+    hat = {SECOND: crown, ACCENT: metal, MAIN: plume}
+    striped = {MAIN: [stripes(wearer, cloth_of(wearer, legs))]}
+    return [
+        (sewn_surface("tunic", parts, wearer), "top"),
+        (legs, "bottom"),
+        (sewn_surface("stripes", striped, wearer), "bottom"),
+        (sewn_surface("shako", hat, wearer), "hat"),
+    ]
 
 
 def _polo(wearer: Wearer) -> Pieces:

@@ -6,9 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 from character_cloth import Cloth, cut, folds, grid_faces, hang, hull_profile, join, smoothed, smoothstep, to_triangles
-from character_garments import NECK_HALF_WIDTH_M, above_collar, front_of, move_out, neck_ring
+from character_garments import NECK_HALF_WIDTH_M, OFF_NECK_M, above_collar, front_of, move_out, neck_ring
 from wardrobe_pieces import Wearer
 from wardrobe_sewn import Sewn, gold, plain, weights_near
+from wardrobe_shirt import neck_of
 
 COLUMNS = 49
 BUTTON_M = 0.0075
@@ -70,11 +71,11 @@ def stand_collar(wearer: Wearer, shell: Cloth) -> Cloth:
     tailoring = wearer.tailoring
     columns = np.linspace(-np.pi, np.pi, 73)
     base = neck_ring(tailoring, tailoring.suit, 0.0, columns)
-    upper = neck_ring(tailoring, tailoring.suit, 0.026, columns)
     outward = np.stack([np.sin(columns), np.zeros(73), -np.cos(columns)], axis=1)
+    upper = neck_ring(tailoring, neck_of(wearer), 0.026, columns) + OFF_NECK_M * outward
     up = tailoring.collar_normal * 0.8 + np.array([0.0, 0.2, 0.05])
     top = upper + outward * 0.004 + up * 0.003
-    rows = [base + outward * 0.006 - up * 0.012, base + outward * 0.0055, (base + upper) / 2 + outward * 0.006]
+    rows = [base + outward * 0.006 - up * 0.005, base + outward * 0.0055, (base + upper) / 2 + outward * 0.006]
     rows += [top + outward * 0.001, top + up * 0.001, top - outward * 0.0025, base + outward * 0.001]
     points = np.concatenate(rows)
     weights = np.tile(weights_near(shell, base), (len(rows), 1))
@@ -85,7 +86,7 @@ def buttons(shell: Cloth, places: np.ndarray, radius_m: float = BUTTON_M) -> Sew
     """Domed buttons on the front at (x, y) places (N, 2)."""
     front = front_of(shell)
     angles = 2 * np.pi * np.arange(10) / 10
-    rings = ((1.0, -0.001), (0.95, 0.0025), (0.55, 0.0045), (0.0, 0.005))
+    rings = ((1.0, -0.002), (0.95, 0.0035), (0.55, 0.0060), (0.0, 0.0068))
     parts = []
     for x, y in places:
         depth = float(np.nan_to_num(front(x, y)))

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import struct
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -16,6 +18,7 @@ from app.rig.mesh import Mesh
 from app.rig.model import Character
 
 FOLDER = Path(__file__).resolve().parents[3] / "resources" / "characters"
+BUILD = FOLDER.parent / "build"
 OUTFITS = sorted((FOLDER / "wardrobe").glob("*.glb"))
 CLOTH = {"cloth_main", "cloth_second", "cloth_accent"}
 MOST_BYTES = 4_500_000
@@ -100,3 +103,36 @@ def test_bare_skin_continues_the_bodys_own() -> None:
             if frozenset(map(tuple, np.round(mesh.positions_m[row] / 1e-5).astype(int))) in faces
         ]
         assert not double, (path.stem, mesh.name)
+
+
+def test_the_files_are_those_that_the_scripts_make(build_module: Callable[[str], ModuleType]) -> None:
+    made = build_module("wardrobe_made")
+    folder, first = FOLDER / "wardrobe", BUILD / "build_wardrobe.py"
+    assert {"build_wardrobe", "wardrobe_outfits", "character_garments"} <= {path.stem for path in made.scripts(first)}
+    stored = json.loads((folder / made.RECORD).read_text(encoding="utf-8"))
+    assert made.record(first, folder) == stored, "run resources/build/build_wardrobe.py again"
+
+
+def test_descriptions_and_layout_of_scripts_make_no_difference(build_module: Callable[[str], ModuleType]) -> None:
+    meant = build_module("wardrobe_made").meant
+    plain = 'A = f(1, "two")\ndef g(x):\n    return x + A\n'
+    laid = '"""Module."""\nA = f(\n    1,\n    "two",  # two\n)\n"""A constant."""\n'
+    laid += '\n\ndef g(x):\n    """Doc."""\n    return x + A\n'
+    assert meant(plain) == meant(laid)
+    assert meant(plain) != meant(plain.replace("two", "three"))
+
+
+def test_what_lies_beside_outfits_is_used_by_them() -> None:
+    for who in ("man", "woman"):
+        used = set()
+        for path in (one for one in OUTFITS if one.stem.endswith(f"_{who}")):
+            data = path.read_bytes()
+            (length,) = struct.unpack_from("<I", data, 12)
+            document = json.loads(data[20 : 20 + length])
+            assert [buffer["uri"] for buffer in document["buffers"]] == [f"{who}.bin"]
+            used |= {(view["byteOffset"], view["byteOffset"] + view["byteLength"]) for view in document["bufferViews"]}
+        size, end = (FOLDER / "wardrobe" / f"{who}.bin").stat().st_size, 0
+        for start, after in sorted(used):
+            assert 0 <= start - end < 4, "parts follow each other"
+            end = after
+        assert end == size
