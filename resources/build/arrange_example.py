@@ -139,13 +139,13 @@ def trumpets(sopranos: list[Sound]) -> tuple[list[Sound], list[Sound]]:
 
 
 def first_trombone(alto: list[Sound], low: list[Sound]) -> list[Sound]:
-    """The alto line, or the tenor's where `TENOR_INSTEAD` says so."""
+    """The alto line, or the tenor's in the passages of `TENOR_INSTEAD`."""
     tenor = [sound for sound in low if within(sound.onset, TENOR_INSTEAD) and sound.pitch >= LOWEST_TENOR_PITCH]
     return sorted([sound for sound in alto if not within(sound.onset, TENOR_INSTEAD)] + tenor)
 
 
 def bass_line(track: list[Sound]) -> list[Sound]:
-    """The lowest voice, what lies below the trombone's range taken an octave higher (the source doubles it there)."""
+    """The lowest voice, with notes below the trombone's range an octave higher (the source doubles them there)."""
     line: list[Sound] = []
     for sound in track:
         if line and line[-1].onset + line[-1].length > sound.onset:
@@ -156,7 +156,7 @@ def bass_line(track: list[Sound]) -> list[Sound]:
 
 
 def breathing(line: list[Sound]) -> list[Sound]:
-    """End long notes early where the next follows at once."""
+    """End long notes early if the next one follows immediately."""
     shaped = []
     for sound, following in zip(line, [*line[1:], None], strict=True):
         length = sound.length
@@ -248,7 +248,7 @@ def arrange(source: mido.MidiFile) -> mido.MidiFile:
 
 
 def written(line: list[Sound]) -> tuple[Note, ...]:
-    """The notes of a player as they are written, with points and breath marks."""
+    """Written notes of a player with points and breath marks."""
     notes = []
     for sound, following in zip(line, [*line[1:], None], strict=True):
         gap = BAR if following is None else following.onset - sound.onset
@@ -264,7 +264,7 @@ def written(line: list[Sound]) -> tuple[Note, ...]:
 
 
 def slurred(notes: tuple[Note, ...]) -> tuple[tuple[int, int], ...]:
-    """Slurs over pairs of eighths by step, and over dotted notes and what follows them in the middle part."""
+    """Slurs over stepwise pairs of eighths, and over dotted notes with the following one in the middle part."""
     first, last = (quarter - FIRST_QUARTER for quarter in MIDDLE)
     return tuple(
         (place, place + 1)
@@ -301,7 +301,7 @@ def arrange_score(source: mido.MidiFile) -> bytes:
 
 
 def main() -> None:
-    """Write the example and say how long it is."""
+    """Write the example and print its length."""
     quartet = arrange(mido.MidiFile(SOURCE))
     quartet.save(TARGET)
     SCORE_TARGET.write_bytes(arrange_score(mido.MidiFile(SOURCE)))

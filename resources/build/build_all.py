@@ -1,4 +1,4 @@
-"""Makes the generated files again that are committed, in the order in which one is made from another.
+"""Rebuild the committed generated files, in the order of their dependencies.
 
     python -m resources.build.build_all [STEP ...] [--characters-python PYTHON] [--assets FOLDER]
                                         [--captures FOLDER] [--soundfont FluidR3_GM.sf2]
@@ -139,7 +139,7 @@ STEPS = (
 
 
 def main(texts: list[str] | None = None) -> int:
-    """Make what is named; 1 where a step failed, and none after it."""
+    """Run the named steps; return 1 if a step failed, after which no further one runs."""
     parser = argparse.ArgumentParser(description="Makes the generated files again that are committed.")
     parser.add_argument("steps", nargs="*", metavar="STEP", help=", ".join(step.name for step in STEPS))
     parser.add_argument(
@@ -172,7 +172,7 @@ def main(texts: list[str] | None = None) -> int:
 
 
 def _display() -> tuple[str, ...] | None:
-    """Return the words to put before a command that draws (none if there is a display); None: no display can be had."""
+    """Command prefix for steps that draw (empty if there is a display); None if no display is available."""
     if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or sys.platform != "linux":
         return ()
     return SCREEN if shutil.which(SCREEN[0]) else None

@@ -77,7 +77,7 @@ class Shapes:
 
 
 def _joint_rows(labels: list[str]) -> dict[str, np.ndarray]:
-    """By joint outside the fingers: shares (B,) of the heads of anny's bones that are its place."""
+    """For each joint outside the fingers, the shares (B,) of the heads of anny's bones in its position."""
     rows = {}
     for name, _, members in joint_table():
         if any(finger in name for finger in FINGERS):
@@ -116,7 +116,7 @@ def _interpolated(values: np.ndarray, count: int, low: float = 0.0) -> np.ndarra
 
 
 def random_coefficients(factors: np.ndarray, count: int, seed: int) -> np.ndarray:
-    """(count, K) of random people."""
+    """Coefficients (count, K) of random people."""
     rng = np.random.default_rng(seed)
     sexes = np.where(rng.random(count) < 0.7, rng.integers(0, 2, count), rng.random(count))
     parts = [rng.dirichlet([0.7] * 3, count), _interpolated(sexes, 2)]
@@ -147,7 +147,9 @@ def _directions(shapes: Shapes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _local(every: np.ndarray, labels: list[str]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Starts (2 * C + 1,), vertices (M,) and displacements (M, 3) of changes of one place, more and less of each."""
+    """Starts (2 * C + 1,), vertices (M,) and displacements (M, 3) of local changes, an increase and a
+    decrease of each.
+    """
     starts, vertices, deltas = [0], [], []
     for pair in LOCAL.values():
         for pattern in pair:

@@ -74,7 +74,7 @@ HANDS_AS_MEASURED = {"l-hand-scale-incr": -0.35, "r-hand-scale-incr": -0.35}
 
 @dataclass(frozen=True)
 class Look:
-    """Look of a person beside their shape: MakeHuman's assets by name, and linear colours."""
+    """Appearance of a person apart from the body's shape: MakeHuman's assets by name, and linear colours."""
 
     skin: str
     skin_colour: tuple[float, float, float]
@@ -87,7 +87,7 @@ class Look:
 
 @dataclass(frozen=True)
 class Character:
-    """One file: its name, what anny is asked for, its look, and the patch of the atlas that its shirt is of."""
+    """A character file: its name, anny's parameters, its appearance, and the atlas patch of its shirt."""
 
     name: str
     title: str
@@ -192,7 +192,7 @@ def _finger_tips(source: Source) -> dict[str, np.ndarray]:
 
 
 def _tint(colour: tuple[float, float, float], mean: float) -> tuple[float, float, float]:
-    """The factor that brings a neutral texture of a mean to a colour."""
+    """Factor that converts a neutral texture with a given mean to a colour."""
     red, green, blue = (min(1.0, channel / mean) for channel in colour)
     return red, green, blue
 
@@ -228,7 +228,7 @@ def _skin_and_eyes(look: Look, source: Source, layout: Layout, assets: Path) -> 
 
 
 def _clothes(folder: Path) -> dict[str, Material]:
-    """Materials of the own clothes; the shirt has the pictures of the wardrobe in the file's folder."""
+    """Materials of the character's own clothes; the shirt uses the wardrobe's textures in the file's folder."""
     colour, normal, orm = atlas_textures(folder / WARDROBE, f"{WARDROBE}/")
     shirt = Material(
         _tint(SHIRT_COLOUR, CLOTH_MEAN_LINEAR),
@@ -242,7 +242,7 @@ def _clothes(folder: Path) -> dict[str, Material]:
 
 
 def build(character: Character, source: Source, assets: Path, path: Path) -> SkeletonFit:
-    """Write one character; its skeleton as standing on the floor."""
+    """Write one character and return its skeleton standing on the floor."""
     fit = fit_skeleton(source)
     tailoring = measure(source, fit)
     look = character.look
@@ -279,7 +279,7 @@ def build(character: Character, source: Source, assets: Path, path: Path) -> Ske
 
 
 def build_hair(character: Character, source: Source, fit: SkeletonFit, style: str, assets: Path, path: Path) -> None:
-    """Write a style of hair by itself, on the skeleton of a character."""
+    """Write a separate hair style on the skeleton of a character."""
     surface, *textures = hair(assets, style, source, fit)
     materials = {"hair": _hair_material(textures, character.look.hair_colour)}
     meta = META | {"name": f"{character.title}: {style}"}
@@ -287,7 +287,7 @@ def build_hair(character: Character, source: Source, fit: SkeletonFit, style: st
 
 
 def write_skins(source: Source, assets: Path, folder: Path) -> None:
-    """Write the skins by themselves, for any body: all have the same texture coordinates."""
+    """Write the separate skin textures, which fit every body since all have the same texture coordinates."""
     folder.mkdir(parents=True, exist_ok=True)
     layout = skin_layout(source.uvs, source.groups["body"].uvs)
     for skin in MORE_SKINS:

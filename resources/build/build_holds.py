@@ -33,7 +33,7 @@ PEOPLE = "--people"
 
 
 def main(requested: list[str]) -> None:
-    """Fit what is not up to date: all of it, or what is named."""
+    """Fit all outdated grips, or the named ones."""
     maps, names = bundled_maps(), [name for name in requested if name != PEOPLE]
     unknown = set(names) - set(originals()) - set(bundled_people()) - set(maps)
     if unknown:
@@ -48,12 +48,12 @@ def main(requested: list[str]) -> None:
 
 
 def is_own(person_id: str, instrument_id: str) -> bool:
-    """Return whether a person holds an instrument in its own way, not as the finished body does."""
+    """Return whether a person holds an instrument differently from the bundled body that the person is made from."""
     return bundled_path(person_id, instrument_id).is_file()
 
 
 def refresh(character_id: str, instrument: InstrumentMap) -> None:
-    """Fit a hold again if it is not up to date."""
+    """Fit a grip again if it is outdated."""
     body, model = load_body(), load_instrument(model_path(instrument), instrument)
     is_person = character_id in bundled_people()
     character = character_named(character_id) if is_person else finished_character(character_id, character_named)

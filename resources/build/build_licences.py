@@ -51,7 +51,7 @@ WORDS: Final[Mapping[str, Mapping[str, str]]] = {
 
 
 def main() -> None:
-    """Replace what stands below the mark in each file."""
+    """Replace the text below the mark in each file."""
     here = {name: package_of(found) for name, found in distributions().items()}
     packages = [package for _, package in sorted(({package.name: package for package in described()} | here).items())]
     parts = [(package.name, part) for package in packages for part in package.parts]

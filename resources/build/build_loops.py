@@ -95,7 +95,7 @@ def editor_frames(application: QApplication, folder: Path, language: str) -> Ite
 
 
 def band_frames(folder: Path) -> Iterator[Image.Image]:
-    """Pictures of everyone on the stage."""
+    """Pictures of all performers on the stage."""
     first, last = BAND_BARS
     command = [
         sys.executable,
@@ -117,7 +117,7 @@ def band_frames(folder: Path) -> Iterator[Image.Image]:
 
 
 def write(name: str, frames: Sequence[Image.Image]) -> None:
-    """Write an animated WebP that repeats for ever."""
+    """Write an animated WebP that repeats forever."""
     path = TARGET / f"{name}.webp"
     frames[0].save(
         path, save_all=True, append_images=frames[1:], duration=round(1000 / FPS), loop=0, quality=QUALITY, method=6

@@ -47,7 +47,7 @@ PICTURES = (
 
 
 def draw(picture: Picture, folder: Path) -> Image.Image:
-    """Have the editor draw a picture of its window, and crop it."""
+    """Draw a picture of the editor's window and crop it."""
     file = folder / f"{picture.name}.png"
     command = [sys.executable, "-m", "app", "edit", str(PIECE), "--screenshot", str(file), *picture.options]
     subprocess.run(command, cwd=ROOT, check=True)

@@ -192,7 +192,7 @@ def _sample(font: Font, number: int, offsets: dict[int, int], *, held: bool) -> 
 
 
 def _struck(sample: Sample) -> Sample:
-    """A sound that dies away by itself: at most `KIT_RATE_HZ`, and faded out where it is long."""
+    """A sound that decays by itself: at most `KIT_RATE_HZ`, and faded out if it is long."""
     longest, fade = round(KIT_LONGEST_S * sample.rate_hz), round(KIT_FADE_S * sample.rate_hz)
     audio = sample.audio[:longest].copy()
     if len(sample.audio) > longest:
@@ -203,7 +203,7 @@ def _struck(sample: Sample) -> Sample:
 
 
 def _begun(sample: Sample) -> Sample:
-    """A tone without what precedes its attack: it sounds when it is played, for the picture's sake."""
+    """A tone without the sound before its attack, so that it is in time with the picture."""
     window = max(round(0.006 * sample.rate_hz), 1)
     power = np.convolve(sample.audio[: round(0.6 * sample.rate_hz)] ** 2, np.ones(window) / window)
     steady = np.median(power[round(0.2 * sample.rate_hz) :]) if len(power) > 0.3 * sample.rate_hz else power.max()

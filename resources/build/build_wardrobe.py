@@ -50,7 +50,7 @@ def _materials(outfit: Outfit, folder: Path) -> dict[str, Material]:
 
 
 def build(outfit: Outfit, pieces: Pieces, wearer: Wearer, path: Path) -> None:
-    """Write one outfit as it sits on a finished body."""
+    """Write one outfit as fitted to a bundled body."""
     surfaces = {surface.name: (surface, slot) for surface, slot in pieces}
     materials = _materials(outfit, path.parent)
     used = {name for surface, _ in surfaces.values() for name in surface.triangles}
@@ -72,7 +72,7 @@ def build(outfit: Outfit, pieces: Pieces, wearer: Wearer, path: Path) -> None:
 
 
 def share_buffer(paths: list[Path], shared: Path) -> None:
-    """Put what files hold beside them, each part once: outfits have jackets and trousers in common."""
+    """Move the files' binary data to separate files, each part once, since outfits share jackets and trousers."""
     data, starts, documents = bytearray(), dict[bytes, int](), []
     for path in paths:
         gltf = GLTF2().load(str(path))
@@ -100,7 +100,7 @@ def share_buffer(paths: list[Path], shared: Path) -> None:
 
 
 def wearer_of(character: Character, source: Source, assets: Path) -> Wearer:
-    """Prepare a finished body for its clothes; it stands on its own shoes."""
+    """Prepare a bundled body for its clothes, standing on its own shoes."""
     fit = fit_skeleton(source)
     tailoring = measure(source, fit)
     soles = shoes(tailoring, fit)

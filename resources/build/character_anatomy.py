@@ -41,7 +41,7 @@ HAND_BONES = ("wrist", "metacarpal1", "metacarpal2", "metacarpal3", "metacarpal4
 
 
 def load_person(model: anny.Anny, phenotype: Phenotype) -> Source:
-    """The body of a phenotype with joints, eyes and lids as people's."""
+    """Body of a phenotype with joints, eyes and lids in human proportions."""
     source = _with_measured_hips_and_shoulders(load_source(model, phenotype), phenotype.height_m)
     for letter in ("L", "R"):
         source = _with_measured_hand(source, letter)
@@ -69,7 +69,7 @@ def _smooth(values: np.ndarray, low: float, high: float) -> np.ndarray:
 
 
 def _tip(source: Source, bone: int) -> np.ndarray:
-    """The place at which the axis of a last phalanx leaves the skin."""
+    """Point at which the axis of a last phalanx leaves the skin."""
     axis = _unit(source.tails[bone] - source.heads[bone])
     own = np.unique(source.groups["body"].vertices)
     own = own[source.weights[own, bone] > 0.5]
@@ -77,7 +77,7 @@ def _tip(source: Source, bone: int) -> np.ndarray:
 
 
 def _along(points: np.ndarray, distance: float) -> np.ndarray:
-    """The point of a polyline so far from its start; the last stretch goes on."""
+    """Point at a distance from the start of a polyline, whose last segment is extended."""
     lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
     number = min(int(np.searchsorted(np.cumsum(lengths), distance)), len(lengths) - 1)
     share = (distance - float(lengths[:number].sum())) / float(lengths[number])
@@ -109,7 +109,7 @@ def _root(source: Source, letter: str, finger: int) -> np.ndarray:
 
 
 def _with_measured_hand(source: Source, letter: str) -> Source:
-    """One hand: joints along its fingers at people's lengths from the fingers' ends, and weights that bend there."""
+    """Hand with joints at human lengths from the fingers' ends, and weights that bend there."""
     bone = {n: [source.bones.index(f"finger{n}-{k}.{letter}") for k in (1, 2, 3)] for n in BONES_M}
     tips = {n: _tip(source, bones[2]) for n, bones in bone.items()}
     size = _hand_length_m(source, letter, tips[3]) / HAND_M
@@ -134,7 +134,7 @@ def _with_measured_hand(source: Source, letter: str) -> Source:
 
 
 def _place_on(ray: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Distances of points along a ray, from its first joint on (before it negative), and off it."""
+    """Distances of points along a ray from its first joint (negative before it), and from the ray."""
     best, along = np.full(len(points), np.inf), np.zeros(len(points))
     start_m = -float(np.linalg.norm(ray[1] - ray[0]))
     for number, (start, end) in enumerate(pairwise(ray)):

@@ -63,14 +63,14 @@ def _by_material(whole: Surface, source: Source) -> Surface:
 
 
 def visible(tailoring: Tailoring, places: np.ndarray) -> np.ndarray:
-    """(N,) whether T-pose places of the skin are of head, neck or hands."""
+    """Mask (N,) of the T-pose points of the skin that belong to head, neck or hands."""
     hands = np.abs(places[:, 0]) > tailoring.wrist_m - HAND_IN_CUFF_M
     trunk = np.abs(places[:, 0]) < tailoring.shoulder[0]
     return hands | (trunk & (above_collar(tailoring, places) > -NECK_IN_COLLAR_M))
 
 
 def visible_body(source: Source, fit: SkeletonFit, tailoring: Tailoring) -> Surface:
-    """Head, neck and hands: what shirt, trousers and shoes leave to be seen, and a little beneath their edges."""
+    """Head, neck and hands, which shirt, trousers and shoes leave visible, and a margin beneath the edges."""
     whole = _by_material(surface_of(source, fit, "body", ("body",), "skin", morphs=True), source)
     t_pose = fit.to_t_pose(whole.positions, whole.weights)
     shown = visible(tailoring, t_pose)

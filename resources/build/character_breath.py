@@ -63,7 +63,7 @@ def add_breath(path: Path, least_m: float = LEAST_M) -> None:
 
 
 def _widened_m(name: str, points: np.ndarray, places: dict[str, np.ndarray]) -> np.ndarray:
-    """(N, 3): how far out points of the trunk go."""
+    """Outward displacements (N, 3) of points of the trunk."""
     low, high = places["hips"][1], places["neck"][1]
     height = (points[:, 1] - low) / (high - low)
     middle, half = (0.68, 0.42) if name == CHEST else (0.26, 0.36)
@@ -88,7 +88,7 @@ def _column(places: dict[str, np.ndarray], column: int) -> list[float]:
 
 
 def _places_m(gltf: GLTF2) -> dict[str, np.ndarray]:
-    """Return where joints are in the T-pose, whose trunk is that of the mesh's own pose."""
+    """Positions of joints in the T-pose, whose trunk equals that of the mesh's own pose."""
     parents = {child: index for index, node in enumerate(gltf.nodes) for child in node.children or []}
     found = {}
     for index, node in enumerate(gltf.nodes):

@@ -27,7 +27,7 @@ DEEP_M: Final = 0.008
 
 
 def deepen_brows(path: Path) -> None:
-    """Scale the shapes of the brows in a character's file where that was not done yet."""
+    """Scale the shapes of the brows in a character's file, unless this was done before."""
     gltf = GLTF2().load(str(path))
     blob = bytearray(gltf.binary_blob())
     scales: dict[int, float] = {}

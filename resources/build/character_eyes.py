@@ -40,7 +40,9 @@ class Eye:
     radius: float
 
     def onto_ball(self, points: np.ndarray) -> np.ndarray:
-        """Move (N, 3) points about the old ball: as far in front of the new one, sideways where they are."""
+        """Move points (N, 3) from around the old ball to the new one, with the same distance in front and the same
+        sideways position.
+        """
         place = points - self.centre
         above = (np.linalg.norm(place / self.axes, axis=1) - 1.0) * self.axes.mean()
         aside = np.hypot(place[:, 0], place[:, 1])
@@ -52,7 +54,7 @@ class Eye:
         return points + np.stack([np.zeros(len(points)), np.zeros(len(points)), share * back], axis=1)
 
     def held_off(self, points: np.ndarray, moved: np.ndarray) -> np.ndarray:
-        """Points of lids that were `moved`, as far in front of the old ball as they had been."""
+        """Move displaced points (`moved`) of lids to their former distance in front of the ball."""
         level = np.linalg.norm((points - self.centre) / self.axes, axis=1)
         place = (moved - self.centre) / self.axes
         front = self.axes[2] * np.sqrt(np.maximum(level**2 - place[:, 0] ** 2 - place[:, 1] ** 2, 0.05))
@@ -62,13 +64,13 @@ class Eye:
 
 
 def _fall(values: np.ndarray, low: float, high: float) -> np.ndarray:
-    """One up to `low`, none from `high` on."""
+    """Weight that is one up to `low` and none from `high` on."""
     share = np.clip((high - values) / (high - low), 0.0, 1.0)
     return share * share * (3.0 - 2.0 * share)
 
 
 def with_measured_eyes(source: Source) -> Source:
-    """The body with eyeballs of people's size under lids that rest open."""
+    """Body with eyeballs of human size and naturally open lids."""
     for letter, side in (("l", "Left"), ("r", "Right")):
         source = _with_measured_eye(source, letter, "eyeBlink" + side)
     return source
@@ -107,7 +109,7 @@ def _eye(ball: np.ndarray, centre: np.ndarray) -> Eye:
 
 
 def _opened(source: Source, eye: Eye, near: np.ndarray, closing: np.ndarray) -> np.ndarray:
-    """The vertices `near` an eye with the upper lid as high as people's, against its way of closing."""
+    """Vertices `near` an eye with the upper lid raised to human height, against its closing motion."""
     quads = source.groups["body"].vertices
     quads = quads[np.isin(quads, near).all(axis=1)]
     triangles = triangulate(np.searchsorted(near, quads), source.vertices[near])

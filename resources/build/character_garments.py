@@ -120,7 +120,7 @@ def weights_from(cloth: Cloth, points: np.ndarray) -> np.ndarray:
 def move_out(
     points: np.ndarray, profile: Profile, axes: tuple[int, int, int], target: np.ndarray, share: np.ndarray
 ) -> np.ndarray:
-    """Points moved from the profile's axis to the radius `target` (N,) where that is further out, by `share` (N,)."""
+    """Move points from the profile's axis out to the radius `target` (N,) if they are nearer, by `share` (N,)."""
     along, first, second = axes
     angle, radius, centre = profile.polar(points[:, along], points[:, [first, second]])
     grown = radius + np.maximum(target - radius, 0.0) * share
@@ -138,8 +138,9 @@ def front_of(cloth: Cloth) -> LinearNDInterpolator:
 
 
 def neck_ring(tailoring: Tailoring, cloth: Cloth, height_m: float, angles: np.ndarray) -> np.ndarray:
-    """(N, 3) where the plane `height_m` above the collar's seam cuts a cloth, by angle about the neck (0 at the nape;
-    the last angle is the first one, a turn later)."""
+    """Points (N, 3) at which the plane `height_m` above the collar's seam intersects a cloth, by angle about the neck
+    (0 at the nape; the last angle equals the first one).
+    """
     neck = cut(
         cloth,
         np.maximum(height_m - above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M),

@@ -1,4 +1,4 @@
-"""Named places on a character's surface: what fingers press with, where a mouthpiece sits, what stands on the floor."""
+"""Named places on a character's surface: finger pads, lips for mouthpieces, soles."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def _nearest(points: np.ndarray, target: np.ndarray, candidates: np.ndarray, cou
 
 
 def _patch(body: Surface, candidates: np.ndarray, origin: np.ndarray, direction: np.ndarray, count: int) -> np.ndarray:
-    """The `count` candidates around the place where a ray from inside a limb leaves its skin."""
+    """The `count` candidates nearest to the point at which a ray from inside a limb leaves the skin."""
     offsets = body.positions[candidates] - origin
     along = offsets @ direction
     across = np.linalg.norm(offsets - along[:, None] * direction, axis=1)

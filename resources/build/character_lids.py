@@ -1,4 +1,4 @@
-"""Measuring how far the lids of a body are open: for its build, and the test of files against `anatomy.toml`."""
+"""Measurement of the opening of a body's lids, for building bodies and for testing files against `anatomy.toml`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Teeth, gums and tongue as patches of the picture of what is wet, which the white of the eyes is on too."""
+"""Teeth, gums and tongue as patches of one texture for wet surfaces, which also contains the white of the eyes."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def mouth_patches(size: int) -> np.ndarray:
 
 
 def with_wet_material(surface: Surface) -> Surface:
-    """A surface of teeth, gums or tongue with the one material of what is wet, laid into the patches from the front."""
+    """Surface of teeth, gums or tongue with the material for wet surfaces, projected to its patch from the front."""
     uvs = surface.uvs.copy()
     room = np.array([1.0 - PATCHES_LEFT, 1 / 3]) - 2 * MARGIN
     for name, triangles in surface.triangles.items():

@@ -50,7 +50,7 @@ GREYS, ALPHAS = 48, 8
 
 
 def covered(uvs: np.ndarray, uv_faces: np.ndarray, size: int) -> np.ndarray:
-    """(size, size) whether faces use a pixel of their texture."""
+    """Mask (size, size) of the texture's pixels used by faces."""
     canvas = Image.new("1", (size, size))
     drawing = ImageDraw.Draw(canvas)
     for face in uv_faces:
@@ -100,14 +100,14 @@ def _enlarged(picture: np.ndarray, size: int) -> np.ndarray:
 
 
 def _flecks(seen: np.ndarray) -> np.ndarray:
-    """(H, W) what is seen in spots too small for a lock: it would float beside the hair."""
+    """Mask (H, W) of spots too small for a lock, which would float beside the hair."""
     spots, count = label(seen)
     sizes = np.bincount(spots.ravel(), minlength=count + 1)
     return seen & (sizes[spots] < FLECK_PX)
 
 
 def _caps(alpha: np.ndarray) -> np.ndarray:
-    """(H, W) what covers the scalp: parts wider than any lock."""
+    """Mask (H, W) of the parts that cover the scalp, which are wider than any lock."""
     parts, count = label(alpha > 0.5)
     half = maximum(distance_transform_edt(parts > 0), parts, np.arange(count + 1))
     return (parts > 0) & (half >= CAP_HALF_PX)[parts]
@@ -128,7 +128,7 @@ def _fringe(alpha: np.ndarray, along: np.ndarray, used: np.ndarray) -> np.ndarra
 
 
 def _hairline(grey: np.ndarray, alpha: np.ndarray, fine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Grey and alpha with an even shade, and no scraps along the edges of what covers the scalp."""
+    """Grey and alpha with an even shade and without fragments along the edges of the parts that cover the scalp."""
     caps = _caps(alpha)
     if not caps.any():
         return grey, alpha
@@ -142,7 +142,7 @@ def _hairline(grey: np.ndarray, alpha: np.ndarray, fine: np.ndarray) -> tuple[np
 
 
 def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Texture, Texture]:
-    """Grey strands with alpha, and their normals, from a painted (H, W, 4) picture; what no face uses is left empty."""
+    """Grey strands with alpha, and their normals, from a painted (H, W, 4) picture; unused parts are empty."""
     size = len(used)
     large = _enlarged(painted, size)
     alpha = large[..., 3] * used
@@ -171,13 +171,13 @@ def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Te
 
 
 def _strip(asset: Asset) -> tuple[np.ndarray, np.ndarray]:
-    """Lower left and upper right corner of what an asset uses of its texture."""
+    """Lower left and upper right corner of the part of its texture that an asset uses."""
     used = asset.uvs[np.unique(asset.uv_faces)]
     return np.clip(used.min(axis=0) - 0.004, 0, 1), np.clip(used.max(axis=0) + 0.004, 0, 1)
 
 
 def _brow_picture(painted: np.ndarray) -> np.ndarray:
-    """Single grey hairs: what is painted solid is thinned and shaded along its strokes."""
+    """Single grey hairs: solidly painted parts are thinned and shaded along their strokes."""
     alpha = np.clip(painted[..., 3], 0, 1)
     fine = strands(directions(gaussian_filter(alpha, 1.0) + 0.5 * painted[..., :3].mean(axis=-1), 2.5)[0], 32)
     grey = to_srgb(np.clip(STRANDS_MEAN_LINEAR * (1 + 0.35 * fine), 0.05, 0.9))

@@ -18,7 +18,8 @@ JPEG_QUALITY = 88
 
 @dataclass(frozen=True)
 class Texture:
-    """A picture as stored: the name becomes that of its file, the content is PNG or JPEG.
+    """A stored picture: its name becomes that of the file, its content is PNG or JPEG. With a `uri` it is a separate
+    file.
 
     With a `uri` it lies beside the files that use it, and is in none of them.
     """
@@ -69,7 +70,7 @@ def sampled(picture: np.ndarray, u: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 
 def spread(picture: np.ndarray, inside: np.ndarray) -> np.ndarray:
-    """The picture with every pixel outside a mask given the value of the nearest inside, so that no edge shows."""
+    """Picture with every pixel outside a mask set to the nearest value inside, so that no edge is visible."""
     rows, columns = distance_transform_edt(~inside, return_distances=False, return_indices=True)
     return picture[rows, columns]
 

@@ -58,7 +58,7 @@ LINE = re.compile(r"^not_cast_for = .*$", re.MULTILINE)
 
 
 def compass(instrument: InstrumentMap, path: Path, step: int = 1) -> Path:
-    """Write a MIDI file of the instrument's notes from its lowest to its highest, so many semitones apart."""
+    """Write a MIDI file of the instrument's notes from lowest to highest at an interval in semitones."""
     track = mido.MidiTrack([mido.MetaMessage("set_tempo", tempo=500_000), mido.Message("program_change", program=56)])
     wait = 1920
     for pitch in range(instrument.range.low, instrument.range.high + 1, step):
@@ -70,15 +70,16 @@ def compass(instrument: InstrumentMap, path: Path, step: int = 1) -> Path:
 
 
 def compass_project(instrument: InstrumentMap, path: Path, step: int = 1) -> Project:
-    """A piece of one player who plays an instrument's compass; its file is written to ``path``."""
+    """Piece of one player who plays the whole compass of an instrument; its file is written to ``path``."""
     maps = bundled_maps()
     project = project_from_score(read_midi(compass(instrument, path, step), maps=map_choices(maps.values())), maps)
     return assign(project, [project.players[0].id], instrument_id=instrument.id)
 
 
 def faults(project: Project, character_id: str) -> dict[str, float]:
-    """Have a character play a piece of one player, and return what is out of reach, breaks a contact or goes beyond a
-    human range: how far, in millimetres or degrees, by names that are the same for all characters."""
+    """Let a character play a piece of one player and return unreachable touches, broken contacts and exceeded human
+    ranges, in millimetres or degrees, by names that are equal for all characters.
+    """
     player = msgspec.structs.replace(project.players[0], character_id=character_id)
     performance = Performance(replace(project, players=(player,)))
     curves = performance_curves(performance, performer_of(performance, player))
@@ -114,7 +115,7 @@ def beyond_deg(character: Character, rotations: FloatArray) -> dict[str, float]:
 
 
 def worse(found: Mapping[str, float], allowed: Sequence[Mapping[str, float]]) -> dict[str, float]:
-    """The faults of a character that none of the finished bodies has to this amount."""
+    """Faults of a character that exceed those of all bundled bodies."""
     most = {name: max(one.get(name, 0.0) for one in allowed) for name in found}
     return {
         name: amount
@@ -124,7 +125,7 @@ def worse(found: Mapping[str, float], allowed: Sequence[Mapping[str, float]]) ->
 
 
 def checked(requested: Sequence[str]) -> dict[str, dict[str, dict[str, float]]]:
-    """By person and instrument what is worse than the finished bodies do it; of those that are named, or all."""
+    """Faults by person and instrument that exceed those of the bundled bodies, for the named ones or all."""
     maps, people = bundled_maps(), bundled_people()
     result: dict[str, dict[str, dict[str, float]]] = {}
     with tempfile.TemporaryDirectory() as folder:
@@ -137,7 +138,7 @@ def checked(requested: Sequence[str]) -> dict[str, dict[str, dict[str, float]]]:
 
 
 def main(requested: Sequence[str]) -> None:
-    """Check everyone on everything, or those who are named, on what is named."""
+    """Check all persons with all instruments, or the named ones."""
     write, names = WRITE in requested, [name for name in requested if name != WRITE]
     unknown = set(names) - set(bundled_people()) - set(bundled_maps())
     if unknown:

@@ -123,7 +123,7 @@ LAST_CHORDS: Final = ((0.0, 0.5), (1.5, 0.5), (3.0, 0.5), (5.0, 0.5), (6.0, 1.0)
 
 
 def placed(line: Phrase, bar: int, velocity: int, lower: int = 0) -> list[Sound]:
-    """A line from a bar on, so many semitones lower; what is on the clave is a little louder."""
+    """Line from a bar on, lowered by semitones; notes on the clave are slightly louder."""
     return [
         Sound(bar * BAR + onset, length, pitch - lower, velocity + (6 if on_clave(bar * BAR + onset) else 0))
         for onset, length, pitch in line
@@ -237,7 +237,7 @@ def compose() -> mido.MidiFile:
 
 
 def noted(sounds: Sequence[Sound]) -> tuple[Note, ...]:
-    """The notes of a player as they are written, with points, accents and wedges."""
+    """Written notes of a player with points, accents and wedges."""
     return tuple(
         Note(sound.onset, sound.length, sound.pitch, sound.velocity, _marks(sound)) for sound in sorted(sounds)
     )
@@ -280,7 +280,7 @@ def compose_score() -> bytes:
 
 
 def main() -> None:
-    """Write the example and say how long it is."""
+    """Write the example and print its length."""
     piece = compose()
     piece.save(TARGET)
     SCORE_TARGET.write_bytes(compose_score())

@@ -41,7 +41,7 @@ AFTER = re.compile(r"^not_cast_for = .*\n", re.MULTILINE)
 
 
 def straightest(person_id: str, instrument: InstrumentMap) -> Shares:
-    """Find how a person carries an instrument so that its arms lie as naturally as may be."""
+    """Find the carriage in which a person's arms are as natural as possible."""
     person, model, body = character_named(person_id), load_instrument(model_path(instrument), instrument), load_body()
     finished = person.hands_of
     assert finished is not None
@@ -55,7 +55,7 @@ def straightest(person_id: str, instrument: InstrumentMap) -> Shares:
 
 
 def descended(cost: Callable[[Shares], float]) -> Shares:
-    """The shares of least cost, one range after the other."""
+    """Shares of least cost, found one range after another."""
     best, least = USUAL, cost(USUAL)
     for _ in range(ROUNDS):
         for axis in range(3):
@@ -77,7 +77,7 @@ def write_carriages(path: Path, carriages: Mapping[str, Shares]) -> None:
 
 
 def main(requested: Sequence[str]) -> None:
-    """Try everyone on what it is not cast for, or those and that which is named."""
+    """Try all persons with the instruments for which they are not cast, or the named ones."""
     maps = bundled_maps()
     unknown = set(requested) - set(bundled_people()) - set(maps)
     if unknown:

@@ -50,7 +50,7 @@ class Pin:
 
 
 def stand(work: Keywork, start: Array, axis: Array, pin: Pin, screw: Array) -> None:
-    """Put tube and rod into an instrument; ``screw`` is the side the screw is at."""
+    """Add tube and rod to an instrument; ``screw`` is the side of the screw."""
     axis, r = unit(axis), pin.tube_radius
     first, last = pin.tube
     tube = [

@@ -166,14 +166,14 @@ class Rod:
         return self.a + share * span
 
     def standing(self) -> Pieces:
-        """Posts of the rod, which do not move."""
+        """Posts of the rod, which are motionless."""
         if not self.posts:
             return []
         return [piece for end in (self.a, self.b) for piece in post(self.wall, end)]
 
 
 def bodied(shape: Shape, *proxies: dict[str, object]) -> Shape:
-    """A shape with these collision bodies: every part near a hand needs one, and a model has at most 260."""
+    """Shape with these collision bodies: every part near a hand needs one, and a model has at most 260."""
     return replace(shape, proxies=proxies)
 
 
@@ -529,7 +529,7 @@ class Keywork:
     def covered(
         self, name: str, label: str, part: str, point: ArrayLike, normal: ArrayLike, *, half_value: float | None = None
     ) -> None:
-        """A place that a finger covers, at which nothing moves."""
+        """A place covered by a finger, where nothing moves."""
         self.control(name, "hole", label, part, half_value=half_value)
         self.contact(part, point, normal, control=name)
 

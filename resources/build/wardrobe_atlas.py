@@ -26,8 +26,9 @@ LINEN = 0.25
 @dataclass(frozen=True)
 class Patch:
     """A source's picture in the atlas: `box` (left, top, right, bottom) of its 512 pixels, put at `corner` (left, top)
-    of the atlas, `scale` times as large. Of a print nothing is taken but folds: it has no `structure`.
-    A `tone` below 1 is for what stays darker than the rest of its material: grey trousers beside a white shirt."""
+    of the atlas, `scale` times as large. From a print only folds are used: it has no `structure`.
+    A `tone` below 1 is for what stays darker than the rest of its material: grey trousers beside a white shirt.
+    """
 
     folder: str
     box: tuple[int, int, int, int]
@@ -68,7 +69,7 @@ PLAIN_M = (2.0, 1.156)
 
 
 def plain_uvs(across_m: np.ndarray, up_m: np.ndarray) -> np.ndarray:
-    """Coordinates (N, 2) on plain cloth of places in metres; what leaves it comes in again on the other side."""
+    """Coordinates (N, 2) on plain cloth of positions in metres; they wrap around at the edges."""
     left, top, right, bottom = PLAIN
     margin = 8
     wide, high = right - left - 2 * margin, bottom - top - 2 * margin

@@ -1,4 +1,4 @@
-"""The outfits: what each is made of, for whom, and in which colours."""
+"""The outfits: their pieces, their wearers and their colours."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def suit_jacket(wearer: Wearer, linen: str = SECOND, tie: str = ACCENT) -> Surfa
 
 
 def suit_trousers(wearer: Wearer, material: str = MAIN, patch: str = "suit") -> Surface:
-    """Straight trousers."""
+    """Straight trousers of a suit."""
     return piece(wearer, "trousers", patch, _trousers_part, all_of(material))
 
 
@@ -103,7 +103,7 @@ def bare_shoulders(wearer: Wearer) -> Surface:
 
 
 def bare_arms(wearer: Wearer, from_m: float) -> Surface:
-    """The skin of the arms from so far off the middle of the body, in the T-pose, to the hands."""
+    """Skin of the arms from a distance to the body's middle, in the T-pose, to the hands."""
     return skin(wearer, "skin_arms", lambda places, weights: np.abs(places[:, 0]) > from_m)
 
 
@@ -161,7 +161,7 @@ def _school_legs(wearer: Wearer, material: str, checked: bool, socks: str) -> Pi
 
 
 def worn_over(wearer: Wearer, outer: Surface, inner: Surface, margin_m: float = 0.007) -> Surface:
-    """A top that hangs over what is worn below it."""
+    """A top that hangs over the garment below it."""
     cloth = cloth_of(wearer, outer)
     moved = over(wearer, cloth, cloth_of(wearer, inner), wearer.tailoring.belt_m + 0.05, margin_m)
     return moved_to(wearer, outer, moved.points)
@@ -173,7 +173,7 @@ def _blazer_and_skirt(wearer: Wearer) -> Pieces:
 
 
 def _roomy_jacket(wearer: Wearer, below: Surface) -> Surface:
-    """The jacket of all of a woman's suits, which has room for a skirt."""
+    """Jacket of all women's suits, which leaves room for a skirt."""
     return worn_over(wearer, suit_jacket(wearer), below)
 
 

@@ -108,7 +108,7 @@ def piece(
 
 
 def connected(wearer: Wearer, patch: str, reach_m: float) -> Callable[[np.ndarray], np.ndarray]:
-    """Faces of an asset that hang together with something above a height in the T-pose, to be chosen by `piece`."""
+    """Function for `piece` that chooses the faces of an asset connected with any above a height in the T-pose."""
     asset = _asset(wearer.assets, PATCHES[patch].folder)
     faces, count = asset.faces, int(asset.faces.max()) + 1
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 3]]])
@@ -121,7 +121,7 @@ def connected(wearer: Wearer, patch: str, reach_m: float) -> Callable[[np.ndarra
 
 
 def all_of(material: str) -> Callable[[np.ndarray, np.ndarray], dict[str, np.ndarray]]:
-    """Everything of one material."""
+    """Function for `piece` that gives everything one material."""
     return lambda centres, dye: {material: np.ones(len(centres), dtype=bool)}
 
 
@@ -163,7 +163,7 @@ def merged(name: str, *surfaces: Surface) -> Surface:
 
 
 def skin(wearer: Wearer, name: str, shown: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> Surface:
-    """The body's own skin where a garment leaves it bare, without what the finished body shows.
+    """The body's own skin where a garment leaves it bare, except for parts that the bundled body shows anyway.
 
     Parameters
     ----------

@@ -43,7 +43,7 @@ def _dense(cloth: Cloth) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _lying(wearer: Wearer, cloth: Cloth, points: np.ndarray, lift_m: float) -> np.ndarray:
-    """Points (N, 3) brought onto what lies below them: the shirt, or the neck where it ends."""
+    """Points (N, 3) moved onto the surface below them: the shirt, or the neck above it."""
     below, normals = (np.concatenate(pair) for pair in zip(_dense(cloth), _dense(wearer.tailoring.suit), strict=True))
     tree = cKDTree(below)
     for reach in (8, 16):

@@ -22,7 +22,7 @@ PATCHES_M = ((0.05, 0.025), (0.12, 0.025))
 
 
 def _seated(wearer: Wearer, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Places (N, 3) of points that go with the thighs, and with the shins, of one who sits."""
+    """Positions (N, 3) in a seated pose of points that move with the thighs, and with the shins."""
     fit = wearer.fit
     hip, knee = (fit.positions_t[fit.index(f"left{part}Leg")] for part in ("Upper", "Lower"))
     cosine, sine = np.cos(SEAT_RAD), np.sin(SEAT_RAD)
@@ -43,7 +43,7 @@ def _blend(wearer: Wearer, points: np.ndarray, weights: np.ndarray) -> np.ndarra
 
 
 def seated_weights(wearer: Wearer, points: np.ndarray, weights: np.ndarray, columns: int) -> np.ndarray:
-    """The weights (N, J) of a skirt's grid, its rows of so many columns from the waist down, for who sits too."""
+    """Weights (N, J) of a skirt's grid, in rows from the waist down, that also suit a seated pose."""
     fit, suit = wearer.fit, wearer.tailoring.suit
     hip = fit.positions_t[fit.index("leftUpperLeg")]
     shins = suit.weights[:, [fit.index(f"{side}LowerLeg") for side in ("left", "right")]].sum(axis=1)

@@ -1,4 +1,4 @@
-"""Parts of outfits of our own, sewn in the T-pose: skirts, bare limbs' socks, ties, collars, braid, buttons, hats."""
+"""Sewn parts of outfits in the T-pose: skirts, socks, ties, collars, braid, buttons, hats."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def plain(cloth: Cloth) -> Sewn:
 
 
 def gold(cloth: Cloth) -> Sewn:
-    """A piece of smooth shining stuff: metal, braid, silk."""
+    """A piece of smooth shining material: metal, braid, silk."""
     spread = np.ptp(cloth.points, axis=0)[:2].max() + 1e-9
     return Sewn(cloth, spot_uvs(GOLD, (cloth.points[:, :2] - cloth.points[:, :2].min(axis=0)) / spread))
 
@@ -59,7 +59,7 @@ def weights_near(cloth: Cloth, points: np.ndarray) -> np.ndarray:
 
 
 def _leg_weights(wearer: Wearer, points: np.ndarray) -> np.ndarray:
-    """Skin weights of what hangs from the hips about both legs."""
+    """Skin weights of cloth that hangs from the hips around both legs."""
     fit = wearer.fit
     weights = np.zeros((len(points), len(fit.names)))
     hip, knee = (fit.positions_t[fit.index(f"left{part}Leg")] for part in ("Upper", "Lower"))
@@ -155,7 +155,7 @@ def shell(wearer: Wearer, low_m: float, high_m: float, out_m: float) -> Sewn:
 
 
 def neck_band(wearer: Wearer, low_m: float, high_m: float, out_m: float, half_m: float = 0.13) -> Sewn:
-    """A close layer about the neck between two heights above the collar's seam, so far to either side."""
+    """Close layer around the neck between two heights above the collar's seam, up to a distance on either side."""
     layer = _layer(wearer.tailoring.suit, out_m)
     layer = cut(layer, half_m - np.abs(layer.points[:, 0]))
     layer = cut(layer, high_m - above_collar(wearer.tailoring, layer.points))
@@ -170,7 +170,7 @@ def _arm_share(wearer: Wearer, cloth: Cloth) -> np.ndarray:
 
 
 def over(wearer: Wearer, outer: Cloth, inner: Cloth, from_m: float, margin_m: float) -> Cloth:
-    """A garment moved out below a height until it lies over another one; sleeves stay."""
+    """Garment moved out below a height until it covers another one; sleeves are unchanged."""
     low = float(outer.points[:, 1].min()) - 0.02
     # The hull is incomplete at the upper edge of the garment below.
     from_m = min(from_m, float(inner.points[:, 1].max()) - 0.02)
@@ -233,7 +233,7 @@ def bow_tie(wearer: Wearer, front: np.ndarray) -> Sewn:
 
 
 def throat(wearer: Wearer, points: np.ndarray, above_m: float) -> np.ndarray:
-    """The foremost place (3,) in the middle of a garment's T-pose points, so high above the collar's seam."""
+    """Foremost point (3,) in the middle of a garment in the T-pose, at a height above the collar's seam."""
     middle = points[np.abs(points[:, 0]) < 0.02]
     ring = middle[np.abs(above_collar(wearer.tailoring, middle) - above_m) < 0.012]
     ring = ring[ring[:, 2] > wearer.tailoring.collar_point[2] + 0.03]

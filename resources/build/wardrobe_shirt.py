@@ -48,7 +48,7 @@ def _tucked(wearer: Wearer, cloth: Cloth) -> Cloth:
 
 
 def _without_collar(wearer: Wearer, cloth: Cloth, uvs: np.ndarray) -> Cloth:
-    """The cloth without the parts, by the islands of their texture coordinates, that are all near the neck."""
+    """Cloth without the islands of its texture coordinates that are entirely near the neck."""
     _, place = np.unique(np.round(np.concatenate([cloth.points, uvs], axis=1), 5), axis=0, return_inverse=True)
     faces, count = place.reshape(-1)[cloth.faces], int(place.max()) + 1
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
@@ -60,7 +60,7 @@ def _without_collar(wearer: Wearer, cloth: Cloth, uvs: np.ndarray) -> Cloth:
 
 
 def _closed(wearer: Wearer, cloth: Cloth) -> Cloth:
-    """An open neck drawn together, and down to the skin about the throat."""
+    """An open neck drawn together, and down to the skin of the throat."""
     tailoring, points = wearer.tailoring, cloth.points.copy()
     ahead = smoothstep(points[:, 2], tailoring.collar_point[2] + 0.02, tailoring.collar_point[2] + 0.06)
     levels = np.arange(points[:, 1].min(), points[:, 1].max() + 0.01, 0.006)

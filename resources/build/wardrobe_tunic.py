@@ -1,4 +1,4 @@
-"""A buttoned tunic with a stand-up collar, and what is sewn on it: gakuran and marching jacket; a close dress."""
+"""A buttoned tunic with a stand-up collar and its trimmings: gakuran, marching jacket, and a close dress."""
 
 from __future__ import annotations
 

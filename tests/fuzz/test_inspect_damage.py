@@ -1,4 +1,4 @@
-"""Damaged, absurd and foreign files through ``suisou inspect``: it ends with 0 or 1 and says why in one line."""
+"""Damaged, absurd and foreign files through ``suisou inspect``: it ends with status 0 or 1 and a reason in one line."""
 
 from __future__ import annotations
 

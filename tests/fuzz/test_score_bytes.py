@@ -1,4 +1,4 @@
-"""Damaged MIDI files: each opens or says in the program's own words why not."""
+"""Damaged MIDI files are opened or refused with the program's own message."""
 
 from __future__ import annotations
 

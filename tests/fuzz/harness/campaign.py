@@ -1,4 +1,4 @@
-"""The other side of `child`: mutants by a seed, judged; what fails is made small and kept."""
+"""Attacks by seeded mutants, run in `child` processes and judged; failures are minimised and kept."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class Result:
 
 
 class Child:
-    """A process that reads files; another is started where one dies.
+    """A process that reads files and is replaced when it dies.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ class Child:
         return process
 
     def close(self) -> None:
-        """End it."""
+        """End the process."""
         if self._process is not None:
             assert self._process.stdout is not None
             self._process.stdin.close()
@@ -140,7 +140,7 @@ class Child:
         self._folder.cleanup()
 
     def start(self) -> Child:
-        """Have it ready, so that the first file does not wait for it."""
+        """Start the process in advance, so that the first file need not wait."""
         if self._process is None:
             self._start()
         return self
@@ -153,7 +153,7 @@ class Child:
 
 
 def _place(said: str) -> str:
-    """The innermost place of ours in what `faulthandler` printed."""
+    """Innermost place in the program's code in the output of `faulthandler`."""
     ours = [line for line in said.splitlines() if line.startswith('  File "') and "/tests/" not in line]
     for line in ours:
         if str(ROOT) in line and "/.venv" not in line:
@@ -182,7 +182,7 @@ class Tally:
     worst: dict[int, dict[str, tuple[float, bytes]]] = field(default_factory=dict)
 
     def add(self, data: bytes, result: Result) -> bool:
-        """Count a file; whether it cost more than any of its size before."""
+        """Count a file; return whether it cost more than all previous ones of its size."""
         self.tries += 1
         if failure := result.failure:
             count, smallest, known = self.failures.get(failure, (0, data, result))

@@ -120,7 +120,7 @@ def _cpu_s() -> float:
 
 
 def forget_peak() -> None:
-    """From now on the most memory is counted anew (Linux)."""
+    """Reset the measured peak of memory (Linux)."""
     try:
         Path("/proc/self/clear_refs").write_text("5")
     except OSError:

@@ -1,4 +1,4 @@
-"""Small files that cost much, by the kind of reader that they are for: the worst of each way that was found."""
+"""Small files with a high cost by kind of reader: the worst of each known cause."""
 
 from __future__ import annotations
 
@@ -38,5 +38,5 @@ ALL_COSTLY: Final[Mapping[str, Mapping[str, Make]]] = {
 
 
 def costly(kind: str, size: int = 10_000) -> dict[str, Callable[[], bytes]]:
-    """A file of each way of a kind, by the way's name."""
+    """Files of a kind by the cause of their cost."""
     return {name: partial(make, size) for name, make in ALL_COSTLY[kind].items()}

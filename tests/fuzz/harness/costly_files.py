@@ -1,4 +1,4 @@
-"""Small files that ask for far more memory or time than they have bytes, one for each way that was found."""
+"""Small files that require far more memory or time than their size suggests, one for each known cause."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def glb(document: dict[str, Any], binary: bytes = b"") -> bytes:
 
 
 def figure(*more: dict[str, Any]) -> dict[str, Any]:
-    """Nodes of a figure, and others that hang from nothing."""
+    """Nodes of a figure, and others without a parent."""
     joints = sorted(REQUIRED_JOINTS, key=lambda joint: (joint != "hips", joint))
     nodes: list[dict[str, Any]] = [{"name": joint, "translation": PLACES[joint]} for joint in joints]
     for number, joint in enumerate(joints):
@@ -144,7 +144,7 @@ def glb_parts(size: int) -> bytes:
 
 
 def glb_deep(size: int) -> bytes:
-    """Nodes that hang from one another."""
+    """Deeply nested nodes."""
     whole = figure()
     first = len(whole["nodes"])
     whole["nodes"] += [{"children": [first + number + 1]} for number in range(size // 20)] + [{}]
@@ -162,7 +162,7 @@ def glb_bones(size: int) -> bytes:
 
 
 def glb_nameless(size: int) -> bytes:
-    """Thousands of bones without names or places: their shape alone could say what they are."""
+    """Thousands of bones without names and positions, which only their shape could identify."""
     count = min(size // 14, 4900)
     top = {"children": list(range(1, count))}
     return glb({"nodes": [top, *[{}] * (count - 1)]})
@@ -257,7 +257,7 @@ def fbx_polygon(size: int) -> bytes:
 
 
 def fbx_deep(size: int) -> bytes:
-    """Bones that hang from one another."""
+    """Deeply nested bones."""
     nodes = range(10, 10 + size // 100)
     return fbx(
         [_node(number, "LimbNode") for number in nodes], [(number, number - 1) for number in nodes[1:]] + [(10, 0)]
@@ -308,12 +308,12 @@ def bvh_still(size: int) -> bytes:
 
 
 def bvh_deep(size: int) -> bytes:
-    """Joints that hang from one another."""
+    """Deeply nested joints."""
     return b"HIERARCHY\nROOT a\n{\n" + b"JOINT a\n{\n" * (size // 10)
 
 
 def bvh_frames(size: int) -> bytes:
-    """A number of frames that no file has."""
+    """A number of frames that the file does not contain."""
     head = b"HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n}\nMOTION\nFrames: "
     return head + b"9" * (size // 2) + b"\nFrame Time: 0.01\n" + b"0 0 0\n" * (size // 12)
 

@@ -1,4 +1,4 @@
-"""Small sound and film files that ask for far more memory or time than they have bytes; ffmpeg makes them."""
+"""Small sound and film files made by ffmpeg that require far more memory or time than their size suggests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Small MIDI files that ask for as much work as their bytes can: the worst of each kind that was found."""
+"""Small MIDI files with as much work as their size allows: the worst of each known cause."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def _everyone(size: int, quarter_us: int, quarters: int, *first: bytes, division
 
 
 def _everyone_often(size: int) -> bytes:
-    """Notes of all players that are apart so far that everything between them counts."""
+    """Notes of all players at such distances that everything between them counts."""
     tempo = b"\0\xff\x51\x03" + (216_000).to_bytes(3, "big")
     count = max(size // 128 // 7, 1)
     notes = b"\0\x90\x40\x50\x30\x40\0" + b"".join(
@@ -240,7 +240,7 @@ _TWELVE_HOURS: Final = 12 * 2 * 3600 * 480 - 4000
 
 
 def _turns(size: int) -> bytes:
-    """Six instruments by turns in one track."""
+    """One track that alternates between six instruments."""
     programs = (56, 57, 60, 71, 73, 68)
     turns = b"".join(bytes([0, 0xC0, program]) + note(70, 100, 20) for program in programs)
     return midi(_repeated(turns, size) + END)

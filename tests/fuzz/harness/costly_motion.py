@@ -1,4 +1,4 @@
-"""Small files of motion that ask for far more memory or time than they have bytes, one for each way that was found."""
+"""Small motion files that require far more memory or time than their size suggests, one for each known cause."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def bvh_one_channel(size: int) -> bytes:
 
 
 def bvh_slow(size: int) -> bytes:
-    """Frames of a second, that are learned from at sixty of each."""
+    """Frames of one second each, which learning samples sixty times."""
     return _bvh(size, "1 Yposition", "98", "1")
 
 
@@ -74,7 +74,7 @@ def bvh_steps(size: int) -> bytes:
 
 
 def bvh_steps_of_one(size: int) -> bytes:
-    """The same in as few numbers as there may be."""
+    """Same motion with as few numbers as possible."""
     return _bvh(size, "1 Yrotation", ("0", "0", "0", "0", "9", "9", "9", "9"), ".0041667")
 
 

@@ -1,4 +1,4 @@
-"""Small projects that ask for as much work as their bytes can: of everything that can be many, long or far."""
+"""Small projects with as much work as their size allows: with large numbers, lengths and distances."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def encoded(project: Project) -> bytes:
 
 
 def of_size(way: Way, size: int) -> bytes:
-    """The file of a project with as many as fit into a size, at least one."""
+    """File of a project with as many items as fit into a size, at least one."""
     few, some = (len(encoded(way(count))) for count in (2, 34))
     count = 2 + (size - few) * 32 // max(some - few, 1)
     return encoded(way(max(count, 1)))
@@ -92,8 +92,9 @@ def _corrected(items: Sequence[Correction], notes: int = 0) -> Project:
 
 
 def _each(make: Callable[..., Correction]) -> Way:
-    """One correction for each note: work that searches all notes for every correction shows here. The function that
-    makes a correction takes its number and, if it takes two arguments, the end of the piece."""
+    """One correction for each note, which reveals code that searches all notes for every correction. The function that
+    makes a correction takes its number and, if it takes two arguments, the end of the piece.
+    """
 
     def way(count: int) -> Project:
         more = (QUARTER * max(count, NOTES),) if make.__code__.co_argcount > 1 else ()

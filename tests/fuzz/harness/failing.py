@@ -1,4 +1,4 @@
-"""`child` with a reader that fails in every way, to see that each is noticed."""
+"""A `child` whose reader fails in every way, to test that each failure is detected."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.fuzz.harness.readers import KINDS, Kind, accepted
 
 
 def failing(path: Path, folder: Path) -> None:
-    """Fail as the file says."""
+    """Fail as stated in the file."""
     match path.read_bytes().strip():
         case b"refuse":
             raise FileError("file.cannot_read", file=str(path), reason="refused")

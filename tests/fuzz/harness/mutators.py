@@ -1,4 +1,4 @@
-"""Mutators of bytes and of the formats that readers take apart: what comes out is near enough to good to be read on."""
+"""Mutators of bytes and of structured formats: their results are valid enough to be read further."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def mutated(seeds: Sequence[bytes], chance: random.Random, structured: Sequence[
 
 
 def flip(data: bytes, chance: random.Random) -> bytes:
-    """Some bits the other way."""
+    """Invert some bits."""
     if not data:
         return b"\0"
     changed = bytearray(data)
@@ -53,7 +53,7 @@ def flip(data: bytes, chance: random.Random) -> bytes:
 
 
 def overwrite(data: bytes, chance: random.Random) -> bytes:
-    """A number of one to eight bytes, in either order, where another was."""
+    """Overwrite a place by a number of one to eight bytes in either byte order."""
     width, order = chance.choice((1, 2, 3, 4, 8)), chance.choice(("little", "big"))
     number = chance.choice(INTEGERS) % (1 << 8 * width)
     place = _place(data, chance)
@@ -72,25 +72,25 @@ def overwrite_float(data: bytes, chance: random.Random) -> bytes:
 
 
 def cut(data: bytes, chance: random.Random) -> bytes:
-    """Only the beginning."""
+    """Keep only the beginning."""
     return data[: _place(data, chance)]
 
 
 def delete(data: bytes, chance: random.Random) -> bytes:
-    """A piece missing."""
+    """Remove a piece."""
     start, stop = _span(data, chance)
     return data[:start] + data[stop:]
 
 
 def repeat(data: bytes, chance: random.Random) -> bytes:
-    """A piece several times."""
+    """Repeat a piece several times."""
     start, stop = _span(data, chance)
     times = chance.choice((2, 2, 3, 20, 500))
     return data[:stop] + data[start:stop] * min(times, MOST_BYTES // max(stop - start, 1)) + data[stop:]
 
 
 def move(data: bytes, chance: random.Random) -> bytes:
-    """A piece elsewhere."""
+    """Move a piece to another place."""
     start, stop = _span(data, chance)
     rest = data[:start] + data[stop:]
     place = _place(rest, chance)
@@ -98,19 +98,19 @@ def move(data: bytes, chance: random.Random) -> bytes:
 
 
 def insert(data: bytes, chance: random.Random) -> bytes:
-    """Some bytes more."""
+    """Insert some bytes."""
     place = _place(data, chance)
     more = chance.choice((bytes(chance.randrange(1, 40)), b"\xff" * chance.randrange(1, 9), chance.randbytes(8)))
     return data[:place] + more + data[place:]
 
 
 def spliced(data: bytes, other: bytes, chance: random.Random) -> bytes:
-    """The beginning of one and the end of another."""
+    """Join the beginning of one file and the end of another."""
     return data[: _place(data, chance)] + other[_place(other, chance) :]
 
 
 def _place(data: bytes, chance: random.Random) -> int:
-    """Half of all damage goes to the head of a file, which decides most."""
+    """Choose a place, half of the time in the head of the file, which has the greatest effect."""
     most = len(data) if chance.random() < 0.5 else min(len(data), 600)
     return chance.randrange(most) if most else 0
 
@@ -127,17 +127,17 @@ BYTES: Final[Sequence[Mutator]] = (flip, flip, overwrite, overwrite, overwrite_f
 
 
 def number_in_text(data: bytes, chance: random.Random) -> bytes:
-    """Another number where a number is written."""
+    """Replace a number in a text."""
     return _replaced(_NUMBER, data, chance.choice(NUMBER_TEXTS).encode(), chance)
 
 
 def text_in_text(data: bytes, chance: random.Random) -> bytes:
-    """Another text where one stands in quotation marks."""
+    """Replace a quoted string in a text."""
     return _replaced(_QUOTED, data, json.dumps(chance.choice(TEXTS), ensure_ascii=False).encode(), chance)
 
 
 def kind_in_text(data: bytes, chance: random.Random) -> bytes:
-    """A value of another kind: a list, a table, a truth value, a date, something nested deeply."""
+    """Replace a value by one of another type: a list, a table, a Boolean, a date, deep nesting."""
     value = chance.choice(
         (b"[]", b"{}", b"true", b'""', b"1979-05-27T07:32:00Z", b"07:32:00", b"[[]]", b"0", b"[" * 3000 + b"]" * 3000)
     )
@@ -145,7 +145,7 @@ def kind_in_text(data: bytes, chance: random.Random) -> bytes:
 
 
 def lines(data: bytes, chance: random.Random) -> bytes:
-    """A line missing, twice, elsewhere, or a thousand times."""
+    """Remove, duplicate, move or multiply a line."""
     rows = data.splitlines(keepends=True)
     if not rows:
         return data
@@ -170,7 +170,7 @@ TEXT: Final[Sequence[Mutator]] = (number_in_text, number_in_text, text_in_text, 
 
 
 def json_value(data: bytes, chance: random.Random) -> bytes:
-    """One member of a JSON document another one, gone, renamed, repeated or nested."""
+    """Change, remove, rename, repeat or nest a member of a JSON document."""
     try:
         document = changed_value(json.loads(data), chance)
         return json.dumps(document, ensure_ascii=chance.random() < 0.5).encode("utf-8", "surrogatepass")
@@ -179,7 +179,7 @@ def json_value(data: bytes, chance: random.Random) -> bytes:
 
 
 def changed_value(document: Any, chance: random.Random) -> Any:
-    """The document with one to three places changed; the given one is changed too."""
+    """Change one to three places of the document in place and return it."""
     box = [document]
     for _ in range(chance.choice((1, 1, 1, 2))):
         # Every place is as likely as any other, so most are deep in the lists.
@@ -449,7 +449,7 @@ def _changed_property(value: Property, chance: random.Random) -> Property:
 
 
 def _of_type(dtype: np.dtype[Any], chance: random.Random) -> Any:
-    """A nasty number that an array of this type holds."""
+    """An extreme number that an array of this type can hold."""
     if dtype.kind == "f":
         return dtype.type(chance.choice((*FLOATS[:7], float("nan"), float("inf"))))
     if dtype.kind == "b":

@@ -1,4 +1,4 @@
-"""Readers of files of our own beside the project: an evaluation's, a folder's export, cuts by hand."""
+"""Readers of the program's own file formats other than projects: evaluations, export notes of a folder, cuts."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def _results(content: bytes, folder: Path) -> None:
 
 
 def exported(path: Path, folder: Path) -> None:
-    """Notes of what was exported already: damaged ones are set aside."""
+    """Read notes about earlier exports; damaged ones are set aside."""
     from app.cli.batch import NOTES, _read_notes
 
     (folder / NOTES).write_bytes(path.read_bytes())

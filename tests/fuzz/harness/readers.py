@@ -23,11 +23,11 @@ from tests.fuzz.harness.own_readers import answers, cuts, evaluation_key, export
 
 
 class Broken(AssertionError):
-    """A file was accepted, and its result does not do its work."""
+    """An accepted file whose result is unusable."""
 
 
 class Refused(Exception):
-    """A refusal that is no `AppError`, for example that of the plug-in for Unreal."""
+    """A refusal other than `AppError`, for example by the plug-in for Unreal."""
 
 
 @contextmanager
@@ -40,7 +40,7 @@ def accepted(step: str) -> Iterator[None]:
 
 
 def require(holds: bool, what: str) -> None:
-    """Raise `Broken` unless it holds."""
+    """Raise `Broken` if a condition does not hold."""
     if not holds:
         raise Broken(what)
 
@@ -177,7 +177,7 @@ def _saved(project: Any, folder: Path) -> None:
 
 
 def autosave(path: Path, folder: Path) -> None:
-    """Unsaved work of dead editors is looked for and described, whatever it holds."""
+    """Search and describe unsaved work of ended editors, whatever its content."""
     from app.project import storage
     from app.project.recovery import recoverable, recoverable_of
 
@@ -192,7 +192,7 @@ def autosave(path: Path, folder: Path) -> None:
 
 
 def presence(path: Path, folder: Path) -> None:
-    """Traces of dead editors are looked through, whatever is in them."""
+    """Search traces of ended editors, whatever their content."""
     from app.project.recovery import recoverable
     from app.project.running_editors import LOCK, NOTE
 
@@ -240,7 +240,7 @@ def clip(path: Path, folder: Path) -> None:
 
 
 def instrument_map(path: Path, folder: Path) -> None:
-    """A map in a user's folder is taken or set aside, and the others stay."""
+    """Read a map in a user's folder or set it aside; other maps are unaffected."""
     from instrument_maps.library import LIBRARY
     from instrument_maps.load import bundled_maps, check_map
 
@@ -328,7 +328,7 @@ def settings(path: Path, folder: Path) -> None:
 
 
 def gltf(path: Path, folder: Path) -> None:
-    """A character's file; what it holds becomes a character or is refused."""
+    """Read a character's file and convert it to a character, or refuse it."""
     from app.rig.characters.load_character import load_character
 
     load_character(path)
@@ -364,7 +364,7 @@ def bvh(path: Path, folder: Path) -> None:
 
 
 def motion(path: Path, folder: Path) -> None:
-    """BVH clips of a body, up to what is learned from."""
+    """Read BVH clips of a body, up to learning from them."""
     import numpy as np
 
     from app.choreography.cuts import segment
@@ -497,7 +497,7 @@ class Kind:
 
     @property
     def name(self) -> str:
-        """Also that of the folder of found files."""
+        """Name of the kind and of the folder of its found files."""
         return self.read.__name__
 
 

@@ -1,4 +1,4 @@
-"""Unreal runs this when the editor starts: it adds the menu."""
+"""Startup script that Unreal runs when the editor starts: it adds the menu."""
 
 from suisou_import import menu
 

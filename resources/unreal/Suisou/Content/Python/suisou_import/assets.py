@@ -26,23 +26,23 @@ BONES_TAG = "SuisouBones"
 
 
 def existing(path: str) -> unreal.Object | None:
-    """The asset of a path; None where there is none."""
+    """Asset at a path; None if there is none."""
     return unreal.EditorAssetLibrary.load_asset(path) if unreal.EditorAssetLibrary.does_asset_exist(path) else None
 
 
 def is_ours(asset: unreal.Object, piece: str) -> bool:
-    """Return whether an asset was made here for a piece."""
+    """Return whether this plug-in made an asset for a piece."""
     return unreal.EditorAssetLibrary.get_metadata_tag(asset, PIECE_TAG) == piece
 
 
 def is_replaceable(path: str, asset: unreal.Object, piece: str) -> bool:
-    """Return whether an asset was made here for a piece, or for any where all share it."""
+    """Return whether this plug-in made an asset for a piece, or for any piece if the asset is shared."""
     made_for = unreal.EditorAssetLibrary.get_metadata_tag(asset, PIECE_TAG)
     return made_for == piece or (path.startswith(SHARED) and bool(made_for))
 
 
 def tag(asset: unreal.Object, performance: Performance) -> None:
-    """Mark an asset as ours."""
+    """Mark an asset as made by this plug-in."""
     unreal.EditorAssetLibrary.set_metadata_tag(asset, PIECE_TAG, performance.piece)
     if isinstance(asset, (unreal.AnimSequence, unreal.LevelSequence)):
         unreal.EditorAssetLibrary.set_metadata_tag(asset, FIRST_FRAME_TAG, str(performance.first_frame))
@@ -113,7 +113,7 @@ def import_image(performance: Performance, file: str, asset: str) -> unreal.Text
 
 
 def remove_leftovers(performance: Performance, shown: set[str]) -> list[str]:
-    """Remove what is ours and belongs to no one any more; what is reported of it.
+    """Remove assets made by this plug-in that are no longer used; return the reports about them.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ def remove_leftovers(performance: Performance, shown: set[str]) -> list[str]:
 
 
 def _remove_shared(performance: Performance, requested: set[str]) -> list[str]:
-    """Remove textures that no piece asks for and nothing uses; what is reported of it."""
+    """Remove textures that no piece needs and no asset uses; return the reports about them."""
     try:
         others = [read(folder) for folder in found(performance.folder.parent) if folder != performance.folder]
     except Problem:
@@ -195,7 +195,7 @@ def _made(performance: Performance, path: str, file: str, kind: type[_Asset]) ->
 
 
 def _listed(folder: str) -> set[str]:
-    """Paths of the assets in a folder and those below."""
+    """Paths of the assets in a folder and its subfolders."""
     if not unreal.EditorAssetLibrary.does_directory_exist(folder):
         return set()
     return {str(path).split(".")[0] for path in unreal.EditorAssetLibrary.list_assets(folder)}

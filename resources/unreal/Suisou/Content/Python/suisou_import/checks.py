@@ -1,4 +1,4 @@
-"""Everything that the import needs, asked before anything is changed."""
+"""Requirements of the import, checked before anything is changed."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ FUNCTIONS = {
 
 
 def check_engine() -> None:
-    """Raise `Problem` where the editor lacks something."""
+    """Raise `Problem` if the editor lacks a requirement."""
     for plugin, names in PLUGINS.items():
         if not all(hasattr(unreal, name) for name in names):
             raise problem("plugin_off", name=plugin)
@@ -51,7 +51,7 @@ def check_engine() -> None:
 
 
 def check_performance(performance: Performance) -> None:
-    """Raise `Problem` where files are not what was exported, or an asset of someone else's would be replaced."""
+    """Raise `Problem` if files differ from the exported ones, or if an asset of another origin would be replaced."""
     check_files(performance)
     for path in performance.assets:
         asset = assets.existing(path)

@@ -18,7 +18,7 @@ INTERCHANGE = "Interchange.FeatureFlags.Import.FBX"
 
 @contextmanager
 def older_importer() -> Iterator[None]:
-    """Take FBX files from Interchange for a while; an engine that does not know the variable has it off."""
+    """Disable Interchange for FBX files temporarily; engines without the variable do not use it."""
     if not unreal.SystemLibrary.get_console_variable_bool_value(INTERCHANGE):
         yield
         return
@@ -46,7 +46,7 @@ def animation_options(skeleton: unreal.Skeleton, rate: tuple[int, int]) -> unrea
 
 
 def sample_rate(rate: tuple[int, int]) -> int:
-    """The rate as the importer takes it, or 0 (the best for the file's keys) where it is no whole number."""
+    """Rate for the importer; 0 (the best for the file's keys) if it is no integer."""
     numerator, denominator = rate
     return 0 if numerator % denominator else numerator // denominator
 
@@ -62,7 +62,7 @@ def _options(kind: unreal.FBXImportType, skeleton: unreal.Skeleton | None, rate:
 
 
 def _set(target: unreal.Object, values: Mapping[str, Any]) -> None:
-    """Set properties; those that an engine does not have, or of another type, are written to its log."""
+    """Set properties; unknown ones are written to the log."""
     for name, value in values.items():
         try:
             target.get_editor_property(name)

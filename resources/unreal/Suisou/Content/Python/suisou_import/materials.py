@@ -62,7 +62,7 @@ def import_texture(performance: Performance, texture: Texture) -> None:
 
 
 def make_material(performance: Performance, surface: Surface) -> None:
-    """Make a material; one that is there stays as it is."""
+    """Make a material; an existing one is unchanged."""
     there = assets.existing(surface.asset)
     if there is not None and unreal.EditorAssetLibrary.get_metadata_tag(there, MATERIAL_TAG) == GRAPH:
         return
@@ -108,7 +108,7 @@ def assign(performance: Performance, figure: Figure) -> None:
 
 
 def in_use(paths: set[str]) -> set[str]:
-    """Paths of the materials of those of some assets that are meshes, and of the textures of these."""
+    """Paths of the materials used by the meshes among some assets, and of the materials' textures."""
     found: set[str] = set()
     for path in paths:
         mesh = assets.existing(path)
@@ -121,12 +121,12 @@ def in_use(paths: set[str]) -> set[str]:
 
 
 def _replaceable(performance: Performance, material: unreal.MaterialInterface) -> bool:
-    """Return whether a material is ours, or the engine's, which is shown where there is none."""
+    """Return whether a material was made by this plug-in, or is the engine's default."""
     return material.get_path_name().startswith("/Engine/") or assets.is_ours(material, performance.piece)
 
 
 def _plain(name: str) -> str:
-    """Return a name by which a slot is found: the importer changes some characters, and case does not count."""
+    """Normalised name of a slot: the importer changes some characters, and case is ignored."""
     return re.sub(r"[^a-z0-9]+", "_", name.lower())
 
 
@@ -140,7 +140,7 @@ def _settings(material: unreal.Material, surface: Surface) -> None:
 
 
 class _Graph:
-    """The graph of a material while it is made: nodes stand in a column for each step."""
+    """Graph of a material under construction, with a column of nodes for each step."""
 
     def __init__(self, material: unreal.Material) -> None:
         self._material = material
@@ -237,7 +237,7 @@ class _Graph:
     def _faded(
         self, image: unreal.MaterialExpression, strength: unreal.MaterialExpression
     ) -> unreal.MaterialExpression:
-        """Red of an image, nearer to 1 the less strong it is."""
+        """Red of an image, nearer to 1 for lower strength."""
         node = self._node(unreal.MaterialExpressionLinearInterpolate, 1)
         node.set_editor_property("const_a", 1.0)
         self._link(image, "R", node, "B")

@@ -19,7 +19,7 @@ _SECTION = "Suisou"
 
 
 def register() -> None:
-    """Add the menu to the editor's; nothing where there is no editor to see, as when a project is packaged."""
+    """Add the menu to the editor's menu bar, unless there is no window, as when packaging a project."""
     main = unreal.ToolMenus.get().find_menu(_MENU)
     if main is None:
         return
@@ -31,12 +31,12 @@ def register() -> None:
 
 
 def import_performance() -> None:
-    """Import what was exported and is not in the project yet."""
+    """Import exported performances that the project lacks."""
     _guarded(_import_new)
 
 
 def update_performance() -> None:
-    """Bring what was imported up to date with what is exported now."""
+    """Update imported performances to the present export."""
     _guarded(_update)
 
 
@@ -56,7 +56,7 @@ def _update() -> None:
 
 
 def _everything() -> list[Performance]:
-    """Every performance that can be read; the others are named."""
+    """All readable performances; the others are reported."""
     checks.check_engine()
     project = unreal.Paths.convert_relative_path_to_full(unreal.Paths.project_dir())
     folder = Path(project) / SOURCES
@@ -88,7 +88,7 @@ def _bring_in_one(performance: Performance, done: str) -> None:
 
 
 def _chosen(performances: list[Performance], question: str) -> list[Performance]:
-    """Those that the user wants: the only one there is, or what is answered."""
+    """Performances that the user chooses; the only one without a question."""
     if len(performances) == 1:
         return performances
     chosen: list[Performance] = []
@@ -108,7 +108,7 @@ def _chosen(performances: list[Performance], question: str) -> list[Performance]
 
 
 def _guarded(action: Callable[[], None]) -> bool:
-    """Do something; whatever is wrong becomes a dialog. False where the user pressed Cancel."""
+    """Call a function and show problems in a dialog; return False if the user pressed Cancel."""
     try:
         action()
     except Problem as error:

@@ -96,13 +96,13 @@ class Surface(NamedTuple):
 
     @property
     def textures(self) -> list[str]:
-        """Paths of its textures, each once."""
+        """Paths of its textures without duplicates."""
         maps = (self.color, self.normal, self.surface, self.occlusion)
         return list(dict.fromkeys(one.texture for one in maps if one is not None))
 
 
 class Sound(NamedTuple):
-    """The sound, and the time at which it begins."""
+    """The sound file, and the time at which it begins."""
 
     file: str
     asset: str
@@ -111,8 +111,9 @@ class Sound(NamedTuple):
 
 
 class LeftOut(NamedTuple):
-    """A player or dancer who could not be exported, and why. ``assets`` are paths of what an earlier export may have
-    brought."""
+    """A player or dancer who could not be exported, with the reason. ``assets`` are paths that an earlier export may
+    have imported.
+    """
 
     name: str
     reason: str
@@ -148,14 +149,14 @@ class Performance(NamedTuple):
 
     @property
     def assets(self) -> list[str]:
-        """Paths of all its assets, each once: figures of the same body share its mesh and skeleton."""
+        """Paths of all its assets without duplicates: figures of the same body share its mesh and skeleton."""
         own = [path for figure in self.figures for path in (figure.mesh, figure.skeleton, figure.animation)]
         shown = [*(one.asset for one in self.textures), *(one.asset for one in self.surfaces)]
         return list(dict.fromkeys([*own, self.sound.asset, self.sequence, *shown]))
 
     @property
     def bodies(self) -> list[Figure]:
-        """The first figure of each mesh, from whose file it is made."""
+        """First figure of each mesh, whose file is imported."""
         return list({figure.mesh: figure for figure in reversed(self.figures)}.values())[::-1]
 
     def path(self, file: str) -> Path:
@@ -189,7 +190,7 @@ def _has_description(folder: Path) -> bool:
 
 
 def read(folder: Path) -> Performance:
-    """The performance of a folder. Raises `Problem` where its description cannot be understood."""
+    """Read the performance of a folder. Raises `Problem` if its description is invalid."""
     file = folder / DESCRIPTION
     try:
         with file.open("rb") as stream:
@@ -206,7 +207,7 @@ def read(folder: Path) -> Performance:
 
 
 def check_files(performance: Performance) -> None:
-    """Raise `Problem` where a file is not what Suisou exported."""
+    """Raise `Problem` if a file differs from the exported one."""
     for name in performance.files:
         check_file(performance, name)
 

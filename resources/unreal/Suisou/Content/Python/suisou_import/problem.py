@@ -8,7 +8,7 @@ from suisou_import.texts import TEXTS
 
 
 class Problem(Exception):
-    """Something that the user can put right: shown as a dialog."""
+    """An error that the user can solve, shown in a dialog."""
 
 
 class Cancelled(Exception):
@@ -23,5 +23,5 @@ def text(name: str, /, **arguments: object) -> str:
 
 
 def problem(name: str, /, **arguments: object) -> Problem:
-    """A problem, worded."""
+    """Make a problem with its text."""
     return Problem(text(name, **arguments))

@@ -1,4 +1,4 @@
-"""A performance into the project, step by step, with what the user sees meanwhile and afterwards."""
+"""Import of a performance into the project step by step, with progress and results for the user."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def _assets(performance: Performance, step: Callable[..., None], reported: list[
 
 
 def show(performance: Performance) -> None:
-    """Open the sequence; where it is open already, show it as it is now."""
+    """Open the sequence, or refresh it if it is open."""
     asset = assets.existing(performance.sequence)
     if isinstance(asset, unreal.LevelSequence):
         unreal.LevelSequenceEditorBlueprintLibrary.open_level_sequence(asset)

@@ -75,7 +75,7 @@ def build(performance: Performance, anew: set[str]) -> list[str]:
 
 
 def shown_with(performance: Performance) -> set[str]:
-    """Paths of the meshes and skeletons that excluded performers are shown with."""
+    """Paths of the meshes and skeletons of excluded performers."""
     known = _state(_sequence(performance))["figures"]
     staying = [known[animation] for animation in performance.staying if animation in known]
     return {str(one[what]) for one in staying for what in ("mesh", "skeleton")}
@@ -159,7 +159,7 @@ def _new_binding(sequence: unreal.LevelSequence, figure: Figure) -> unreal.Movie
 
 
 def _show(binding: unreal.MovieSceneBindingProxy, mesh: str) -> bool:
-    """Have an actor show another mesh; whether that can be done."""
+    """Let an actor show another mesh; return whether that is possible."""
     template, asset = binding.get_object_template(), assets.existing(mesh)
     if not isinstance(template, unreal.Actor) or not isinstance(asset, unreal.SkeletalMesh):
         return False
@@ -177,7 +177,7 @@ def _hang(
     socket: str,
     before: str,
 ) -> None:
-    """Have an actor hang on a bone of another, or on none; ``before`` is the bone that it was hung on."""
+    """Attach an actor to a bone of another one, or detach it; ``before`` is its previous bone."""
     tracks = binding.find_tracks_by_exact_type(unreal.MovieScene3DAttachTrack)
     ours = [track for track in tracks if before and before in map(_socket, track.get_sections())]
     if holder is None:
@@ -198,7 +198,7 @@ def _socket(section: unreal.MovieSceneSection) -> str:
 
 
 def _put(binding: unreal.MovieSceneBindingProxy, figure: Figure, before: Place | None) -> list[str]:
-    """Put an actor at its place; where the artist has moved it, it stays. What is reported to the user."""
+    """Place an actor, unless the artist has moved it; return reports for the user."""
     tracks = binding.find_tracks_by_exact_type(unreal.MovieScene3DTransformTrack)
     track = tracks[0] if tracks else binding.add_track(unreal.MovieScene3DTransformTrack)
     sections = track.get_sections()
@@ -222,7 +222,7 @@ def _put(binding: unreal.MovieSceneBindingProxy, figure: Figure, before: Place |
 
 
 def _moved(channels: dict[str, unreal.MovieSceneScriptingDoubleChannel], left: dict[str, float]) -> bool:
-    """Return whether someone has moved an actor since it was put somewhere."""
+    """Return whether an actor was moved after it was placed."""
     return any(
         channels[name].get_num_keys() > 0 or abs(channels[name].get_default() - value) > _NEAR
         for name, value in left.items()
@@ -245,7 +245,7 @@ def _channel_values(place: Place) -> dict[str, float]:
 
 
 def _play(binding: unreal.MovieSceneBindingProxy, figure: Figure, performance: Performance) -> None:
-    """Have an actor play its animation from frame 0 to the end."""
+    """Let an actor play its animation from frame 0 to the end."""
     animation = assets.existing(figure.animation)
     if not isinstance(animation, unreal.AnimSequence):
         raise problem("not_imported", asset=figure.animation, file=figure.file)
@@ -303,7 +303,7 @@ def _sound_section(sequence: unreal.LevelSequence, path: str) -> unreal.MovieSce
 
 
 def _mark(sequence: unreal.LevelSequence, performance: Performance, before: set[str]) -> list[str]:
-    """Mark the bars and the rehearsal markers; the labels that are ours now."""
+    """Mark the bars and rehearsal markers; return the labels made by this plug-in."""
     in_frames = hasattr(sequence, "add_marked_frame_to_sequence")
     there = list(sequence.get_marked_frames_from_sequence() if in_frames else sequence.get_marked_frames())
     for index in reversed(range(len(there))):
@@ -358,5 +358,5 @@ def _remember(sequence: unreal.LevelSequence, state: dict[str, Any]) -> None:
 
 
 def _path_of(asset: unreal.Object) -> str:
-    """The path of an asset, without the name of the object in it."""
+    """Path of an asset without the name of the object in it."""
     return str(asset.get_path_name()).split(".")[0]
