@@ -30,7 +30,7 @@ from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.characters.bone_placements import local_placements, world_placements
 from app.rig.figure import Figure
-from app.rig.mesh import Mesh
+from app.rig.mesh import Mesh, materials_once
 from app.rig.model import Character
 
 
@@ -189,14 +189,15 @@ def skinned_mesh(
     """Return a mesh bound to bones; UVs are converted from v down (glTF) to v up (FBX)."""
     uvs = mesh.uvs.astype(np.float64)
     uvs[:, 1] = 1.0 - uvs[:, 1]
+    materials, face_materials = materials_once(mesh)
     return SkinnedMesh(
         name=name,
         vertices_cm=mesh.positions_m.astype(np.float64) * CENTIMETRES,
         faces=mesh.triangles,
         normals=mesh.normals,
         uvs=uvs,
-        materials=mesh.materials,
-        face_materials=mesh.triangle_materials,
+        materials=materials,
+        face_materials=face_materials,
         joint_indices=joints,
         weights=weights,
         world_from_bone_bind=world_from_bone_bind,

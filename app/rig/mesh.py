@@ -53,6 +53,18 @@ class Mesh:
     morphs: tuple[Morph, ...] = ()
 
 
+def materials_once(mesh: Mesh) -> tuple[tuple[Material, ...], npt.NDArray[np.int32]]:
+    """Return a mesh's materials with equal ones only once, and the index (T,) into them of each triangle.
+
+    A file may give several parts of a mesh materials that are the same in everything.
+    """
+    kept = tuple(dict.fromkeys(mesh.materials))
+    if len(kept) == len(mesh.materials):
+        return mesh.materials, mesh.triangle_materials
+    table = np.array([kept.index(material) for material in mesh.materials], np.int32)
+    return kept, table[mesh.triangle_materials]
+
+
 def plain_materials(mesh: Mesh) -> tuple[Material, ...]:
     """Return a mesh's materials with each texture replaced by its mean colour."""
     made = []

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from app.arrays import FloatArray
+from app.export.character import skinned_mesh
 from app.export.few_materials import with_few_materials
 from app.formats.images import decoded
 from app.formats.scene import Material
@@ -68,3 +71,14 @@ def test_materials_with_more_than_a_colour_stay_themselves() -> None:
         material for material in materials_of(before) if material.name == "skin"
     ]
     assert with_few_materials(before) is after, "made once"
+
+
+def test_equal_materials_of_a_file_are_written_once() -> None:
+    given = character_named("man_adult").meshes[0]
+    count = len(given.materials)
+    doubled = given.triangle_materials + count * (np.arange(len(given.triangles), dtype=np.int32) % 2)
+    twice = replace(given, materials=given.materials * 2, triangle_materials=doubled)
+    binds = np.tile(np.eye(4), (int(given.joints.max()) + 1, 1, 1))
+    made = skinned_mesh(twice, "skin", twice.joints, twice.weights, binds)
+    assert made.materials == given.materials
+    np.testing.assert_array_equal(made.face_materials, given.triangle_materials)
