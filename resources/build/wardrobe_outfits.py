@@ -209,7 +209,7 @@ def _closed(wearer: Wearer, hem_m: float, below: Surface) -> Cloth:
     own = tunic(wearer, hem_m)
     behind = (np.abs(own.points[:, 0]) < 0.035) & (own.points[:, 1] < wearer.tailoring.belt_m - 0.03)
     own = relaxed(own, behind * (own.points[:, 1] > hem_m + 0.004) * 1.0, 30)
-    return over(wearer, own, cloth_of(wearer, below), wearer.tailoring.belt_m + 0.05, 0.008)
+    return over(wearer, own, cloth_of(wearer, below), wearer.tailoring.belt_m + 0.05, 0.014)
 
 
 def _gakuran(wearer: Wearer) -> Pieces:
