@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from character_cloth import Cloth, cut, relaxed
+from character_cloth import Cloth, cut, relaxed, smoothstep
 from character_garments import collar, front_of
 from character_surface import Surface, modelled
 from wardrobe_marching import belt, cuffs, epaulettes, shako, stripes
@@ -209,7 +209,11 @@ def _closed(wearer: Wearer, hem_m: float, below: Surface) -> Cloth:
     own = tunic(wearer, hem_m)
     behind = (np.abs(own.points[:, 0]) < 0.035) & (own.points[:, 1] < wearer.tailoring.belt_m - 0.03)
     own = relaxed(own, behind * (own.points[:, 1] > hem_m + 0.004) * 1.0, 30)
-    return over(wearer, own, cloth_of(wearer, below), wearer.tailoring.belt_m + 0.05, 0.014)
+    hung = over(wearer, own, cloth_of(wearer, below), wearer.tailoring.belt_m + 0.05, 0.014)
+    # Folds of the base mesh between the legs are pulled out flat.
+    low = 1.0 - smoothstep(hung.points[:, 1], wearer.tailoring.crotch_m + 0.13, wearer.tailoring.crotch_m + 0.20)
+    middle = 1.0 - smoothstep(np.abs(hung.points[:, 0]), 0.07, 0.12)
+    return relaxed(hung, low * middle * (hung.points[:, 1] > hem_m + 0.004), 40)
 
 
 def _gakuran(wearer: Wearer) -> Pieces:
