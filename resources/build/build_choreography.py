@@ -24,7 +24,7 @@ from app.messages import text
 TARGET: Final = Path(__file__).parents[1] / "choreographies/salsa.choreography"
 CREDITS: Final = TARGET.with_name("credits.txt")
 FPS: Final = Fraction(60)
-"""The files say 120; the takes were captured at 60."""
+"""Frame rate in frames per second of the captures; the files wrongly state 120."""
 PAIRS: Final = {
     "cmu_salsa_01.bvh": "gmd_drummer5_session1_14_latin-brazilian-songo_112_beat_4-4.mid",
     "cmu_salsa_03.bvh": "gmd_drummer5_session2_24_latin-brazilian-songo_120_beat_4-4.mid",

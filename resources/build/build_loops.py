@@ -35,9 +35,9 @@ WINDOW_PX: Final = (960, 760)
 TIMELINE_PX: Final = 330
 START_S: Final = 23.2
 BEFORE_S, AFTER_S = 1.6, 3.4
-"""Time that is visible in the timeline before and after the playhead."""
+"""Seconds visible in the timeline before and after the playhead."""
 EDITOR_BOX: Final = (0, 66, 960, 706)
-"""The part of the window that is kept: viewport and timeline."""
+"""Part of the window that is kept, in pixels: viewport and timeline."""
 EDITOR_SIZE: Final = (800, 533)
 
 BAND: Final = ROOT / "tests" / "data" / "midi" / "ensemble" / "concert_band_hall_tenth_regiment_march.mid"

@@ -30,18 +30,18 @@ KIT_RATE_HZ = 32000.0
 KIT_LONGEST_S, KIT_FADE_S = 1.6, 0.8
 LONGEST_S = 1.25
 ATTACK_SHARE, MOST_CUT_S = 0.25, 0.08
-"""A tone begins where it has this share of its loudness; more than this is never cut."""
+"""Share of its loudness at which a tone begins, and greatest number of seconds that is cut before it."""
 ALIASES = {62: 61, 63: 61}
 """Synthetic brass is played by the brass section."""
 
 KIT_BANK = 128
 PAN, INSTRUMENT, SAMPLE_ID, KEY_RANGE, SAMPLE_MODES = 17, 41, 53, 43, 54
 OFFSETS = {0, 1, 2, 3, 4, 12, 45, 50}
-"""Generators that move a sample's ends and loop: folded into the samples themselves."""
+"""Generators that shift a sample's ends and loop, which are applied to the samples themselves."""
 RIGHT = 2
 """Type of a sample that is the right half of a pair."""
 SILENCE = 46
-"""Zeros after every sample, as the specification asks."""
+"""Number of zeros after every sample that the specification requires."""
 
 Generators = list[tuple[int, int]]
 Audio = npt.NDArray[np.float64]

@@ -18,9 +18,9 @@ from character_skeleton import FINGERS
 from character_source import Phenotype, Source, load_source
 
 HIPS_OF_STATURE = 0.098
-"""Hip joints stand apart by this share of stature (17.2 cm of 1.75 m: Bell 1990, Harrington 2007)."""
+"""Distance between the hip joints relative to stature (17.2 cm of 1.75 m: Bell 1990, Harrington 2007)."""
 SHOULDERS_OF_STATURE = np.array([0.0038, 0.007, 0.0])
-"""Shoulder joints go outwards and up by this share of stature: the rig's lie 6 to 7 cm below the skin over them."""
+"""Displacement of the shoulder joints outwards and up relative to stature: the rig's are 6 to 7 cm below the skin."""
 HAND_M = 0.1872
 """Length of the hand that `BONES_M` belong to: men and women of ANSUR II together."""
 BONES_M = {
@@ -32,11 +32,13 @@ BONES_M = {
 }
 """Bones of thumb (from its metacarpal) and fingers, by number, and the flesh before their ends."""
 IN_HEAD_M = {"thumb": (0.004, 0.004, 0.001), "finger": (0.007, 0.004, 0.002)}
-"""Centres of joints lie in the head of the bone before them, so far from its end."""
+"""Distance in metres of a joint's centre from the end of the bone before it, within whose head it lies."""
 BLEND_M = (0.0075, 0.0065, 0.0055)
-"""The skin of a finger bends over so much on either side of its three joints, for a hand of `HAND_M`."""
+"""Distance in metres over which a finger's skin bends on either side of its three joints, for a hand of `HAND_M`."""
 TO_METACARPAL = {2: 0.35, 3: 0.4, 4: 0.5, 5: 0.85}
-"""Part of the way from a line along the hand to the rig's metacarpal, by finger: it parts knuckles as people's are."""
+"""Share of the distance from a line along the hand to the rig's metacarpal, by finger, which gives human knuckle
+distances.
+"""
 HAND_BONES = ("wrist", "metacarpal1", "metacarpal2", "metacarpal3", "metacarpal4")
 
 

@@ -18,11 +18,11 @@ from pygltflib import FLOAT, GLTF2, UNSIGNED_SHORT, VEC3, Accessor, BufferView, 
 CHEST, BELLY = "chestExpand", "bellyExpand"
 TRUNK = ("hips", "spine", "chest", "upperChest", "neck", "leftUpperLeg", "rightUpperLeg")
 LEAST_M, SEEN_M = 2e-6, 1e-4
-"""Smaller offsets are not stored, and a mesh that moves by less has no such shape."""
+"""Offset in metres below which none is stored, and motion below which a mesh gets no such shape."""
 GROWS_M = {CHEST: 0.0062, BELLY: 0.0056}
-"""Measure of how far the sides go out at the middle of each."""
+"""Outward motion in metres of the sides at the middle of each."""
 AHEAD, BACK = {CHEST: 1.25, BELLY: 1.7}, {CHEST: 0.75, BELLY: 0.35}
-"""Measure of how far front and back go, as shares of the sides."""
+"""Motion of front and back as shares of that of the sides."""
 
 
 def add_breath(path: Path, least_m: float = LEAST_M) -> None:

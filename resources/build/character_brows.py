@@ -21,9 +21,9 @@ DEEPER: Final = {
     "browOuterUpLeft": 1.6,
     "browOuterUpRight": 1.6,
 }
-"""Measure of how much further each goes: a raised brow about 10 mm, a lowered one about 11."""
+"""Factors of the shapes: a raised brow moves by about 10 mm, a lowered one by about 11."""
 DEEP_M: Final = 0.008
-"""The inner brows of no source go so far up."""
+"""Upward motion in metres of the inner brows that only a file with scaled shapes reaches."""
 
 
 def deepen_brows(path: Path) -> None:

@@ -19,16 +19,16 @@ if TYPE_CHECKING:
 
 IRIS_PX, WET_PX = 256, 512
 IRIS_M, PUPIL_M = 0.0059, 0.0019
-"""Radii: irises are 11.7 mm wide, whoever's they are (Rüfer, Schröder, Erb 2005)."""
+"""Radii in metres; irises are 11.7 mm wide in all people (Rüfer, Schröder, Erb 2005)."""
 BULGE_M = 0.0011
 SEEN_RAD = float(np.radians(80.0))
 """Angle from the axis of gaze at which the picture of the white ends."""
 WHITE_SHARE, WHITE_MIDDLE = 0.36, 0.375
-"""Radius and middle (both axes) of the white in the picture of what is wet."""
+"""Radius and centre (both axes) of the white in the texture for wet surfaces, as shares of its size."""
 IRIS_SHARE = 0.42
 """Share of the white's radius that the iris takes."""
 IRIS_MEAN_LINEAR = 0.35
-"""Mean of the grey iris: a colour of eyes divided by it tints them."""
+"""Mean of the grey iris, by which a colour of eyes is divided to tint it."""
 SEGMENTS, BACK_RAD = 32, float(np.radians(140.0))
 AROUND = np.stack([f(2 * np.pi * np.arange(SEGMENTS) / SEGMENTS) for f in (np.cos, np.sin)], axis=1)
 VEIN_COUNT = 26

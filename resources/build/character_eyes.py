@@ -17,11 +17,11 @@ from character_surface import triangulate
 BALL_SHARE = 0.8
 """Radius of the new ball, as a share of the old one's."""
 LID_OVER_PUPIL_M = 0.0042
-"""Height of the upper lid's edge over the middle of the pupil: nearly 2 mm of the iris are covered."""
+"""Height in metres of the upper lid's edge above the centre of the pupil; nearly 2 mm of the iris are covered."""
 CLOSED_SHARE = 0.88
-"""Part of the source's way down that closes the eye, with a margin: all of it takes the lid over the lower one."""
+"""Share of the source's motion that closes the eye, with a margin; all of it moves the lid over the lower one."""
 NEAR_M = 0.04
-"""Vertices farther from an eye than this stay."""
+"""Distance in metres from an eye beyond which vertices are unchanged."""
 
 
 @dataclass(frozen=True)

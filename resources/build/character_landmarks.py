@@ -9,7 +9,7 @@ from character_surface import Surface
 FINGER_MATERIAL, NAIL_MATERIAL, LIP_MATERIAL = "skin", "nails", "lips"
 PAD_VERTICES = 6
 BARE_MIDDLE = (0.62, 0.5, 0.55)
-"""Middles of what is bare of the phalanges, as shares of their lengths: the web covers half of the first."""
+"""Centres of the visible parts of the phalanges as shares of their lengths; the web covers half of the first."""
 
 
 def _entry(surface: Surface, vertices: np.ndarray) -> dict[str, object]:

@@ -16,10 +16,10 @@ PATCHES: Mapping[str, tuple[float, tuple[float, float, float], float]] = {
     "gums": (1 / 3, (0.42, 0.13, 0.12), 0.10),
     "teeth": (2 / 3, (0.70, 0.64, 0.52), 0.02),
 }
-"""Lower edge, linear colour, and how blotchy it is."""
+"""Lower edge, linear colour and amount of blotches of each patch."""
 PATCHES_LEFT = 0.77
 MARGIN = 0.02
-"""Room around what is used of a patch: what is small by distance does not mix two."""
+"""Margin around the used part of a patch, so that reduced textures do not mix two patches."""
 
 
 def mouth_patches(size: int) -> np.ndarray:

@@ -40,9 +40,11 @@ ISLANDS = (
 
 
 PAINTED_PALER, PALER_UNDONE = (2, 3, 4, 5), 0.85
-"""Hands and feet in `ISLANDS` are brought near the face's colour, so nearly; the trunk meets the neck as painted."""
+"""Indices in `ISLANDS` of hands and feet, whose colour is moved towards the face's, and the share; the trunk meets the
+neck unchanged.
+"""
 KNEE_LINEAR = 0.80
-"""Brighter values near white slowly instead of being cut off."""
+"""Linear brightness above which values approach white gradually instead of being cut off."""
 
 
 @dataclass(frozen=True)

@@ -26,14 +26,15 @@ if TYPE_CHECKING:
 HAIR_PX = 1024
 STRAND_STEPS, STRAND_STEP_PX = 14, 1.5
 STRANDS_MEAN_LINEAR = 0.32
-"""Mean of the grey strands: a colour of hair divided by it tints them, up to fair hair."""
+"""Mean of the grey strands, by which a hair colour is divided to tint them, up to fair hair."""
 ALPHA_CUTOFF = 0.4
 LASH_GREY_LINEAR, LOWER_LASHES = 0.05, 0.6
 LOCK_HEIGHT, STRAND_SLOPE = 0.5, 0.16
 FLECK_PX = 150
 CAP_HALF_PX, HAIRLINE_PX, EDGE_PX = 40, 40, 10
-"""Half the width of what covers the scalp and is no lock, how far faint hairs are painted before its edge, and how far
-behind it shades are evened: painted edges are pale."""
+"""Distances in pixels: half the width of parts that cover the scalp, width of faint hairs before their edge, and width
+behind it in which shades are evened, since painted edges are pale.
+"""
 FRINGE_PX, FRINGE_STEEP, FRINGE_STEPS = 22, 4.0, 2
 """Width over which a painted edge of the scalp dissolves into fine hairs, the steepness of their ends, their length."""
 OVER_AN_EYE = frozenset({"bob02"})
@@ -44,9 +45,9 @@ combed aside, and of that which stays."""
 COMBED = ((0.0, 0.035, 0.085), (1.0, 0.8, 0.0))
 """Share of the way aside by height over the eyes, metres."""
 FAINT, EDGE_SHADE = 0.25, 0.85
-"""Alpha of hairs before the edge that are too faint to be seen but as scraps, and the shade of the others."""
+"""Alpha below which hairs before the edge are invisible except as fragments, and shade of the others."""
 GREYS, ALPHAS = 48, 8
-"""Steps of grey and of alpha that are kept: pictures half as large."""
+"""Number of steps of grey and alpha, which halve the size of the pictures."""
 
 
 def covered(uvs: np.ndarray, uv_faces: np.ndarray, size: int) -> np.ndarray:

@@ -36,9 +36,9 @@ QUARTERS_PER_MINUTE: Final = 184.0
 BAR: Final = 4.0
 BARS: Final = 24
 INTRODUCTION, TUNE, ANSWER, TOGETHER, ENDING = 0, 2, 10, 14, 22
-"""Bars with which the parts of the piece begin."""
+"""First bar of each part of the piece."""
 BEHIND: Final = 70
-"""The velocity of chords behind a tune."""
+"""Velocity of chords accompanying a tune."""
 
 KICK, RIM, SNARE, CLOSED_HAT, PEDAL_HAT, HIGH_TOM, LOW_TOM, CRASH, BELL = 36, 37, 38, 42, 44, 50, 45, 49, 53
 DRUM_NAMES: Final = {
@@ -56,7 +56,7 @@ DRUMS: Final = 9
 """The channel of percussion, counted from 0."""
 
 CLAVE: Final = ((1.0, 2.0), (0.0, 1.5, 3.0))
-"""In bars of even and of odd number."""
+"""Strokes of the clave in quarters, in bars of even and of odd number."""
 BELOW: Final = {0: 5, 2: 3, 3: 3, 5: 3, 7: 4, 8: 3, 10: 3, 11: 4}
 """By the pitch class of an upper voice, how many semitones lower the second one goes: thirds within C minor, a fourth
 below the tonic."""
@@ -105,7 +105,7 @@ SECOND_PHRASE: Phrase = (
     *((11.0, 0.5, 71), (11.5, 0.5, 67), (12.0, 1.0, 72)),
 )
 REPLY: Phrase = ((13.5, 0.5, 63), (14.0, 0.5, 67), (14.5, 1.0, 70))
-"""The second trumpet at the end of the first phrase."""
+"""Notes of the second trumpet at the end of the first phrase."""
 TROMBONE_ANSWER: Phrase = (
     *((0.0, 1.5, 60), (1.5, 0.5, 62), (2.0, 1.5, 63)),
     *((4.0, 1.5, 62), (5.5, 0.5, 58), (6.0, 1.5, 53)),
@@ -119,7 +119,7 @@ RIFF: Phrase = (
     *((12.5, 0.5, 79), (13.5, 0.5, 77), (14.0, 0.5, 74), (15.0, 0.5, 72)),
 )
 LAST_CHORDS: Final = ((0.0, 0.5), (1.5, 0.5), (3.0, 0.5), (5.0, 0.5), (6.0, 1.0))
-"""Onset and length, from the ending's first bar."""
+"""Onsets and lengths in quarters from the ending's first bar."""
 
 
 def placed(line: Phrase, bar: int, velocity: int, lower: int = 0) -> list[Sound]:

@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 DIVISIONS: Final = 4
-"""Parts of a quarter."""
+"""Divisions per quarter."""
 _VALUES: Final = {
     6.0: ("whole", 1),
     4.0: ("whole", 0),
@@ -26,7 +26,7 @@ _VALUES: Final = {
 }
 _FIFTHS: Final = "FCGDAEB"
 _LADDER: Final = ((16, "ppp"), (33, "pp"), (49, "p"), (64, "mp"), (80, "mf"), (96, "f"), (112, "ff"))
-"""Velocities that the program reads the dynamics as."""
+"""Velocities with the dynamics that the program recognises in them."""
 
 
 class Note(NamedTuple):

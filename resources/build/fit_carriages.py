@@ -32,9 +32,9 @@ Shares = tuple[float, float, float]
 
 USUAL: Shares = (0.0, 0.0, 0.0)
 STEPS = (0.0, 0.4, -0.4, 0.8, -0.8)
-"""Shares of a range that are tried; the rest of it is for the motion."""
+"""Tried positions as shares of a range; the remainder is left for motion."""
 OFF = 0.15
-"""Cost of carrying an instrument wholly at an end of a range, beside that of the arms."""
+"""Cost of a carriage at an end of its range, relative to the arms' cost."""
 ROUNDS = 2
 LINE = re.compile(r"^carriages = .*\n", re.MULTILINE)
 AFTER = re.compile(r"^not_cast_for = .*\n", re.MULTILINE)

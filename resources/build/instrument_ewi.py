@@ -25,7 +25,7 @@ from resources.build.instrument_reeds import loft
 
 X, Y, Z = np.eye(3)
 TIP_M = 0.013
-"""Measure of how far the mouthpiece's tip is between the lips."""
+"""Distance in metres of the mouthpiece's tip from the lips, inside the mouth."""
 LIPS_APART_M, HALF_WIDTH_M = 0.0086, 0.0083
 """Height of the mouthpiece and half its width where the lips close."""
 
@@ -47,14 +47,14 @@ TABS = (("key_G_sharp", "Lp1", "left.little", 0.2530, 1.0), ("key_B_low", "Lp2",
 
 ROLLERS, ROLLER_R, ROLLER_APART, ROLLERS_AT = 8, 0.0044, 0.0094, 0.2040
 ROLLER_HIGH = 0.0040
-"""Measure of how far a roller stands out of the back; between two of them lies a bar, lower by ``VALLEY_M``."""
+"""Height in metres of a roller above the back; the bar between two rollers is lower by ``VALLEY_M``."""
 VALLEY_M = 0.0011
 HOME_OCTAVE = 4
-"""Between which rollers the left thumb is at home: the fourth and the fifth, the octave from middle C."""
+"""Octave at which the left thumb is at home, between the fourth and fifth rollers: from middle C."""
 KNURLED = (3, 4)
-"""From the lower end of the instrument: what the thumb feels its way by."""
+"""Indices of the knurled rollers from the lower end, by which the thumb finds its place."""
 PLATE_AT = 0.3440
-"""Place of the plate of the right thumb."""
+"""Distance in metres along the body of the right thumb's plate."""
 
 
 def half_sizes(along: float) -> tuple[float, float]:

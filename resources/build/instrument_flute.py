@@ -61,7 +61,7 @@ class Sizes:
     """Height of the tone holes' rims."""
     keys: float = 1.0
     head: float = 0.172
-    """Place where the head joint goes into the body."""
+    """Distance in metres at which the head joint enters the body."""
     crown: float = 0.052
     plate: tuple[float, float, float] = (0.0210, 0.0165, 0.0125)
     """Half its length, and how far it reaches around the tube to the player and away."""
@@ -71,7 +71,7 @@ class Sizes:
     bearing: tuple[float, float] = (0.0014, 93.0)
     """Place where the tube lies on the left index finger: how far past its key, and at which angle."""
     g_sharp: float = 0.0212
-    """Measure of how far before the gap of its neighbours the touch of the G sharp key lies."""
+    """Distance in metres of the G sharp key's touch before the gap between its neighbours."""
     trill_touch: tuple[float, float] = (-24.0, 0.0085)
     """Angle and height of the touches of the trill keys."""
     foot: bool = True

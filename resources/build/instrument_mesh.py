@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 HARD_DEG = 35.0
 TOLERANCE_M = 0.0012
-"""Measure of how far collision bodies may be off what they stand for."""
+"""Greatest deviation in metres of collision bodies from the shapes they represent."""
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from resources.build.instrument_reeds import creased, loft
 
 X, Y, Z = np.eye(3)
 TIP_M = 0.010
-"""Measure of how far the beak's tip is between the lips."""
+"""Distance in metres of the beak's tip from the lips, inside the mouth."""
 
 
 @dataclass(frozen=True)
@@ -29,9 +29,9 @@ class Sizes:
 
     length: float
     head: float
-    """Place where the head joint ends."""
+    """Distance at which the head joint ends."""
     foot: float
-    """Place where the foot joint begins."""
+    """Distance at which the foot joint begins."""
     window: float
     holes: tuple[float, ...]
     """Holes of the seven fingers."""
@@ -39,9 +39,9 @@ class Sizes:
     thick: float
     """Radius of the body."""
     beak: float
-    """Measure of how far the beak's slope reaches."""
+    """Distance to which the beak's slope extends."""
     rest: float
-    """Place where the right thumb holds it."""
+    """Distance at which the right thumb holds the instrument."""
     hole: float
     tip: tuple[float, float] = (0.0098, 0.0046)
     """Half the beak's width at the tip, and its height there."""

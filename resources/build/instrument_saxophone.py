@@ -54,7 +54,7 @@ BRASS = "gold_lacquer"
 THIN_M = 0.0018
 POST_M = 0.0017
 FINGER_M = 0.020
-"""Measure of how far from the body's wall the middle of a finger goes around it."""
+"""Distance in metres between the body's wall and the centre of a finger around it."""
 
 ALTO_REED = SingleReed(
     tip_m=0.013, length=0.086, radius=0.0137, end_radius=0.0128, beak_length=0.036, tip_width=0.0150, table=0.0090,

@@ -28,7 +28,7 @@ SHOULDER, HIP = np.array([0.162, -0.006]), np.array([-0.284, -0.525])
 BACK, FRONT = -0.405, 0.088
 """... and behind the player and in front, from the lips ahead."""
 PITCH = 0.088
-"""Measure of how far one turn lies beside the next."""
+"""Distance in metres between adjacent turns."""
 FIRST_DEG, COLLAR_DEG = -240.0, 290.0
 RADII = ((-240, 0.0135), (-180, 0.020), (-90, 0.028), (0, 0.0345), (60, 0.0375), (180, 0.0445), (290, 0.0520))
 BELL = Bell(0.330, 0.0836, 0.90)

@@ -18,9 +18,9 @@ ATLAS_PX = 2048
 CLOTH_MEAN_LINEAR = 0.80
 PLAIN_ROUGHNESS = 0.86
 STEP_PX = 8.0
-"""Width of what counts as structure in a source's picture: broader differences are its dye."""
+"""Width in pixels up to which differences in a source's picture are structure; wider ones are its dye."""
 LINEN = 0.25
-"""Linear brightness that parts linen from dark cloth."""
+"""Linear brightness above which cloth is linen."""
 
 
 @dataclass(frozen=True)

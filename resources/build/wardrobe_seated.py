@@ -16,7 +16,7 @@ from wardrobe_pieces import Wearer
 SEAT_RAD = np.radians(85.0)
 LIES_M = 0.010
 MOST = 0.45
-"""The greatest share that is given away."""
+"""Greatest transferred share of weight."""
 PATCHES_M = ((0.05, 0.025), (0.12, 0.025))
 """Halves, across and along, of the patch of the body that a place of the skirt lies on; between legs a wider one."""
 

@@ -15,7 +15,7 @@ from wardrobe_seated import seated_weights
 
 PLEATS, PER_PLEAT = 24, 4
 FARTHEST_M = 0.030
-"""Most that a garment is let out to lie over another one."""
+"""Greatest distance in metres by which a garment is widened to cover another one."""
 
 
 @dataclass(frozen=True)

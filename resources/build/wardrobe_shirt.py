@@ -22,7 +22,7 @@ TUCK_M = 0.045
 BLOUSED_M = 0.10
 """Height above the belt over which the shirt is gathered into it."""
 COLLAR_M = 0.075
-"""Depth below the collar's seam that the collar of an asset reaches at most."""
+"""Greatest depth in metres below the collar's seam of an asset's own collar."""
 CLOSED_M, LIES_M = 0.010, 0.003
 """Distance of the edges of a closed front from the middle, and height of the cloth over the skin about the throat."""
 STRIP_M = 0.0025

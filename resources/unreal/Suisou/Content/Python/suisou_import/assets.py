@@ -19,9 +19,11 @@ _Asset = TypeVar("_Asset", bound=unreal.Object)
 
 PIECE_TAG = "SuisouPiece"
 MADE_FOR_TAG = "SuisouMadeFor"
-"""On what an importer makes beside a mesh, its materials: the path of the mesh."""
+"""Metadata of assets that an importer makes in addition to a mesh, its materials: path of the mesh."""
 FIRST_FRAME_TAG, FIRST_SECOND_TAG = "SuisouFirstFrame", "SuisouFirstSecond"
-"""On what moves: the number of its first frame in the whole piece, and that frame's seconds after the first beat."""
+"""Metadata of animated assets: number of the first frame in the whole piece, and that frame's time in seconds after the
+first beat.
+"""
 BONES_TAG = "SuisouBones"
 
 

@@ -13,7 +13,7 @@ PLUGINS = {
     "SequencerScripting": ("MovieSceneScriptingDoubleChannel",),
     "LevelSequenceEditor": ("LevelSequenceFactoryNew", "LevelSequenceEditorSubsystem"),
 }
-"""Names that each plug-in brings; without it they are not there."""
+"""Names provided by each plug-in, which are missing without it."""
 FUNCTIONS = {
     "LevelSequence": (
         "add_track",
@@ -30,7 +30,7 @@ FUNCTIONS = {
     "MaterialEditingLibrary": ("create_material_expression", "connect_material_property", "recompile_material"),
     "MaterialFactoryNew": (),
 }
-"""Names that an older engine may lack."""
+"""Names that older engines may lack."""
 
 
 def check_engine() -> None:

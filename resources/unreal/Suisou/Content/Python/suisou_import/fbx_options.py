@@ -13,7 +13,7 @@ from typing import Any
 import unreal
 
 INTERCHANGE = "Interchange.FeatureFlags.Import.FBX"
-"""The console variable that gives FBX files to Interchange."""
+"""Console variable that makes Interchange import FBX files."""
 
 
 @contextmanager

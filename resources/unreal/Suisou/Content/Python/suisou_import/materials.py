@@ -17,11 +17,11 @@ from suisou_import.performance import Figure, Map, Performance, Surface, Texture
 from suisou_import.problem import Problem, problem
 
 FILE_TAG = "SuisouFile"
-"""On a texture: the digest of the file that it was imported from."""
+"""Metadata of a texture: digest of the file from which it was imported."""
 MATERIAL_TAG = "SuisouMaterial"
-"""On a material: the graph that it has."""
+"""Metadata of a material: version of its graph."""
 TEXTURES_TAG = "SuisouTextures"
-"""On a material: the paths of its textures."""
+"""Metadata of a material: paths of its textures."""
 GRAPH = "1"
 
 _Expression = TypeVar("_Expression", bound=unreal.MaterialExpression)

@@ -17,7 +17,7 @@ from suisou_import.problem import problem, text
 
 STATE_TAG = "SuisouSequence"
 _NEAR = 1e-3
-"""Centimetres or degrees within which a place is the same."""
+"""Distance in centimetres or degrees within which a place counts as unchanged."""
 
 
 def build(performance: Performance, anew: set[str]) -> list[str]:
