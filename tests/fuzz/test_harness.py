@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import random
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from tests.fuzz.harness import mutators, seeds
+from tests.fuzz.harness import mutators, scores, seeds
 from tests.fuzz.harness.campaign import Child, Result, Tally, keep, minimised
 from tests.fuzz.harness.readers import KINDS
 
@@ -72,6 +73,12 @@ def test_a_seed_makes_the_same_mutants_again(name: str) -> None:
     )
     assert first == second
     assert len(set(first)) > 20
+
+
+def test_a_packed_score_does_not_depend_on_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    first = scores.packed("<score/>")
+    monkeypatch.setattr(time, "localtime", lambda *_: time.struct_time((2000, 1, 2, 3, 4, 5, 6, 2, 0)))
+    assert scores.packed("<score/>") == first
 
 
 def test_mutants_of_midi_are_read_on() -> None:

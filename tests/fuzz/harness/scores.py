@@ -26,13 +26,15 @@ _ENDING: Final = '<barline location="{}"><ending number="{}" type="{}"/>{}</barl
 
 
 def packed(text: str) -> bytes:
-    """A compressed file."""
+    """Compressed file without the present time, so that a seed always gives the same mutants."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        archive.writestr(
-            "META-INF/container.xml", '<container><rootfiles><rootfile full-path="a.xml"/></rootfiles></container>'
-        )
-        archive.writestr("a.xml", text)
+        files = {
+            "META-INF/container.xml": '<container><rootfiles><rootfile full-path="a.xml"/></rootfiles></container>',
+            "a.xml": text,
+        }
+        for name, content in files.items():
+            archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, 9)
     return stream.getvalue()
 
 
