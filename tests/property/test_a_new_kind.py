@@ -1,4 +1,4 @@
-"""A kind of gesture or breath added by one row and one function: everything that tells kinds apart knows it."""
+"""A kind of gesture or breath added by one row and one function is known to all code that distinguishes kinds."""
 
 from __future__ import annotations
 
@@ -139,7 +139,7 @@ def put_in(path: Path, before: str, text: str) -> None:
 
 @pytest.fixture(scope="module")
 def grown(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The program with a kind of gesture and one of breath more."""
+    """The program with an additional kind of gesture and an additional kind of breath."""
     root = tmp_path_factory.mktemp("grown")
     shutil.copytree(ROOT / "app", root / "app")
     for room in ("widgets", "instrument_maps", "metadata", "resources"):
@@ -163,7 +163,7 @@ def grown(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def seen(root: Path, script: str) -> dict[str, object]:
-    """Return the JSON that a script prints when it is run in a copy of the program."""
+    """JSON printed by a script in a copy of the program."""
     command = [sys.executable, "-c", script]
     done = subprocess.run(command, cwd=root, env={"PYTHONPATH": str(root)}, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

@@ -1,4 +1,4 @@
-"""Sound's speed, printed as ratios to a loop of plain Python in the same run; nothing is asserted."""
+"""Speed of the sound code, printed as ratios to a loop of plain Python in the same run; nothing is asserted."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def report(name: str, seconds: float) -> None:
 
 
 def crowd(count: int) -> Project:
-    """The quartet's players again and again, each part 25 times as long: 50 of them have some 160,000 notes."""
+    """The quartet's players repeatedly, each part 25 times as long: 50 players with about 160,000 notes."""
     project = quartet()
     score = project.score
     long = []

@@ -39,8 +39,7 @@ pytestmark = pytest.mark.bench
 
 @contextmanager
 def redrawing(requested: bool) -> Iterator[None]:
-    """A thread of ours that keeps Python's lock as a window that redraws without pause, and two processes that compute
-    beside it."""
+    """Run a thread that holds Python's lock like a continuously redrawing window, and two other busy processes."""
     done = threading.Event()
 
     def redraw() -> None:
@@ -83,7 +82,7 @@ sys.stdin.readline()
 
 
 class Calibration:
-    """Stamps, and nothing else."""
+    """Process that only takes time stamps."""
 
     def __init__(self, port: str) -> None:
         self._process = subprocess.Popen(
@@ -125,7 +124,7 @@ def begun(ear: Ear, player: WindPlayer, path: Path) -> None:
 
 
 def bursts(path: Path, seconds: float, rate_hz: float, *, busy: bool, is_realtime: bool) -> str:
-    """Record messages at a rate; what was lost and how late everything was, in words."""
+    """Record messages at a rate and describe losses and delays."""
     news = threading.Event()
     polled_ns: list[tuple[int, int]] = []
     done = threading.Event()

@@ -1,4 +1,4 @@
-"""Dances to drums that the model was not learned from, measured on their exported files (issue 14)."""
+"""Dances to drums with which the model was not learned, measured on the exported files."""
 
 from __future__ import annotations
 

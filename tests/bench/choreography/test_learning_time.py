@@ -1,4 +1,4 @@
-"""Speed of learning: ten minutes of motion in under 60 s, that is ten times faster than real time (issue 14)."""
+"""Speed of learning: ten minutes of motion in less than 60 s, ten times faster than real time."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ REAL_TIME_RATIO = 10.0
 
 @pytest.mark.bench
 def test_learning_is_far_faster_than_real_time() -> None:
-    """No two motions are alike, which is the most work for k-means; offsets are to be found too."""
+    """All motions differ, which is the most work for k-means, and offsets must be found too."""
     hits_s = np.cumsum(np.random.default_rng(1).choice([0.25, 0.5], 600))
     beats_s = np.arange(0.0, 240.0, 0.5)
     drums = Rhythm(beats_s, np.arange(480) % 4, hits_s, np.arange(600) % 47, np.ones(600), derived=False)

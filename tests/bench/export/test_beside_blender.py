@@ -1,4 +1,4 @@
-"""The whole export of a piece, contacts judged, beside what Blender takes to write as many frames of FBX alone."""
+"""Time of a complete export with judged contacts, compared with Blender's export of as many frames to FBX alone."""
 
 from __future__ import annotations
 

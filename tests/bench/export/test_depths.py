@@ -1,4 +1,4 @@
-"""Judging how deep hands are, beside the search by groups that it is held against, on the same frames."""
+"""Time of judging the depth of hands, compared with the reference by groups on the same frames."""
 
 from __future__ import annotations
 

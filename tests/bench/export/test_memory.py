@@ -1,4 +1,4 @@
-"""Ten minutes of players fit into 600 MB: one player's motion and files are held at a time."""
+"""Ten minutes of players fit into 600 MB, since one player's motion and files are in memory at a time."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ print(status, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.pla
 @pytest.mark.bench
 @pytest.mark.skipif(sys.platform == "win32", reason="no resource module")
 def test_ten_minutes_of_two_players(tmp_path: Path) -> None:
-    """Two are enough to see whether the first one is let go of before the second is made."""
+    """Two players suffice to show whether the first is freed before the second is computed."""
     running = []
     for number, players in enumerate((["trumpet 1"], ["trumpet 1", "trombone 1"])):
         named = [argument for player in players for argument in ("--player", player)]

@@ -50,7 +50,7 @@ EDITS: Final = ("timeline.fit", "notes.select_all", "notes.up", "edit.undo", "ed
 
 
 class StallMeter(QObject):
-    """The longest time that the event loop did not turn, also inside dialogs."""
+    """Longest turn of the event loop, also inside dialogs."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -67,12 +67,12 @@ class StallMeter(QObject):
         self._last_s = now_s
 
     def begin(self) -> None:
-        """Forget what was."""
+        """Reset the measurement."""
         self.cpu_s, self._last_s = 0.0, time.thread_time()
 
 
 class ImportAnswers(Answers):
-    """Whoever imports a MIDI file looks at the dialog for a moment and agrees."""
+    """Answers of a user who looks at the import dialog for a moment and accepts it."""
 
     def import_midi(
         self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
@@ -135,7 +135,7 @@ class WatchedWindow:
         self.settle(lambda: self.program.editor.files.is_open)
 
     def settle(self, ready: Callable[[], bool] = lambda: True) -> None:
-        """Until nothing is read or planned any more, and a moment longer."""
+        """Wait until nothing is being read or planned, and a moment longer."""
         session, end_s = self.session, time.monotonic() + PATIENCE_S
         quiet_s = time.monotonic() + LOOK_S
         while time.monotonic() < min(quiet_s, end_s):
@@ -150,7 +150,7 @@ class WatchedWindow:
         )
 
     def show(self, kind: str, path: Path) -> dict[str, Any]:
-        """Open a file in every way that there is for it."""
+        """Open a file in every possible way."""
         self.notices.clear()
         self.faults.clear()
         forget_peak()

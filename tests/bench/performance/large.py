@@ -1,4 +1,4 @@
-"""A made-up score for fifty players and a hundred thousand notes, and the machine's own speed."""
+"""A synthetic score for fifty players with a hundred thousand notes, and the machine's present speed."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Measures of an animator's waits: plans after an edit, the pose under the playhead, memory. Printed, never
-asserted."""
+"""Waiting times in editing: plans after an edit, the pose at the playhead, memory. Printed, never asserted."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Time from what a player does to the pose that shows it. Printed, never asserted."""
+"""Time from a live player's action to the pose that shows it. Printed, never asserted."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def second(number: int, low: int, high: int) -> Iterator[tuple[float, str]]:
 @pytest.mark.bench
 @pytest.mark.parametrize("instrument_id", ["clarinet_Bb", "trombone_tenor_F_attachment"])
 def test_twenty_minutes(instrument_id: str) -> None:
-    """Twenty minutes of playing, as fast as it goes: all that is sent, and every second the pose after a note."""
+    """Twenty minutes of playing at full speed: all messages, and the pose after a note every second."""
     limits = bundled_maps()[instrument_id].range
     player = PlayAlong(playing_alone(instrument_id, [(4 * QUARTER, QUARTER, limits.low)]))
     mapping, spent_s, blocks = ControllerMapping(0, "cc2", "pitch_bend"), np.zeros(LONG_S), list[int]()

@@ -1,4 +1,4 @@
-"""Speed of generation with everything in it: the bundled quartet, planned and moved by its own characters and holds."""
+"""Speed of complete generation: the bundled quartet, planned and moved with its own characters and grips."""
 
 from __future__ import annotations
 

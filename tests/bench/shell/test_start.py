@@ -1,4 +1,4 @@
-"""Time until the window is up, against importing its libraries alone; each in a process of its own."""
+"""Time until the window is shown, compared with importing its libraries alone, each in a separate process."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ def calibration() -> None:
 
 
 def crowd() -> Project:
-    """Eighths in every part, an octave about a middle of its own."""
+    """Eighths in every part, within an octave around a pitch of its own."""
     random = np.random.default_rng(3)
     parts = []
     for number in range(PLAYERS):

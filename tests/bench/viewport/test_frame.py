@@ -1,4 +1,4 @@
-"""Python's part of a picture while the performance plays, by the number of players; GL itself aside."""
+"""Python's share of a picture during playback, by the number of players, without GL."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FRAMES = 40
 
 
 def calibration_s() -> float:
-    """A fixed amount of plain Python: what this machine does just now."""
+    """Time in seconds of a fixed amount of plain Python on this machine at present."""
     started = time.perf_counter()
     total = 0
     for number in range(200_000):
@@ -47,7 +47,7 @@ def crowd(count: int) -> Project:
 
 
 class Ready:
-    """Poses of a whole second, made beforehand: making motion is another bench's."""
+    """Poses of a whole second computed in advance, since computing motion is measured elsewhere."""
 
     def __init__(self, project: Project) -> None:
         source = quartet().players

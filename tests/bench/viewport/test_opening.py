@@ -1,5 +1,6 @@
-"""Processor time until the figures of a large band can be drawn, by what is kept from earlier: printed, never
-asserted."""
+"""Processor time until the figures of a large band can be drawn, by the state of the caches; printed, never
+asserted.
+"""
 
 from __future__ import annotations
 

@@ -61,7 +61,7 @@ class Stall:
 
 @dataclass
 class LargeEditor:
-    """The editor as the user has it, with settings and recovery folder of no one.
+    """The editor as in use, with default settings and an empty recovery folder.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ class LargeEditor:
         return spent
 
     def until(self, ready: Callable[[], bool], most_s: float = PATIENCE_S) -> Turn:
-        """Let the editor work until something is so, or for some time."""
+        """Process events until a condition holds or the time is over."""
         whole, began_s = Turn(), time.perf_counter()
         while not ready() and time.perf_counter() - began_s < most_s:
             spent = self.turn()
@@ -234,7 +234,7 @@ class LargeEditor:
         return scene.stage is not None and not scene.is_outdated(at_s)
 
     def rest(self, most_s: float = QUIET_S) -> str:
-        """Wait until nothing is made in the background, at most so long; says how long that took."""
+        """Wait up to a time until no background work is left; return the duration."""
         tasks, generator = self.program.tasks, self.program.generator
         assert isinstance(tasks, ThreadTasks)
 
@@ -246,7 +246,7 @@ class LargeEditor:
 
     @contextmanager
     def still_gl(self) -> Iterator[None]:
-        """Nothing reaches the driver meanwhile."""
+        """Let no GL command reach the driver within a ``with`` block."""
         with patch("vispy.gloo.gl.dummy.DummyProxy.__call__", lambda *arguments: 0):
             use_gl("dummy")
             try:

@@ -1,4 +1,4 @@
-"""Test what ``suisou inspect --json`` prints about music that others engraved, judged by an independent reading."""
+"""Output of ``suisou inspect --json`` for engraved music, checked by an independent reading."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plans of music that others wrote and engraved: fingerings stay what players use, breaths stay out of notes."""
+"""Plans of engraved music: fingerings are those that players use, and breaths do not interrupt notes."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def performance(name: str) -> Performance:
 
 
 def is_usual(share: float, line: MonophonicPart) -> bool:
-    """Return whether three notes of a line at least are followed by silence for this part of their steps."""
+    """Return whether at least three notes of a line are followed by a silence of this share of their step."""
     steps = [
         (after.onset_tick - before.onset_tick, before.duration_tick) for before, after in itertools.pairwise(line.notes)
     ]

@@ -1,4 +1,4 @@
-"""The music of others: what is in the files, as their sources and mido say, is in the score."""
+"""Music from public editions: the score contains what is in the files according to their sources and mido."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def players(score: Score) -> list[tuple[str, str, int]]:
 
 
 def notes_of_file(score: Score) -> list[Note]:
-    """The notes of the players, but each only once that several of them play in unison."""
+    """Notes of the players, with one copy of notes that several play in unison."""
     notes = [note for part in score.parts for note in part.notes]
     return [note for note in notes if int(note.id.split(":")[1]) < 10_000_000]
 

@@ -67,14 +67,14 @@ def live_player() -> Any:
 
 
 class Listener(PlayAlong):
-    """A live player whose body need not follow."""
+    """A live player without a body."""
 
     def _sound(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:
         pass
 
 
 def held_live(stream: list[tuple[int, bytes]]) -> list[tuple[float, set[int]]]:
-    """Return the pitches that the live player holds after each message, with the message's time (s)."""
+    """Pitches that the live player holds after each message, with the message's time in seconds."""
     player = Listener(live_player())
     at_ms, found = 0, []
     for gap_ms, message in stream:

@@ -33,7 +33,7 @@ def inspected(path: Path, *arguments: str) -> dict[str, Any]:
 
 @st.composite
 def lines(draw: st.DrawFn, quarter: int, low: int, high: int) -> list[tuple[int, int, int]]:
-    """(onset, end, pitch) of one player: legato overlaps of a tick, repeated notes, rests of every length."""
+    """Notes (onset, end, pitch) of one player: legato overlaps of a tick, repeated notes, rests of every length."""
     tick = draw(st.sampled_from([0, 0, quarter // 2, quarter, 5 * quarter, 13 * quarter]))
     notes = []
     pitch = draw(st.integers(low, high))
@@ -52,7 +52,7 @@ def lines(draw: st.DrawFn, quarter: int, low: int, high: int) -> list[tuple[int,
 def track_of(
     notes: list[tuple[int, int, int]], channel: int, name: str, program: int | None, off: str, velocity: int
 ) -> mido.MidiTrack:
-    """Events in time order; at one tick the offs first."""
+    """Events in order of time; at one tick note-offs come first."""
     events = [(onset, 1, pitch) for onset, _, pitch in notes] + [(end, 0, pitch) for _, end, pitch in notes]
     track = mido.MidiTrack([mido.MetaMessage("track_name", name=name)] if name else [])
     if program is not None:

@@ -1,4 +1,4 @@
-"""Whatever a viewer's file holds, it is read or refused with our error."""
+"""Any content of a viewer's file is read or refused with the program's error."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def answers(draw: st.DrawFn) -> list[Answer]:
 
 
 def only_our_error(content: bytes) -> None:
-    """Read or refused, in both languages, and tabulated or refused."""
+    """Check that a file is read or refused with texts in both languages, and tabulated or refused."""
     error = None
     try:
         tabulate(KEY, [decode_answers(content, FILE)])

@@ -1,4 +1,4 @@
-"""Whatever a curve does, straight lines between the keys that are kept stay near it at every frame."""
+"""Straight lines between the kept keys stay near any curve at every frame."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ WITHIN = 1.0 + 1e-5
 
 
 def _slow_off(values: AnyFloatArray, kept: BoolArray) -> float:
-    """Return the greatest difference between the numbers of a curve (F, D) and those that a reader interpolates from
-    the kept keys, computed frame by frame."""
+    """Greatest difference between the values of a curve (F, D) and those interpolated from the kept keys, frame by
+    frame.
+    """
     keys = [frame for frame in range(len(values)) if kept[frame]]
     worst = 0.0
     for frame in range(len(values)):
@@ -34,7 +35,7 @@ def _slow_off(values: AnyFloatArray, kept: BoolArray) -> float:
 
 @st.composite
 def curves(draw: st.DrawFn) -> FloatArray:
-    """A few curves: noise, rests, ramps, steps and waves, over more than one chunk of frames at times."""
+    """A few curves: noise, rests, ramps, steps and waves, sometimes over more than one chunk of frames."""
     lanes, width = draw(st.integers(1, 3)), draw(st.integers(1, 3))
     frames = draw(st.sampled_from([1, 2, 3, 7, 40, 300]))
     seed, rough = draw(st.integers(0, 2**32 - 1)), draw(st.sampled_from([0.0, 0.01, 0.6, 5.0]))

@@ -1,4 +1,4 @@
-"""Whatever single field of the inputs is another, plans made from those before equal plans made from nothing."""
+"""After a change of any single field of the inputs, updated plans equal plans made from nothing."""
 
 from __future__ import annotations
 
@@ -80,8 +80,9 @@ def other(name: str, value: Any) -> Any:
 
 
 def variants(name: str, value: Any) -> Iterator[tuple[str, Any]]:
-    """The value with one leaf of it changed: every field, of long sequences in their first, a middle and the last
-    item, and the sequence without that item."""
+    """The value with one leaf changed: every field, in long sequences of the first, a middle and the last item, and the
+    sequence without that item.
+    """
     if name in KEPT:
         return
     if isinstance(value, msgspec.Struct) or is_dataclass(value):
@@ -108,7 +109,7 @@ def variants(name: str, value: Any) -> Iterator[tuple[str, Any]]:
 
 @cache
 def performed() -> Project:
-    """A piece in which everything is said that a plan is made from."""
+    """A piece with all content on which plans depend."""
     project = piece()
     first, second, third = project.players
     notes = project.part(first).notes
@@ -147,7 +148,7 @@ def performed() -> Project:
 
 
 def made(performance: Performance) -> Any:
-    """Plans, or what is wrong."""
+    """Plans, or the error."""
     try:
         problems = {player.id: performance.problems(player.id) for player in performance.project.players}
         unseen = performance.unseen

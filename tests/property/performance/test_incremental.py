@@ -1,4 +1,4 @@
-"""Test that a performance made from the one before an edit equals a new one."""
+"""A performance updated after an edit equals a new one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ids of events: their parts make the text, and the text the parts."""
+"""Ids of events are composed from parts to a text, and parsed back."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The search against brute force, and against the first choices, on instruments made from acoustics alone."""
+"""The search for fingerings compared with brute force and with first choices, on synthetic instruments."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def is_chromatic(notes: tuple[PlainNote, ...], onset: list[float], index: int) -
 
 
 def turned(fingering: Fingering, instrument: InstrumentMap) -> set[str]:
-    """The levers that a fingering turns."""
+    """Levers turned by a fingering."""
     levers = {one.name for one in instrument.controls if one.kind == "lever" and one.role == "pitch"}
     return {name for name, value in fingering.controls.items() if value > 0.0 and name in levers}
 
@@ -92,7 +92,7 @@ def stays(
     onset: list[float],
     end: list[float],
 ) -> bool:
-    """Return whether a fingering that keeps a lever turned has a neighbour that needs it turned."""
+    """Return whether a fingering that keeps a lever turned is next to one that needs it."""
     near = []
     for at in (index - 1, index + 1):
         if 0 <= at < len(notes) and notes[at].pitch != notes[index].pitch:
@@ -120,7 +120,7 @@ def choice_cost(fingering: Fingering, first: Fingering, length: float, places: s
 
 
 def held(fingering: Fingering, instrument: InstrumentMap) -> dict[str, frozenset[tuple[str, bool]]]:
-    """Return the controls that each finger holds: their names, and whether wholly."""
+    """Controls held by each finger: their names, and whether completely."""
     result: dict[str, set[tuple[str, bool]]] = {}
     for control in instrument.controls:
         value = fingering.controls.get(control.name, control.rest_value)
@@ -133,7 +133,7 @@ def held(fingering: Fingering, instrument: InstrumentMap) -> dict[str, frozenset
 def fingers_cost(
     a: Fingering, b: Fingering, instrument: InstrumentMap, step: float, gap: float, hurry: float, trill: bool
 ) -> float:
-    """Return the cost of the fingers' motion from one fingering to another."""
+    """Cost of the fingers' motion between two fingerings."""
     levers = {one.name for one in instrument.controls if one.kind == "lever" and one.finger.endswith("thumb")}
     before, after = held(a, instrument), held(b, instrument)
     nothing: frozenset[tuple[str, bool]] = frozenset()
@@ -236,7 +236,7 @@ def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument
 
 
 def path_cost(problem: FingeringProblem, path: IntArray) -> float:
-    """Return the cost of a path over the whole line, as the search counts it."""
+    """Cost of a path over the whole line as calculated by the search."""
     count = len(path)
     notes, steps = np.arange(count), np.arange(count - 1)
     cost = float(problem.local_cost[notes, path].sum() + problem.motions.cost[steps, path[:-1], path[1:]].sum())
@@ -246,7 +246,7 @@ def path_cost(problem: FingeringProblem, path: IntArray) -> float:
 
 
 def share_of_pace(step: float) -> float:
-    """Return the share of the cost of haste for a step of this length (s): 0 from half a second on, 1 up to 0.12 s."""
+    """Share of the cost of haste for a step of a length in seconds: 0 from half a second on, 1 up to 0.12 s."""
     return min(max((0.5 - step) / 0.38, 0.0), 1.0)
 
 

@@ -1,4 +1,4 @@
-"""Test properties of every plan, whatever the notes, tempi and parameters are."""
+"""Properties of every plan for any notes, tempi and parameters."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def test_breaths_end_at_onsets_and_never_lie_in_a_sounding_note(
 
 
 def _left_out(breath: BreathEvent) -> set[object]:
-    """The notes that are left out for a breath."""
+    """Notes omitted for a breath."""
     arguments = breath.reason.arguments
     if breath.reason.id == "breath.catch_dropped_two":
         return {arguments["first_note"], arguments["after_note"]}

@@ -1,4 +1,4 @@
-"""Whatever a breath sensor says, the plan stays sound."""
+"""Plans are valid for any values of a breath sensor."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ LEVELS = (0.0, 0.0, 0.01, 0.03, 0.4, 0.8, 1.0)
 
 @st.composite
 def parts(draw: st.DrawFn) -> Part:
-    """Lines with rests and legato overlaps, under curves that need not have anything to do with them."""
+    """Lines with rests and legato overlaps, under curves that may be unrelated to them."""
     notes: list[Note] = []
     at = draw(st.integers(0, 900))
     for number in range(draw(st.integers(1, 12))):

@@ -1,4 +1,4 @@
-"""Whatever is written in a line, its breath marks are breathed at, and its slurs are not broken while there is air."""
+"""In any line, players breathe at breath marks and break no slurs while there is air."""
 
 from __future__ import annotations
 

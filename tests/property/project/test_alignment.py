@@ -1,4 +1,4 @@
-"""Notes are found again: against a slow, obvious second way, and whatever was done to them."""
+"""Notes are recognised in changed versions: compared with a slow second method, and after any changes."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ def changes(draw: st.DrawFn, notes: list[Note]) -> tuple[list[Note], set[str]]:
 
 @st.composite
 def melodies(draw: st.DrawFn) -> list[Note]:
-    """Lines without rests, of notes that cannot be reported by their pitch alone."""
+    """Lines without rests whose notes are not identified by pitch alone."""
     steps = draw(st.lists(st.tuples(st.integers(60, 66), st.sampled_from([240, 480, 960])), min_size=12, max_size=60))
     notes, tick = [], 0
     for number, (pitch, length) in enumerate(steps, 1):

@@ -1,4 +1,4 @@
-"""Whatever bytes names of files are made of: projects, unsaved work, settings and journals give them back."""
+"""File names of any bytes are preserved by projects, unsaved work, settings and journals."""
 
 from __future__ import annotations
 

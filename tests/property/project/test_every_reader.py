@@ -1,4 +1,4 @@
-"""Whatever a reader accepts into a project can be saved, and is read again as it was."""
+"""Everything that a reader accepts into a project can be saved and is read back unchanged."""
 
 from __future__ import annotations
 
@@ -53,8 +53,7 @@ SLOW = {"deadline": None, "suppress_health_check": list(HealthCheck)}
 
 
 def check(read: Callable[[], Project]) -> bool:
-    """Return whether a reader accepts what it is given; then the project can be edited with it, saved and read
-    again."""
+    """Return whether a reader accepts an input; if so, check that the project can be edited, saved and read again."""
     try:
         project = read()
         Document(PROJECT).apply(EDIT, project)

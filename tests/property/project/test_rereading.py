@@ -1,4 +1,4 @@
-"""Whatever is assigned at an import and edited afterwards, a file read again loses none of it."""
+"""Reading a file again keeps all assignments and edits made since its import."""
 
 from __future__ import annotations
 
@@ -52,8 +52,7 @@ class Track:
 
 @st.composite
 def melodies(draw: st.DrawFn, number: int) -> tuple[tuple[int, int, int], ...]:
-    """A melody, now and then with a second note; another one for each number, for which is which of two tracks that
-    have the same notes no one can say."""
+    """A melody, sometimes with two notes at a time; all differ, since tracks with equal notes are indistinguishable."""
     chance = random.Random(8 * draw(st.integers(0, 2**32)) + number)
     chords = draw(st.sampled_from([0.0, 0.0, 0.3, 1.0]))
     tick, pitch, notes = QUARTER * chance.randrange(8), chance.randrange(45, 80), []
@@ -101,7 +100,7 @@ def rows_of(draw: st.DrawFn, count: int) -> list[ImportRow]:
 
 
 def edited(draw: st.DrawFn, project: Project) -> Project:
-    """The project with all sorts of work done by hand."""
+    """The project with various edits."""
     for player in project.players:
         notes = project.part(player).notes
         chosen = draw(st.lists(st.sampled_from(notes), max_size=3, unique_by=lambda note: note.id))

@@ -1,4 +1,4 @@
-"""A project comes back from its file as it was, to the last bit; no bytes make the reader do anything but refuse."""
+"""A project is restored from its file to the last bit; any other bytes are refused."""
 
 from __future__ import annotations
 

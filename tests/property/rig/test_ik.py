@@ -1,4 +1,4 @@
-"""Arms and legs against trigonometry: what is in reach is reached, bones keep their lengths, nothing pops."""
+"""Arms and legs compared with trigonometry: reachable targets are reached, bones keep their lengths, nothing jumps."""
 
 import numpy as np
 from hypothesis import given

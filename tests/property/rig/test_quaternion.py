@@ -1,4 +1,4 @@
-"""Quaternions against scipy's rotations."""
+"""Quaternions compared with scipy's rotations."""
 
 import numpy as np
 from hypothesis import given

@@ -1,4 +1,6 @@
-"""Properties of the score: what is written is read, times go both ways, players lose and double nothing."""
+"""Properties of the score: written content is read back, times convert in both directions, players lose and duplicate
+nothing.
+"""
 
 from __future__ import annotations
 
