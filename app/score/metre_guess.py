@@ -61,16 +61,19 @@ _SHORT_CONTRASTS: Final = (
 )
 """Weights added for bars of two quarters and less."""
 _PLACES: Final = ((10.29, 7.33, 16.22, 17.78, -0.34, -0.22, -4.38, -1.43, -0.88, 0.66, -1.09, 2.23, 0.07, -0.30),)
-"""A column each: what repeats after a bar, two bars, half a bar and two beats; the file begins at a bar line, at a
-beat, between eighths; the first note at a bar line, the last one there, or at a beat; sixteenths after the bar line;
-the end at whole bars, at a bar line, at a beat."""
+"""Weights with a column for each feature: repetition after a bar, two bars, half a bar and two beats; the file begins
+at a bar line, at a beat, between eighths; the first note is at a bar line, the last one at a bar line or a beat;
+sixteenths after the bar line; the end after whole bars, at a bar line, at a beat.
+"""
 _METRES: Final = (
     (3.94, 0.40, 0.91, 3.25, 1.91, -2.26, -3.40, -3.29),
     (-0.67, 23.41, 15.00, 20.05, -8.86, 5.96, -14.15, 12.76),
     (24.17, 29.81, -0.81, 21.42, 11.24, 17.11, -14.22, 4.68),
     (1.01, 0.58, 2.00, 1.82, 2.57, 4.90, 4.28, 2.51),
 )
-"""A column a metre; rows: by itself, what repeats after a bar, after two bars, and where the file begins with a bar."""
+"""Weights with a column for each metre; rows: constant, repetition after a bar, after two bars, and a file that
+begins with a bar.
+"""
 
 
 class _Kind(NamedTuple):

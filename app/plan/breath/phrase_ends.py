@@ -43,10 +43,11 @@ REPEATED: Final = 1.7
 RISING: Final = 0.2
 """Log odds of a phrase's end where the line rises."""
 LIKE_ENTRIES: Final = 1.75
-"""Log odds of a phrase's end at the place in the bar (in half a bar, where there is one) at which the line comes in
-after rests; a part of it where it often does not."""
+"""Log odds of a phrase's end at the place in the bar (or half bar) at which the line enters after rests; a share of
+it if the line often enters elsewhere.
+"""
 AGAIN: Final = 1.75
-"""Log odds of a phrase's end where what came after a rest comes again; less, the more often it does."""
+"""Log odds of a phrase's end before notes that repeat those after a rest; less, the more often they recur."""
 TWO_BARS: Final = 1.55
 """Log odds of a phrase's end two bars, or a multiple of that, after the line last came in."""
 FOUR_BARS: Final = 0.7
