@@ -30,7 +30,7 @@ FPS: Final = 60.0
 """Rate in frames per second at which arrivals are found."""
 LEAST_SPEED: Final = 0.3
 """Least speed of a draft, relative to the source, at which its motion is useful."""
-FALLS_SHARE: Final = 0.3
+FALLS_SHARE: Final = 0.15
 """Weight of footfalls in how well a dance meets the beats."""
 COPIES: Final = 240
 """Number of shifted copies of footfalls with which they are compared."""

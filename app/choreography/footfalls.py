@@ -16,10 +16,15 @@ from scipy.interpolate import PchipInterpolator
 
 from app.arrays import FloatArray
 from app.choreography.accent_grid import AccentGrid
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import foot_contacts
 from app.choreography.standing_feet import SAME_M, FootPlant
 
-REACH_S: Final = 0.12
+REACH_S: Final = 0.15
 """Greatest shift of a footfall in seconds."""
+FAR_M: Final = 0.6
+"""Greatest distance in metres between a foot and its place in the motion while its landing is shifted, at its greatest
+speed before the landing."""
 ON_BEAT: Final = 1.0
 BETWEEN: Final = -1.0
 """Worth of a footfall on a beat, and on a place between beats."""
@@ -30,12 +35,20 @@ APART_S: Final = 0.15
 LEAST_STAND_S: Final = 0.15
 LEAST_SWING_S: Final = 0.25
 """Least duration in seconds of a stand and of a step, unless the capture has less."""
-STEP_SHARE: Final = 0.95
+STEP_SHARE: Final = 1.0
 """Least duration of a step relative to the usual one, if there is time."""
 FASTEST_M_S: Final = 5.0
 """Speed in metres per second above which a foot kicks and lands as captured, since its place would be far from the body
 a moment later.
 """
+LEAST_DESCENT_S: Final = 0.12
+"""Least time in seconds between a kick and a landing that may be moved."""
+MOST_HASTE: Final = 1.5
+"""Greatest ratio of a descent after a kick to the captured one, or of the captured one to it."""
+MOST_LEAD_S: Final = 0.1
+"""Greatest time in seconds between a touch of the floor and the start of the stand."""
+LANDS_S: Final = 0.1
+"""Time in seconds before a landing in which a foot moves as captured, so that it does not hover over the floor."""
 NEVER: Final = -1e9
 
 
@@ -61,6 +74,7 @@ def on_beats(
     grid: AccentGrid,
     step_s: float,
     speeds_m_s: FloatArray | None = None,
+    leads: FloatArray | None = None,
 ) -> Footfalls:
     """Move foot plants so that they begin on nearby accents of the grid.
 
@@ -76,19 +90,29 @@ def on_beats(
         Usual time of a step.
     speeds_m_s : (F, 2) float64, optional
         Speeds of the left and the right foot.
+    leads : (N,) float64, optional
+        Number of frames by which each foot touches the floor before its stand begins; 0 by default.
     """
-    kicked = set() if speeds_m_s is None else _kicked(standing, speeds_m_s)
+    kicked, reaches = {} if speeds_m_s is None else _kicked(standing, speeds_m_s), _reaches_s(standing, speeds_m_s)
+    early = np.zeros(len(standing)) if leads is None else leads
     falls = [at for at, stand in enumerate(standing) if stand.start > 0]
     starts = {at: float(stand.start) for at, stand in enumerate(standing)}
     by_foot = [[at for at, stand in enumerate(standing) if stand.foot == foot] for foot in range(2)]
     # The first frame is no fall, and a stand that ends when it did does not begin at its end.
     after = {at: following for own in by_foot for at, following in pairwise(own)}
     kept = {at for own in by_foot for at in own if at not in after or after[at] in kicked}
-    latest = [
-        0.0 if at in kicked else standing[at].stop - LEAST_STAND_S * fps if at in kept else frames - 1.0 for at in falls
-    ]
-    bounds_s = [(first_s + 1.0 / fps, first_s + last / fps) for last in latest]
-    starts.update(zip(falls, _chosen([standing[at] for at in falls], fps, first_s, grid, bounds_s), strict=True))
+    bounds_s = []
+    for at in falls:
+        start, reach = standing[at].start, reaches[at] * fps
+        stands = standing[at].stop - LEAST_STAND_S * fps if at in kept else frames - 1.0
+        earliest, latest = max(1.0, start - reach), min(stands, start + reach)
+        if at in kicked:
+            first, last = _after_kick(kicked[at], start, fps)
+            earliest, latest = max(earliest, first), min(latest, last)
+        bounds_s.append((first_s + (earliest - early[at]) / fps, first_s + (latest - early[at]) / fps))
+    touched = [replace(standing[at], start=standing[at].start - early[at]) for at in falls]
+    chosen = _chosen(touched, fps, first_s, grid, bounds_s)
+    starts.update((at, frame + early[at]) for at, frame in zip(falls, chosen, strict=True))
     moved = [replace(stand, start=round(starts[at])) for at, stand in enumerate(standing)]
     shown = np.tile(np.arange(frames, dtype=np.float64)[:, None], (1, 2))
     for foot, own in enumerate(by_foot):
@@ -101,7 +125,14 @@ def on_beats(
             moved[at] = replace(moved[at], stop=stop)
         knots = [(0, 0)]
         for at in own:
-            knots += [(moved[at].start, standing[at].start), (moved[at].stop - 1, standing[at].stop - 1)]
+            here, there = moved[at].start, standing[at].start
+            lands = min(round(LANDS_S * fps), (min(here - knots[-1][0], there - knots[-1][1])) // 2)
+            if at in kicked:
+                knots.append((kicked[at], kicked[at]))
+                lands = 0
+            if lands > 0:
+                knots.append((here - lands, there - lands))
+            knots += [(here, there), (moved[at].stop - 1, standing[at].stop - 1)]
         knots.append((frames - 1, frames - 1))
         places = np.array(knots, np.float64)
         ascends = np.concatenate([[True], (np.diff(places, axis=0) > 0).all(axis=1)])
@@ -111,14 +142,37 @@ def on_beats(
     return Footfalls(tuple(moved), np.clip(shown, 0.0, frames - 1.0))
 
 
-def _kicked(standing: Sequence[FootPlant], speeds_m_s: FloatArray) -> set[int]:
-    """Indices of the foot plants that follow a kick."""
-    found, left = set(), [0, 0]
+def _kicked(standing: Sequence[FootPlant], speeds_m_s: FloatArray) -> dict[int, int]:
+    """Return the last fast frame before each foot plant that follows a kick, by its index."""
+    found, left = {}, [0, 0]
     for at, stand in enumerate(standing):
-        if speeds_m_s[left[stand.foot] : stand.start, stand.foot].max(initial=0.0) > FASTEST_M_S:
-            found.add(at)
+        (fast,) = np.nonzero(speeds_m_s[left[stand.foot] : stand.start, stand.foot] > FASTEST_M_S)
+        if len(fast):
+            found[at] = left[stand.foot] + int(fast[-1])
         left[stand.foot] = stand.stop
     return found
+
+
+def _reaches_s(standing: Sequence[FootPlant], speeds_m_s: FloatArray | None) -> list[float]:
+    """Return the greatest shift in seconds of each foot plant; less for a faster foot."""
+    if speeds_m_s is None:
+        return [REACH_S] * len(standing)
+    found, left = [], [0, 0]
+    for stand in standing:
+        speeds = speeds_m_s[left[stand.foot] : stand.start, stand.foot]
+        fastest = float(speeds[speeds <= FASTEST_M_S].max(initial=0.0))
+        found.append(min(REACH_S, FAR_M / max(fastest, 1e-9)))
+        left[stand.foot] = stand.stop
+    return found
+
+
+def _after_kick(fast: int, start: int, fps: float) -> tuple[float, float]:
+    """Return the earliest and the latest frame at which a foot that kicks until the frame ``fast`` may land; without
+    room for a shift the earliest is after the latest."""
+    left = start - fast
+    if left < LEAST_DESCENT_S * fps:
+        return 1.0, 0.0
+    return fast + left / MOST_HASTE, fast + left * MOST_HASTE
 
 
 def _leaves(
@@ -228,3 +282,17 @@ def _possible(
     least_s = APART_S if falls[one].foot != falls[other].foot else LEAST_STAND_S + LEAST_SWING_S
     gap_s = later[None, :] - earlier[:, None]
     return np.asarray((gap_s >= min(least_s, way_s) - 1e-6) & ((way_s >= APART_S) | (gap_s <= way_s + 0.05)))
+
+
+def touch_leads(clip: MotionClip, standing: Sequence[FootPlant]) -> FloatArray:
+    """Compute the number of frames (N,) by which the feet of a motion touch the floor before N foot plants begin;
+    negative if later, 0 without a touch nearby."""
+    contacts, most = foot_contacts(clip), round(MOST_LEAD_S * float(clip.fps))
+    touches = [np.flatnonzero(np.diff(contacts[:, foot].astype(np.int8), prepend=0) > 0) for foot in range(2)]
+    leads = np.zeros(len(standing))
+    for at, stand in enumerate(standing):
+        near = stand.start - touches[stand.foot]
+        near = near[np.abs(near) <= most]
+        if stand.start and len(near):
+            leads[at] = near[np.abs(near).argmin()]
+    return leads

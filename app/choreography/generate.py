@@ -28,7 +28,7 @@ from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.dance_flaws import usual_change_rad_s
 from app.choreography.drums_of_dancers import TakeShares, take_shares
 from app.choreography.feet_on_floor import grounded
-from app.choreography.footfalls import Footfalls, on_beats
+from app.choreography.footfalls import Footfalls, on_beats, touch_leads
 from app.choreography.hands_out_of_body import out_of_body
 from app.choreography.hit_log_odds import Hearing, hearing
 from app.choreography.idling import idling_odds
@@ -217,8 +217,7 @@ class Choreographer:
         if manner.mirrored:
             clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
         clip = out_of_body(without_haste(clip, self._fastest_rad_s))
-        falls = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm))
-        clip = planted(clip, falls.standing, manner.weight, falls.shown)
+        clip, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
         on_floor = planted_frames(falls.standing, len(clip))
         # Joints first: a hand that a slower shoulder carries along has to be calmed, too.
         clip = without_twitches(within_speeds(clip, on_floor), falls.standing, self._usual_accelerations(fps))
@@ -341,18 +340,25 @@ class Choreographer:
         """
         draft = self._motion(plan, body, DRAFT_FPS, times_s)
         standing = stands(draft.clip, draft.contacts, draft.moved_m)
-        falls = self._on_beats(draft.clip, standing, float(times_s[0]), grid)
+        clip, falls, leads = self._on_beats(draft.clip, standing, float(times_s[0]), grid)
         frames = sorted(stand.start for stand in standing if stand.start)
-        down = sorted(stand.start for stand in falls.standing if stand.start)
-        return planted(draft.clip, falls.standing, shown=falls.shown), times_s[frames], times_s[down]
+        down = np.array([stand.start - lead for stand, lead in zip(falls.standing, leads, strict=True) if stand.start])
+        return clip, times_s[frames], float(times_s[0]) + np.sort(down) / float(DRAFT_FPS)
 
     def _on_beats(
-        self, clip: MotionClip, standing: tuple[FootPlant, ...], first_s: float, grid: AccentGrid
-    ) -> Footfalls:
-        """Return the foot plants of a clip moved to accents of the music (see `app.choreography.footfalls.on_beats`);
-        ``first_s`` is the time of the clip's first frame."""
+        self, clip: MotionClip, standing: tuple[FootPlant, ...], first_s: float, grid: AccentGrid, weight: float = 0.0
+    ) -> tuple[MotionClip, Footfalls, FloatArray]:
+        """Return a clip with its feet planted, so that they touch the floor on accents of the music (see
+        `app.choreography.footfalls.on_beats`), the stands, and the number of frames by which each touches earlier than
+        its stand begins; ``first_s`` is the time of the clip's first frame."""
+        fps = float(clip.fps)
         speeds_m_s = foot_speeds_m_s(clip) if len(clip) > 1 else None
-        return on_beats(standing, len(clip), float(clip.fps), first_s, grid, self._step_s, speeds_m_s)
+        leads = np.zeros(len(standing))
+        for _ in range(2):
+            falls = on_beats(standing, len(clip), fps, first_s, grid, self._step_s, speeds_m_s, leads)
+            shown = planted(clip, falls.standing, weight, falls.shown)
+            leads = touch_leads(shown, falls.standing)
+        return shown, falls, leads
 
     def _arrivals_s(self, segments: IntArray, hits: FloatArray) -> FloatArray:
         """Times (K,) of the arrivals (speed minima) in the given segments, in seconds along the segments placed one

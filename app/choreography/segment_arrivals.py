@@ -14,7 +14,7 @@ from app.choreography.transition_scores import SegmentMeets
 STEPPED_S: Final = 0.12
 """Greatest distance in seconds of a footfall from an arrival for both to coincide."""
 ARRIVES: Final = 1.0
-FALLS: Final = 0.8
+FALLS: Final = 0.5
 """Worth of an arrival of the body and of a footfall on a beat."""
 _SAME_S: Final = 1e-6
 
@@ -68,19 +68,20 @@ def meets_of(
     own, at_accent = [], np.zeros(len(segments))
     for number, (one, accent_s) in enumerate(zip(segments, accents.tolist(), strict=True)):
         events = []
-        for moments_s, worth, near_s in (
-            (arrivals[one.clip] / fps[one.clip], ARRIVES, 0.5 / fps[one.clip]),
-            (falls_s[one.clip], FALLS, STEPPED_S),
+        for moments_s, worth, near_s, is_fall in (
+            (arrivals[one.clip] / fps[one.clip], ARRIVES, 0.5 / fps[one.clip], False),
+            (falls_s[one.clip], FALLS, STEPPED_S, True),
         ):
             span_s = np.array([one.start, one.end]) / fps[one.clip] - _SAME_S
             from_accent = moments_s[slice(*np.searchsorted(moments_s, span_s))] - accent_s
             at = np.abs(from_accent) <= near_s
             at_accent[number] += worth * at.any()
-            events += [(time_s, worth) for time_s in from_accent[~at].tolist()]
+            events += [(time_s, worth, is_fall) for time_s in from_accent[~at].tolist()]
         own.append(events)
     most = max((len(events) for events in own), default=0)
-    times_s, worths = np.full((len(segments), most), np.nan), np.zeros((len(segments), most))
+    shape = len(segments), most
+    times_s, worths, falls = np.full(shape, np.nan), np.zeros(shape), np.zeros(shape, bool)
     for number, events in enumerate(own):
-        for at_, (time_s, worth) in enumerate(events):
-            times_s[number, at_], worths[number, at_] = time_s, worth
-    return SegmentMeets(times_s, worths, at_accent)
+        for at_, (time_s, worth, is_fall) in enumerate(events):
+            times_s[number, at_], worths[number, at_], falls[number, at_] = time_s, worth, is_fall
+    return SegmentMeets(times_s, worths, falls, at_accent)

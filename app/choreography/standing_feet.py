@@ -24,7 +24,7 @@ from app.rig.sole import SIDES
 
 BRIDGED_S: Final = 0.06
 """Longest absence from the floor in seconds that is ignored."""
-LEAST_S: Final = 0.1
+LEAST_S: Final = 0.05
 """Shortest stand in seconds; shorter ones are ignored."""
 REACHED_M: Final = 0.08
 """Height in metres above the floor up to which a foot has landed; a higher one, lifted by a join, is still
@@ -38,6 +38,10 @@ STEP_HIGH_M: Final = 0.03
 STEP_FAR_M: Final = 0.10
 SAME_M: Final = 0.04
 """Distance in metres below which places are equal if the foot hardly leaves the floor between them."""
+LIFTED_M: Final = 0.03
+"""Least height in metres to which a foot rises in a step that the motion itself takes."""
+PULLED_M: Final = 0.04
+"""Greatest distance in metres between a foot and its own path for a step that is as short as captured."""
 SETTLE_S: Final = 0.30
 """Time in seconds after leaving and before reaching the floor within which a foot blends with its own path."""
 REACH_SHARE: Final = 0.985
@@ -87,7 +91,7 @@ def stands(clip: MotionClip, contacts: BoolArray, moved_m: FloatArray | None = N
                 middle = _middle(tips[start + first : start + last, foot])
                 place = (float(middle[0]), on_floor_m, float(middle[2]))
                 found.append(FootPlant(foot, start + first, start + last, place))
-    own = [_apart([stand for stand in found if stand.foot == foot], fps) for foot in range(2)]
+    own = [_apart([stand for stand in found if stand.foot == foot], tips[:, foot], fps) for foot in range(2)]
     return tuple(sorted(own[0] + own[1], key=lambda stand: (stand.start, stand.foot)))
 
 
@@ -106,22 +110,27 @@ def steps_s(standing: Sequence[FootPlant], fps: float) -> list[float]:
     return found
 
 
-def _apart(standing: list[FootPlant], fps: float) -> list[FootPlant]:
+def _apart(standing: list[FootPlant], tip_m: FloatArray, fps: float) -> list[FootPlant]:
     """Shorten consecutive plants of a foot so that there is time between them for moving.
 
-    A foot that lands at the same place continues to stand there.
+    A foot that lands at the same place and hardly rose continues to stand there. A step that the motion itself takes,
+    lifting the foot, keeps its time however short it is; one made by a join takes `STEP_S`.
     """
     found: list[FootPlant] = []
     for stand in standing:
         if found:
-            way_m = float(np.linalg.norm(np.subtract(stand.place_m, found[-1].place_m)))
-            short = STEP_S * fps - (stand.start - found[-1].stop)
-            if short > 0.0 and way_m <= SAME_M:
-                found[-1] = replace(found[-1], stop=stand.stop)
+            before = found[-1]
+            way_m = float(np.linalg.norm(np.subtract(stand.place_m, before.place_m)))
+            short = STEP_S * fps - (stand.start - before.stop)
+            lifted_m = float(np.ptp(tip_m[before.stop - 1 : stand.start + 1, 1]))
+            if short > 0.0 and way_m <= SAME_M and lifted_m < LIFTED_M:
+                found[-1] = replace(before, stop=stand.stop)
                 continue
-            if short > 0.0:
+            pulled = stand.place_m - tip_m[stand.start] - (before.place_m - tip_m[before.stop - 1])
+            by_itself = lifted_m >= LIFTED_M and float(np.linalg.norm(pulled[[0, 2]])) <= PULLED_M
+            if short > 0.0 and not by_itself:
                 give = math.ceil(0.5 * short)
-                found[-1] = replace(found[-1], stop=found[-1].stop - give)
+                found[-1] = replace(before, stop=before.stop - give)
                 stand = replace(stand, start=stand.start + give)
                 if found[-1].stop - found[-1].start < LEAST_S * fps:
                     found.pop()

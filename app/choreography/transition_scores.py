@@ -13,7 +13,7 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from app.arrays import FloatArray, IntArray, SingleArray
+from app.arrays import BoolArray, FloatArray, IntArray, SingleArray
 from app.choreography.accent_grid import AccentGrid
 
 SPEEDS: Final = (0.67, 1.5)
@@ -42,18 +42,24 @@ class SegmentMeets:
         Time of each moment in seconds after the segment's accent; NaN pads shorter rows.
     worths : (S, E) float64
         Value of each moment if it is on a beat.
+    falls : (S, E) bool
+        Whether each is a footfall. Footfalls off the beats cost what those on them are worth, so that dancers step as
+        often as captured at every tempo; arrivals off the beats cost more at slow tempi.
     accents : (S,) float64
         Value of the accent itself as an arrival.
     """
 
     times_s: FloatArray
     worths: FloatArray
+    falls: BoolArray
     accents: FloatArray
 
 
 def no_meets(segments: int) -> SegmentMeets:
     """Return a table for segments without further arrivals and footfalls."""
-    return SegmentMeets(np.zeros((segments, 0)), np.zeros((segments, 0)), np.zeros(segments))
+    return SegmentMeets(
+        np.zeros((segments, 0)), np.zeros((segments, 0)), np.zeros((segments, 0), bool), np.zeros(segments)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,11 +216,12 @@ class SegmentMoves:
             return total
         hundredths, strengths = np.array(beats, np.float64).reshape(-1, 2).T
         off_s = gap_s * (np.arange(SHARES + 1)[:, None] / SHARES - hundredths / 100.0)
-        near = (np.exp(-np.square(off_s / NEAR_S) / 2.0) * strengths).max(axis=1, initial=0.0) - 0.5
-        for times_s, worths in zip(meets.times_s.T, meets.worths.T, strict=True):
+        near = (np.exp(-np.square(off_s / NEAR_S) / 2.0) * strengths).max(axis=1, initial=0.0)
+        cost = np.where(meets.falls, min(0.5, float(near.mean())), 0.5) * meets.worths
+        for times_s, worths, costs in zip(meets.times_s.T, meets.worths.T, cost.T, strict=True):
             after, before = times_s > 0.0, times_s < 0.0
-            at = np.where(after, times_s, 0.0)[starts] / lasts_s
-            total += near[np.rint(SHARES * at).astype(np.intp)] * np.where(after, worths, 0.0)[starts]
-            at = 1.0 + np.where(before, times_s, 0.0)[:, None] / lasts_s
-            total += near[np.rint(SHARES * at).astype(np.intp)] * np.where(before, worths, 0.0)[:, None]
+            at = near[np.rint(SHARES * np.where(after, times_s, 0.0)[starts] / lasts_s).astype(np.intp)]
+            total += at * np.where(after, worths, 0.0)[starts] - np.where(after, costs, 0.0)[starts]
+            at = near[np.rint(SHARES * (1.0 + np.where(before, times_s, 0.0)[:, None] / lasts_s)).astype(np.intp)]
+            total += at * np.where(before, worths, 0.0)[:, None] - np.where(before, costs, 0.0)[:, None]
         return total

@@ -33,9 +33,9 @@ ANCHOR: Final = 0.05
 """Values of an arrival on a beat, in the middle between beats, and of a segment that stays in place."""
 HELD: Final = 6.0
 """Value of a segment that stays in a place set by hand, above those of all arrivals that it may keep from beats."""
-STEPPED: Final = 0.2
+STEPPED: Final = 0.1
 """Additional value of an arrival on a beat with a footfall."""
-FALLS: Final = 0.5
+FALLS: Final = 0.2
 """Value of a footfall on a beat without an arrival."""
 SPEED: Final = 0.2
 """Cost of a speed at a limit of `SPEEDS`; quadratic between."""

@@ -47,6 +47,7 @@ def test_other_arrivals_and_footfalls_are_told_from_the_accent() -> None:
     meets = meets_of(SEGMENTS, [FPS], [arrivals], falls, accents)
     assert accents[0] * FPS == pytest.approx(20)
     assert meets.times_s[0].tolist() == pytest.approx([20 / 60, 0.9 - 20 / 60])
+    assert meets.falls[0].tolist() == [False, True]
     assert meets.accents[0] > meets.worths[0, 0] > meets.worths[0, 1] > 0.0
     assert meets.times_s[1, 0] == pytest.approx(1.5 - accents[1])
     assert np.isnan(meets.times_s[1, 1])

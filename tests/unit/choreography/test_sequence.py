@@ -14,7 +14,7 @@ from app.choreography.drums_of_dancers import DancersDrums
 from app.choreography.hit_log_odds import HeardHits, Hearing, SoundOdds
 from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
-from app.choreography.transition_scores import MOST_STARTS, NEAR_S, SegmentMeets
+from app.choreography.transition_scores import MOST_STARTS, NEAR_S, NEVER, MoveCosts, SegmentMeets, SegmentMoves
 from tests.support.dances import beaten
 
 
@@ -136,7 +136,12 @@ def test_no_way_through_a_small_grid_is_better(seed: int, arrive: bool) -> None:
         times_s = chance.uniform(-1.0, 1.0, (3, 3)) * np.where(np.arange(3) % 2, own.before_s, own.after_s)[:, None]
         times_s = np.clip(times_s, -own.before_s[:, None], own.after_s[:, None])
         times_s[0, 2] = np.nan
-        own = replace(own, meets=SegmentMeets(times_s, chance.uniform(0.3, 1.0, (3, 3)), chance.uniform(size=3)))
+        own = replace(
+            own,
+            meets=SegmentMeets(
+                times_s, chance.uniform(0.3, 1.0, (3, 3)), np.zeros((3, 3), bool), chance.uniform(size=3)
+            ),
+        )
     times_s, scores = np.sort(random.uniform(-0.3, 1.9, 12)), random.normal(size=(12, 3))
     hits = list(zip(times_s.tolist(), scores, strict=True))
     weights = Weights(chance=0.0, lately=0.0, join_per_m=5.0)
@@ -178,11 +183,29 @@ def test_arrivals_within_motions_are_danced_to_beats() -> None:
     between = np.where(np.arange(count) % 2, 0.25, 0.5)
     own = SegmentCandidates(
         np.arange(count), np.full(count, 0.3), np.full(count, 0.7), np.zeros((count, count)), np.zeros((count, count)),
-        SegmentMeets(between[:, None], np.ones((count, 1)), np.ones(count)),
+        SegmentMeets(between[:, None], np.ones((count, 1)), np.zeros((count, 1), bool), np.ones(count)),
     )  # fmt: skip
     silence = struck(np.zeros(0), np.zeros((0, count)))
     found = choose(grid_of(beaten(64)), own, silence, seed=0, weights=Weights(chance=0.2, lately=0.0))
     assert np.mean([segment % 2 == 0 for _, segment in found]) > 0.8
+
+
+@pytest.mark.parametrize("beat_s", [0.6, 0.9])
+def test_footfalls_at_chance_count_nothing_at_any_tempo(beat_s: float) -> None:
+    """Footfalls evenly about motions of one beat: those off the beat cost what those on it are worth."""
+    count = 90
+    half_s = np.full(count, 0.5 * beat_s)
+    after_s = np.linspace(0.0, 0.5 * beat_s, count + 1)[1:]
+    grid, nothing = AccentGrid(beat_s * np.arange(3), np.ones(3, bool)), np.zeros((count, count))
+
+    def scores(falls: bool) -> np.ndarray:
+        meets = SegmentMeets(after_s[:, None], np.ones((count, 1)), np.full((count, 1), falls), np.zeros(count))
+        moves = SegmentMoves(grid, MoveCosts(nothing, half_s, half_s, 1.5, np.zeros(count), meets))
+        found = moves.table(0, 1, every=True).scores
+        return found[found > NEVER / 2.0]
+
+    assert scores(True).mean() == pytest.approx(0.0, abs=0.03)
+    assert scores(False).mean() < -0.1 if beat_s > 0.8 else scores(False).mean() < 0.0
 
 
 @pytest.mark.parametrize("where", [0.0, 0.2, 0.4, 0.6, 0.8])

@@ -48,6 +48,16 @@ def test_a_foot_that_comes_down_where_it_was_goes_on_standing() -> None:
     assert np.ptp(tips[..., [0, 2]], axis=0).max() < 1e-6
 
 
+def test_a_quick_step_of_the_motion_itself_keeps_its_time() -> None:
+    clip, contacts = carried(0.15)
+    lift_m = 0.08 * np.sin(np.pi * np.clip((np.arange(120) - 57) / 6.0, 0.0, 1.0))
+    hips = clip.hips_m + lift_m[:, None] * (0.0, 1.0, 0.0)
+    standing = stands(replace(clip, hips_m=hips), contacts)
+    assert [(stand.foot, stand.start, stand.stop) for stand in standing] == [
+        (0, 0, 58), (1, 0, 58), (0, 63, 120), (1, 63, 120)
+    ]  # fmt: skip
+
+
 def test_a_foot_of_a_body_that_is_kept_near_its_place_goes_on_standing() -> None:
     clip, contacts = still(120), np.ones((120, 2), bool)
     moved = np.linspace(0.5, -0.5, 120)[:, None] * np.array((0.0, 0.0, 1.0))

@@ -70,7 +70,7 @@ def test_of_two_arrivals_that_with_a_footfall_comes_on_the_beat() -> None:
 
 def test_footfalls_between_arrivals_come_on_the_beats_where_they_are_asked_to() -> None:
     arrivals = 1.1 * np.arange(1, 30)
-    steps = arrivals + 0.35
+    steps = arrivals + 0.45
     for with_falls in (True, False):
         found = map_with_arrivals(even(36.0, 6.0), arrivals, grid_of(beaten(73)), steps, with_falls=with_falls)
         off_s = np.abs(found.when(steps) - 0.5 * np.round(found.when(steps) / 0.5))
