@@ -6,7 +6,7 @@ Steps have the duration of the captured dancers' steps.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Final
@@ -74,6 +74,7 @@ def on_beats(
     grid: AccentGrid,
     step_s: float,
     speeds_m_s: FloatArray | None = None,
+    *,
     leads: FloatArray | None = None,
 ) -> Footfalls:
     """Move foot plants so that they begin on nearby accents of the grid.
@@ -105,10 +106,8 @@ def on_beats(
     for at in falls:
         start, reach = standing[at].start, reaches[at] * fps
         stands = standing[at].stop - LEAST_STAND_S * fps if at in kept else frames - 1.0
-        earliest, latest = max(1.0, start - reach), min(stands, start + reach)
-        if at in kicked:
-            first, last = _after_kick(kicked[at], start, fps)
-            earliest, latest = max(earliest, first), min(latest, last)
+        first, last = _after_kick(kicked[at], start, fps) if at in kicked else (1.0, stands)
+        earliest, latest = max(1.0, first, start - reach), min(stands, last, start + reach)
         bounds_s.append((first_s + (earliest - early[at]) / fps, first_s + (latest - early[at]) / fps))
     touched = [replace(standing[at], start=standing[at].start - early[at]) for at in falls]
     chosen = _chosen(touched, fps, first_s, grid, bounds_s)
@@ -123,23 +122,37 @@ def on_beats(
             starts_at = moved[at].start, moved[following].start
             stop = _leaves(standing[at], standing[following], *starts_at, others, fps, step_s)
             moved[at] = replace(moved[at], stop=stop)
-        knots = [(0, 0)]
-        for at in own:
-            here, there = moved[at].start, standing[at].start
-            lands = min(round(LANDS_S * fps), (min(here - knots[-1][0], there - knots[-1][1])) // 2)
-            if at in kicked:
-                knots.append((kicked[at], kicked[at]))
-                lands = 0
-            if lands > 0:
-                knots.append((here - lands, there - lands))
-            knots += [(here, there), (moved[at].stop - 1, standing[at].stop - 1)]
-        knots.append((frames - 1, frames - 1))
-        places = np.array(knots, np.float64)
-        ascends = np.concatenate([[True], (np.diff(places, axis=0) > 0).all(axis=1)])
-        if ascends.sum() > 1:
-            shown[:, foot] = PchipInterpolator(places[ascends, 0], places[ascends, 1])(shown[:, foot])
+        shown[:, foot] = _shown(own, standing, moved, kicked, frames, fps)
     moved.sort(key=lambda stand: (stand.start, stand.foot))
     return Footfalls(tuple(moved), np.clip(shown, 0.0, frames - 1.0))
+
+
+def _shown(
+    own: Sequence[int],
+    standing: Sequence[FootPlant],
+    moved: Sequence[FootPlant],
+    kicked: Mapping[int, int],
+    frames: int,
+    fps: float,
+) -> FloatArray:
+    """Compute the frame (F,) of the motion that a foot shows in each frame, with its plants ``own`` moved from
+    ``standing`` to ``moved``."""
+    knots = [(0, 0)]
+    for at in own:
+        here, there = moved[at].start, standing[at].start
+        lands = min(round(LANDS_S * fps), (min(here - knots[-1][0], there - knots[-1][1])) // 2)
+        if at in kicked:
+            knots.append((kicked[at], kicked[at]))
+            lands = 0
+        if lands > 0:
+            knots.append((here - lands, there - lands))
+        knots += [(here, there), (moved[at].stop - 1, standing[at].stop - 1)]
+    knots.append((frames - 1, frames - 1))
+    places, shown = np.array(knots, np.float64), np.arange(frames, dtype=np.float64)
+    ascends = np.concatenate([[True], (np.diff(places, axis=0) > 0).all(axis=1)])
+    if ascends.sum() < 2:
+        return shown
+    return np.asarray(PchipInterpolator(places[ascends, 0], places[ascends, 1])(shown))
 
 
 def _kicked(standing: Sequence[FootPlant], speeds_m_s: FloatArray) -> dict[int, int]:

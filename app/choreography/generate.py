@@ -355,7 +355,7 @@ class Choreographer:
         speeds_m_s = foot_speeds_m_s(clip) if len(clip) > 1 else None
         leads = np.zeros(len(standing))
         for _ in range(2):
-            falls = on_beats(standing, len(clip), fps, first_s, grid, self._step_s, speeds_m_s, leads)
+            falls = on_beats(standing, len(clip), fps, first_s, grid, self._step_s, speeds_m_s, leads=leads)
             shown = planted(clip, falls.standing, weight, falls.shown)
             leads = touch_leads(shown, falls.standing)
         return shown, falls, leads
