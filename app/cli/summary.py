@@ -124,6 +124,8 @@ def _judgement(report: Report) -> list[str]:
             played += [player, *player.doubles]
         lines += ["", *columns([heads("export_report.heads"), *map(_row, played)])]
         lines += [said("export_report.measures")]
+        if any(one.measures is not None and one.measures.breaths.jaw_open is None for one in played):
+            lines += [said("export_report.mouth_left_out")]
         for one in played:
             wrong = failures(one)
             if wrong:

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
+from app.export.face_curves import CurveNames, curve_names
 from app.export.playback import ScenePlayback
 from app.export.target import TargetSkeleton
 from app.formats.scene import SkinnedMesh
@@ -79,14 +80,23 @@ class JointPlayback:
             return self.playback.rotations(first, last)
         return self._joint_rotations(slice(first, last))
 
-    def curve(self, morph: str) -> FloatArray:
-        """Return the weight (F,) of a morph by its ARKit name; zeros if the file lacks it."""
+    def curve(self, morph: str, names: CurveNames = "arkit") -> FloatArray:
+        """Return the weight (F,) of a morph by its ARKit name; zeros if the file lacks it.
+
+        ``names`` is the convention by which the file's curves are named.
+        """
         curves = self.playback.clip.morph_weights
         frames = self.playback.clip.frames
-        parts: Mapping[str, float] = {morph: 1.0}
+        shapes: Mapping[str, float] = {morph: 1.0}
         if self._target.choice == "own" and self._character.own is not None:
-            parts = self._character.own.morphs.get(morph, {})
-        shown = [np.asarray(curves[name], np.float64) / part for name, part in parts.items() if name in curves and part]
+            shapes = self._character.own.morphs.get(morph, {})
+        table = curve_names(names)
+        parts = [
+            (curve, part * share)
+            for shape, part in shapes.items()
+            for curve, share in table.get(shape, {shape: 1.0}).items()
+        ]
+        shown = [np.asarray(curves[curve], np.float64) / part for curve, part in parts if curve in curves and part]
         return np.minimum(np.max(shown, axis=0), 1.0) if shown else np.zeros(frames)
 
     def surface(self, landmark: Landmark) -> tuple[SkinnedMesh, IntArray]:

@@ -30,6 +30,7 @@ from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
 from app.contacts.touches import TouchJudge, Traces, distance_m, hole_values
 from app.errors import Progress
 from app.export.arm_depths import ArmDepth, arm_depth
+from app.export.face_curves import DEFAULT_FACE, FaceOptions
 from app.export.frame_blocks import SOLES, Walk, bone_deviation_m
 from app.export.joint_measures import JointMeasure, measure_joints
 from app.export.joint_playback import JointPlayback
@@ -61,11 +62,12 @@ _CHUNK = 4096
 
 class BreathMeasure(msgspec.Struct, frozen=True):
     """Numbers of planned breaths, and of those visible in an exported file: by the jaw that opens, by the trunk that
-    leans back, and by both as required.
+    leans back, and by both as required. ``jaw_open`` is None for a file without curves of the mouth, in which the trunk
+    alone shows a breath.
     """
 
     planned: int
-    jaw_open: int
+    jaw_open: int | None
     torso_back: int
     shown: int
 
@@ -122,6 +124,8 @@ class PlayerJudge:
         Ids of the notes that cannot be reached (`app.contacts.reach`).
     danced : DancedFeet
         Foot movements of a dance while playing.
+    face : FaceOptions
+        Names and parts of the curves in the player's file; without the mouth's, lips are not judged.
     """
 
     performer: Performer
@@ -130,6 +134,7 @@ class PlayerJudge:
     changing: Sequence[tuple[float, float]] = ()
     out_of_reach: Set[str | None] = frozenset()
     danced: DancedFeet = field(default_factory=DancedFeet.none)
+    face: FaceOptions = DEFAULT_FACE
 
     def measure(
         self,
@@ -168,7 +173,8 @@ class PlayerJudge:
             of_joints.append(measure_joints(joints, body, load_skeleton(body.skeleton), float(player.clip.fps)))
 
         depth_m = _depths_m(walk, notes.sounding, judge_joints, progress)
-        traces, jaw, mouth = walk.traces, joints.curve("jawOpen"), mouth_opens(character)
+        traces, opens = walk.traces, mouth_opens(character)
+        jaw = joints.curve("jawOpen", self.face.names) if self._mouth else None
         ((limits, acceleration),) = of_joints
         return PlayerMeasurement(
             PlayerMeasures(
@@ -183,23 +189,29 @@ class PlayerJudge:
                 limits=limits,
                 acceleration=acceleration,
                 arms=arms[0],
-                breaths=_breaths(self.plan.breaths, times_s, jaw, walk.torso_rad, mouth),
+                breaths=_breaths(self.plan.breaths, times_s, jaw, walk.torso_rad, opens),
                 **self._lips(traces, notes),
                 **self._touches(traces, notes, held),
             ),
             walk.torso_rad,
         )
 
+    @property
+    def _mouth(self) -> bool:
+        """True if the player's file has curves of the mouth."""
+        return "mouth" in self.face.parts
+
     def _lips(self, traces: Traces, notes: NoteFrames) -> dict[str, Any]:
         """Measure the distances of the lips from the mouthpiece during notes, and of the upper lip during breaths;
-        return fields of `PlayerMeasures` by name.
+        return fields of `PlayerMeasures` by name. Lips that the file does not move are not measured.
         """
         instrument, breaths = self.performer.instrument, self.plan.breaths
         # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
         blowing = notes.sounding & ~notes.within((event.start_s, event.end_s) for event in breaths)
         inhaling = notes.within((event.start_s, event.end_s) for event in breaths if event.draws_air)
         inhaling &= ~notes.within(self.changing)
-        lips_m, upper_lip_m = traces.lips_m(instrument), traces.upper_lip_m(instrument, blowing)
+        lips_m = traces.lips_m(instrument) if self._mouth else None
+        upper_lip_m = traces.upper_lip_m(instrument, blowing) if self._mouth else None
         return {
             "lips": Spread.of(np.zeros(0) if lips_m is None else lips_m[blowing], LIPS_MM),
             "upper_lip_in_breaths": Spread.of(np.zeros(0) if upper_lip_m is None else upper_lip_m[inhaling], LIPS_MM),
@@ -312,10 +324,10 @@ def _control_values(instrument: InstrumentMap, held: ScenePlayback) -> dict[str,
 
 
 def _breaths(
-    events: Sequence[BreathEvent], times_s: FloatArray, jaw: FloatArray, torso_rad: FloatArray, mouth: bool
+    events: Sequence[BreathEvent], times_s: FloatArray, jaw: FloatArray | None, torso_rad: FloatArray, mouth: bool
 ) -> BreathMeasure:
     """Count the planned breaths during which the jaw opens and the torso leans back compared with just before; for a
-    character without a ``mouth`` that opens, the torso alone counts.
+    character without a ``mouth`` that opens, or a file without its curves (``jaw`` is None), the torso alone counts.
     """
     planned = opened = back = shown = 0
     for event in events:
@@ -323,9 +335,9 @@ def _breaths(
         if not event.draws_air or first == 0 or last >= len(times_s) or last - first < 1:
             continue
         planned += 1
-        opens = bool(jaw[first:last].max() - jaw[first - 1] >= JAW_OPENS)
+        opens = jaw is not None and bool(jaw[first:last].max() - jaw[first - 1] >= JAW_OPENS)
         leans = bool(torso_rad[first - 1, 1] - torso_rad[first : last + 1, 1].min() >= TORSO_BACK_RAD)
         opened += opens
         back += leans
-        shown += leans and (opens or not mouth)
-    return BreathMeasure(planned, opened, back, shown)
+        shown += leans and (opens or not mouth or jaw is None)
+    return BreathMeasure(planned, None if jaw is None else opened, back, shown)

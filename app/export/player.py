@@ -16,6 +16,7 @@ from app.encoding import shown
 from app.errors import Progress
 from app.export.attachment import in_world, without_place
 from app.export.bvh_clip import profile_names
+from app.export.face_curves import FaceOptions
 from app.export.figures import held_scene, musician_scene, props_scene, supports_of_musician
 from app.export.file_names import file_names, sound_name
 from app.export.formats import FileContent, FileFormat, Format, WriteOptions, files_of
@@ -246,6 +247,8 @@ def _measured(
         tuple((change.start_s, change.end_s) for change in changes),
         notes_out_of_reach(performance.problems(performer.player.id)),
         danced_feet(performance, performer.player),
+        # A VRM animation has names of its own.
+        FaceOptions(parts=request.face.parts) if kind.humanoid else request.face,
     )
     done = 1.0 - _MEASURES_WORK / _work(request.formats)
     return judge.measure(

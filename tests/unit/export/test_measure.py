@@ -10,6 +10,14 @@ import numpy as np
 import pytest
 
 from app.export.character import character_scene
+from app.export.face_curves import (
+    CURVE_NAMES,
+    DEFAULT_FACE,
+    CurveNames,
+    FaceOptions,
+    with_curve_names,
+    written_weights,
+)
 from app.export.instrument import instrument_scene
 from app.export.measure import PlayerJudge, PlayerMeasurement, greatest_correlations
 from app.formats.scene import Scene
@@ -40,8 +48,10 @@ class Case:
         self.player_scene = character_scene(self.character, motion, "x", "test")
         self.held_scene = instrument_scene(self.instrument, self.performer.model, motion, "x", "test")
 
-    def measure(self, player_scene: Scene | None = None, held_scene: Scene | None = None) -> PlayerMeasurement:
-        judge = PlayerJudge(self.performer, self.performance.plan(self.player))
+    def measure(
+        self, player_scene: Scene | None = None, held_scene: Scene | None = None, face: FaceOptions = DEFAULT_FACE
+    ) -> PlayerMeasurement:
+        judge = PlayerJudge(self.performer, self.performance.plan(self.player), face=face)
         return judge.measure(player_scene or self.player_scene, held_scene or self.held_scene, self.span.first_frame_s)
 
 
@@ -150,6 +160,24 @@ def test_a_breath_without_a_jaw_is_missed(case: Case) -> None:
     assert after.measures.breaths.jaw_open == 0
     assert after.measures.breaths.shown == 0
     assert after.measures.breaths.torso_back == before.torso_back
+
+
+@pytest.mark.parametrize("names", CURVE_NAMES)
+def test_breaths_are_seen_by_any_names_of_the_curves(case: Case, names: CurveNames) -> None:
+    before = case.measure().measures.breaths
+    assert before.shown == before.planned > 0
+    renamed = case.measure(with_curve_names(case.player_scene, names), face=FaceOptions(names))
+    assert renamed.measures.breaths == before
+
+
+def test_a_mouth_that_is_left_out_of_a_file_is_not_judged(case: Case) -> None:
+    before = case.measure().measures.breaths
+    clip = case.player_scene.clip
+    brows = replace(clip, morph_weights=written_weights(clip.morph_weights, ("brows",)))
+    after = case.measure(replace(case.player_scene, clip=brows), face=FaceOptions(parts=("brows",))).measures
+    assert after.breaths.jaw_open is None
+    assert after.breaths.shown == after.breaths.torso_back == before.planned
+    assert after.lips.frames == after.upper_lip_in_breaths.frames == 0
 
 
 def test_sway_of_twins_and_of_strangers() -> None:

@@ -121,5 +121,14 @@ def test_the_table_marks_what_is_beyond() -> None:
     assert "10/10" in text
 
 
+def test_the_table_says_that_a_mouth_without_curves_is_not_judged() -> None:
+    def said(jaw_open: int | None) -> bool:
+        found = report(player(measures(breaths=BreathMeasure(3, jaw_open, 3, 3))))
+        return "curves of the mouth are left out" in "\n".join(summary(found, Path("out")))
+
+    assert said(None)
+    assert not said(3)
+
+
 def test_columns_stand_below_each_other() -> None:
     assert columns([("a", "bb"), ("ccc", "d")]) == ["a    bb", "ccc   d"]
