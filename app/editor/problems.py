@@ -21,6 +21,7 @@ _VIEWS: Final[dict[str, View]] = {
     "character.no_hand": "hands",
     "character.no_lips": "mouth",
     "character.touches_missed": "hands",
+    "character.instrument_hidden": "hands",
     "choreography": "ensemble",
     "contact": "hands",
     "contact.foot_off": "feet",

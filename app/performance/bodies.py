@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from functools import cache, lru_cache
 
 from app.arrays import FloatArray
-from app.errors import FileError, MapError, Progress, UsageError, shortened
+from app.errors import FileError, MapError, Message, Progress, UsageError, shortened
 from app.identity_cache import IdentityCache
 from app.motion.contacts.ready_player import put_aside_transform
 from app.project.performers import Dancer, Player
@@ -20,6 +20,7 @@ from app.rig.grip.fitting.fit_terms import no_progress
 from app.rig.grip.fitting.fitted_instrument import FittedInstrument, fitted_to_body
 from app.rig.grip.fitting.grip_files import bundled_path, hold_for, own_hold
 from app.rig.grip.grip_pose import GripPose
+from app.rig.grip.visible_share import hidden_message
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
 from app.rig.people.bundled_people import hands_id
@@ -34,6 +35,7 @@ _MODELS: IdentityCache[InstrumentModel] = IdentityCache(128)
 """Cache of instrument models, larger than the number of instruments, so that no model is read again at every edit."""
 _HOLDS: IdentityCache[GripPose] = IdentityCache(256)
 _STRAINED: IdentityCache[bool] = IdentityCache(512)
+_HIDDEN: IdentityCache[Message | None] = IdentityCache(256)
 _HELD: set[tuple[str, int, str, int]] = set()
 """Pairs of character and instrument, by id and revision, whose grips are computed."""
 _CARRIED: IdentityCache[InstrumentMap] = IdentityCache(256)
@@ -118,6 +120,15 @@ def _hold(
         from app.rig.grip.fitting.same_hands import with_own_arms  # heavy, like a fit
 
         return with_own_arms(fitted, character, model, instrument, body)
+
+
+def hidden_on(player: Player, instrument: InstrumentMap) -> Message | None:
+    """Return a warning about hands and head that hide most of a fitted instrument; None if enough of it is in sight.
+
+    Cached for each grip, which is computed if it is not known.
+    """
+    character, model = character_of(player), model_of(instrument)
+    return _HIDDEN.step(hidden_message, character, model, instrument, body_of(player), hold_of(player, instrument))
 
 
 def is_strained(character: Character, instrument: InstrumentMap) -> bool:

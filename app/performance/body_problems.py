@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 from app.contacts.missed_contacts import missed_message
 from app.contacts.reach import Holding, Reached, hand_reach
 from app.errors import AppError, Message
-from app.performance.bodies import body_of, character_of, hold_of, is_held, is_strained, suited_to
+from app.performance.bodies import body_of, character_of, hidden_on, hold_of, is_held, is_strained, suited_to
 from app.plan.model import FingeringEvent, Problem
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
@@ -64,11 +64,11 @@ def body_problems(
             lacking = (*lacking, Message("character.not_cast", {}))
         if waiting:
             return BodyProblems((*lacking, Message("character.hold_waiting", {})))
-        missed = missed_message(hold_of(player, held)) if known else None
+        found = (missed_message(hold_of(player, held)), hidden_on(player, held)) if known else ()
         revision = character_revision(player.character_id)
         given = {"instrument": held, "revision": revision, "fingerings": fingerings}
         unreached = runs.begin(REACH, player.id, player=_posed(player), **given).of(_reached).problems
-        return BodyProblems(lacking if missed is None else (*lacking, missed), unreached)
+        return BodyProblems((*lacking, *(one for one in found if one is not None)), unreached)
     except AppError as error:
         # A model or character that cannot be read is this player's problem; the others play on.
         return BodyProblems((error.message,), unseen=error.message)

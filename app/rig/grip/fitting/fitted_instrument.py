@@ -12,12 +12,13 @@ from app.arrays import FloatArray
 from app.errors import Message
 from app.rig import quaternion
 from app.rig.characters.landmarks import JAW_MORPHS
-from app.rig.grip.body_size import arm_m, arm_size, hand_size
+from app.rig.grip.body_size import arm_m, arm_size, hand_size, sized_model
 from app.rig.grip.carriage import Upright, upright
 from app.rig.grip.fitting.grip_files import usual_wrists
 from app.rig.grip.fitting.hand_problem import seed_turn
 from app.rig.grip.fitting.touch_targets import travel
 from app.rig.grip.lips import fit_lips
+from app.rig.grip.visible_share import LEAST_IN_SIGHT, visible_share
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import forward, rest_positions
@@ -46,6 +47,8 @@ default.
 """
 SAME = (0.95, 1.06)
 """Sizes of hands and arms relative to an adult's that use the adult's instrument."""
+IN_SIGHT_STEP = 0.1
+"""Step between sizes tried for hands so thick that they hide a smaller instrument."""
 STEP = 0.01
 """Step between tried sizes of an instrument."""
 BENDS = 0.5
@@ -70,8 +73,12 @@ def fitted_to_body(
         Loads the map's model; called only if a hand's place on it is not known from an adult's grip.
     """
     held, reported = _touched(character, instrument)
-    held = _carried(character, held, body, model)
-    if held.size != 1.0:
+    reached = _carried(character, held, body, model)
+    held = _in_sight(character, reached, body, model)
+    if held is not reached:
+        sizes = {"percent": round(100.0 * held.size), "smaller": round(100.0 * reached.size)}
+        reported = (Message("character.instrument_in_sight", {**sizes}), *reported)
+    elif held.size != 1.0:
         reported = (Message("character.instrument_size", {"percent": round(100.0 * held.size)}), *reported)
     return FittedInstrument(held, reported)
 
@@ -197,6 +204,39 @@ def _carried(
     return scaled(found, round(best[1], 2))
 
 
+def _in_sight(
+    character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]
+) -> InstrumentMap:
+    """Return the instrument's map, larger if hands that do not bend would hide most of it: as small as leaves enough in
+    sight, else of the size that leaves most.
+
+    Arms may then be too short, which is reported; an instrument inside the hands is not seen at all.
+    """
+    sides = {seed.hand for seed in instrument.hands}
+    if not any(not _bends(character, side, finger) for side in sides for finger in FINGERS):
+        return instrument
+    whole, shape, lips = scaled(instrument, 1.0 / instrument.size), model(), fit_lips(character, instrument, body)
+    places = {
+        seed.hand: (*_palm_place(character, whole, model, seed), _palm_m(character, seed.hand)) for seed in whole.hands
+    }
+
+    def seen(size: float) -> float:
+        wrists = {
+            side: (size * place_m - quaternion.rotate(turn, palm_m), turn)
+            for side, (place_m, turn, palm_m) in places.items()
+        }
+        return visible_share(character, sized_model(shape, size), scaled(whole, size), body, lips, wrists, {}).least
+
+    best, most = instrument.size, seen(instrument.size)
+    for size in np.arange(instrument.size + IN_SIGHT_STEP, instrument.hold.size_range[1], IN_SIGHT_STEP):
+        if most >= LEAST_IN_SIGHT:
+            break
+        share = seen(round(float(size), 2))
+        if share > most:
+            best, most = round(float(size), 2), share
+    return instrument if best == instrument.size else scaled(whole, best)
+
+
 def _hands(character: Character) -> float:
     """Return the size of the hands relative to an adult's. For hands that were added and are invisible, the size of the
     arms.
@@ -244,16 +284,7 @@ def _asked(
     back = quaternion.conjugate(stand.instrument_rotation)
     shoulder_m = quaternion.rotate(back, stand.joints_m[skeleton.index(f"{side}UpperArm")] - mouth_m)
     palm_m = _palm_m(character, side)
-    known = usual_wrists(instrument.id).get(side)
-    if known is None:
-        nodes = model()
-        place_m, turn = (
-            nodes.node_positions_m[nodes.node_names.index(seed.node)] + seed.palm_position_m,
-            seed_turn(seed),
-        )
-    else:
-        wrist_m, turn = known
-        place_m = wrist_m + quaternion.rotate(turn, palm_m / _hands(character))
+    place_m, turn = _palm_place(character, instrument, model, seed)
     carrier = next((control for control in instrument.controls if control.node == seed.node), None)
     ways_m = np.zeros((2, 3)) if carrier is None else np.stack([np.zeros(3), travel(carrier)])
     asked = np.zeros(len(sizes))
@@ -261,6 +292,22 @@ def _asked(
         wrists_m = np.multiply.outer(sizes, place_m - rim_m + way_m) - quaternion.rotate(turn, palm_m)
         asked = np.maximum(asked, np.linalg.norm(wrists_m - shoulder_m, axis=1) / (share * arm_m(skeleton, side)))
     return asked
+
+
+def _palm_place(
+    character: Character, instrument: InstrumentMap, model: Callable[[], InstrumentModel], seed: HandSeed
+) -> tuple[FloatArray, FloatArray]:
+    """Return the middle (3,) of a palm on an instrument of the usual size, and the rotation (4,) of its wrist."""
+    known = usual_wrists(instrument.id).get(seed.hand)
+    if known is None:
+        nodes = model()
+        return (
+            nodes.node_positions_m[nodes.node_names.index(seed.node)] + seed.palm_position_m,
+            seed_turn(seed),
+        )
+    wrist_m, turn = known
+    palm_m = _palm_m(character, seed.hand)
+    return wrist_m + quaternion.rotate(turn, palm_m / _hands(character)), turn
 
 
 def _palm_m(character: Character, side: Hand) -> FloatArray:

@@ -117,6 +117,18 @@ def test_fingers_that_do_not_bend_guide_the_hand() -> None:
     assert found.instrument.controls is MAPS["flute"].controls
 
 
+def test_mittens_that_would_hide_an_instrument_get_a_larger_one() -> None:
+    usual = odd_body("mitten")
+    body = of_proportions(usual, Proportions(arm=0.5, hand=1.2, thick=3.5), "thick")
+    found = suit(
+        replace(body, landmarks=found_landmarks(body.skeleton, body.joint_from_mesh, body.meshes)), "clarinet_Bb"
+    )
+    size = found.reported[0].arguments
+    assert found.reported[0].id == "character.instrument_in_sight"
+    assert size["percent"] == round(100 * found.instrument.size) >= 90
+    assert 60 <= size["smaller"] <= 75
+
+
 def test_a_hand_of_four_fingers_is_said_to_lack_one_and_keeps_the_others() -> None:
     whole = odd_body("unmarked")
     names, table = whole.skeleton.names, np.arange(len(whole.skeleton.names), dtype=np.int32)
