@@ -47,6 +47,8 @@ class BodyMotion:
         Degree to which the head stays in place while the trunk turns for a far hand, 0..1.
     protraction_rad : dict of str to array
         Forward motion of each shoulder, by side, as required by contacts.
+    elbow_along_rad : dict of str to array
+        Forward motion of each shoulder that its elbow goes along with, by side; empty: that of ``protraction_rad``.
     elbow_out_rad : dict of str to array
         Turn of each elbow out of the trunk's way, by side, as required by contacts; empty: none.
     elbow_held_rad : dict of str to array
@@ -88,6 +90,7 @@ class BodyMotion:
     steadied: FloatArray
     bell_held_rad: dict[str, FloatArray] = field(default_factory=dict)
     protraction_rad: dict[str, FloatArray] = field(default_factory=dict)
+    elbow_along_rad: dict[str, FloatArray] = field(default_factory=dict)
     elbow_out_rad: dict[str, FloatArray] = field(default_factory=dict)
     elbow_held_rad: dict[str, FloatArray] = field(default_factory=dict)
     hips_danced: dict[str, FloatArray] = field(default_factory=dict)

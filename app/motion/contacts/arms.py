@@ -24,7 +24,7 @@ Z_AXIS = np.array([0.0, 0.0, 1.0])
 
 ELBOW_OUT = 1.8
 """Angle by which the elbow moves outwards, as a multiple of the angle by which the shoulder moves forward, which keeps
-the wrist straighter.
+the wrist straighter. It moves earlier and more slowly than the shoulder.
 """
 
 
@@ -147,7 +147,8 @@ def _solve_arm(
     sign = 1.0 if side == "left" else -1.0
     held = shoulder(skeleton, side, body, motion)
     root_m = held.joint_m
-    out = sign * np.tan(motion.elbows_rad + ELBOW_OUT * motion.protraction_rad[side])
+    along_rad = motion.elbow_along_rad.get(side, motion.protraction_rad[side])
+    out = sign * np.tan(motion.elbows_rad + ELBOW_OUT * along_rad)
     aside, up, ahead = hand.elbow_direction
     pole = quaternion.rotate(with_chest, quaternion.columns(aside + out, up, ahead))
     line = target_m - root_m

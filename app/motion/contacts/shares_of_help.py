@@ -17,10 +17,11 @@ HELP_EASE_S = 0.10
 """Seconds before a hand moves far out at which trunk and shoulders begin to help, and after its return at which they
 end.
 """
-SHOULDER_EASE_S = 0.05
-"""Same time in seconds for the shoulder, which is lighter."""
+SHOULDER_EASE_S = 0.08
+"""Same time in seconds for the shoulder, which is lighter; in less it would turn the arm faster than people do."""
 OUT_EASE_S = 0.28
-"""Seconds before an elbow has to be clear of the trunk at which it begins to move, and after at which it is back."""
+"""Seconds before an elbow has to be clear of the trunk, or out beside a shoulder that reaches forward, at which it
+begins to move, and after at which it is back: its way is long, and in less time it would be flung."""
 ROOM_EASE_S = 0.06
 """Seconds in which the help recedes for a hand that comes near."""
 HELP_EASE_RAD = 0.06
@@ -64,6 +65,16 @@ def smoothed_outward(outward: Outward, half: int) -> dict[str, FloatArray]:
     for side, needed_rad in outward.needed_rad.items():
         turns_rad[side] = with_room(_eased(needed_rad, half), _held_back([outward.most_rad[side]], half))
     return turns_rad
+
+
+def elbows_along(parts: list[Help], half: int) -> dict[str, FloatArray]:
+    """Return the forward motion (F,) of each shoulder that its elbow goes along with, by side, in radians: as much as
+    the shoulder needs by then, early and slowly over ``half`` frames before and after.
+    """
+    along_rad: dict[str, FloatArray] = {}
+    for side in parts[0].protraction_rad:
+        along_rad[side] = _eased(np.concatenate([part.protraction_rad[side] for part in parts]), half)
+    return along_rad
 
 
 def turned_to_far_hand(motion: BodyMotion, turn: FloatArray, aside_per_turn: float) -> BodyMotion:

@@ -24,6 +24,7 @@ from app.motion.contacts.instrument_put_aside import AsidePlace
 from app.motion.contacts.shares_of_help import (
     HELP_EASE_S,
     OUT_EASE_S,
+    elbows_along,
     leaned_to_far_hand,
     smoothed_help,
     smoothed_outward,
@@ -124,7 +125,8 @@ class PlayerBody(StillPlayer):
 
 def padding_frames(fps: Fraction) -> int:
     """Number of additional frames that `solve` needs before and after the requested ones."""
-    return 2 * math.ceil(HELP_EASE_S * fps) + 2 * math.ceil(OUT_EASE_S * fps) + _seen_every(fps)
+    smoothed = max(math.ceil(HELP_EASE_S * fps), math.ceil(OUT_EASE_S * fps))
+    return 2 * smoothed + 2 * math.ceil(OUT_EASE_S * fps) + _seen_every(fps)
 
 
 def _seen_every(fps: Fraction) -> int:
@@ -152,7 +154,8 @@ def solve(
     uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
     needed = [_needs(player, curves[part], upper) for part, upper in zip(_parts(len(curves)), uppers, strict=True)]
     given = smoothed_help(needed, math.ceil(HELP_EASE_S * fps))
-    curves = replace(curves, body=body_with_help(player, curves.body, given))
+    along_rad = elbows_along(needed, math.ceil(OUT_EASE_S * fps))
+    curves = replace(curves, body=replace(body_with_help(player, curves.body, given), elbow_along_rad=along_rad))
     if given.moves_trunk:
         uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
     if player.shape is not None:
