@@ -22,6 +22,7 @@ _VIEWS: Final[dict[str, View]] = {
     "character.no_lips": "mouth",
     "character.touches_missed": "hands",
     "character.instrument_hidden": "hands",
+    "character.instrument_too_small": "hands",
     "choreography": "ensemble",
     "contact": "hands",
     "contact.foot_off": "feet",

@@ -66,10 +66,11 @@ def hidden_message(
     share = visible_share(character, model, instrument, body, grip.lips, wrists, fingers)
     if share.least >= LEAST_IN_SIGHT:
         return None
-    return Message(
-        "character.instrument_hidden",
-        {"front": round(100.0 * share.front), "side": round(100.0 * share.side)},
-    )
+    shares = {"front": round(100.0 * share.front), "side": round(100.0 * share.side)}
+    largest = instrument.hold.size_range[1]
+    if instrument.size < largest:
+        return Message("character.instrument_hidden", {**shares})
+    return Message("character.instrument_too_small", {**shares, "percent": round(100.0 * largest)})
 
 
 def visible_share(

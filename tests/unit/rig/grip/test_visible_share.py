@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from app.rig import quaternion
 from app.rig.characters.character_library import character_named
-from app.rig.grip.body_size import sized_model
+from app.rig.grip.body_size import sized_character, sized_model
 from app.rig.grip.fitting.grip_files import hold_for, usual_wrists
 from app.rig.grip.lips import fit_lips
 from app.rig.grip.visible_share import LEAST_IN_SIGHT, VisibleShare, hidden_message, visible_share
@@ -52,3 +54,15 @@ def test_hands_far_away_hide_nothing() -> None:
     lips = fit_lips(adult, TRUMPET, body)
     share = visible_share(adult, bundled_instrument(TRUMPET), TRUMPET, body, lips, far, {})
     assert share == pytest.approx((1.0, 1.0), abs=0.02)
+
+
+def test_a_giant_whose_hands_hide_the_largest_instrument_is_asked_for_less_height() -> None:
+    adult, model, body = character_named("man_adult"), bundled_instrument(TRUMPET), load_body()
+    grip = hold_for(adult, model, TRUMPET, body)
+    giant, found = sized_character(adult, 3.0), []
+    for size in (1.0, TRUMPET.hold.size_range[1]):
+        instrument, shape = scaled(TRUMPET, size), sized_model(model, size)
+        message = hidden_message(giant, shape, instrument, body, replace(grip, lips=fit_lips(giant, instrument, body)))
+        assert message is not None
+        found.append(message.id)
+    assert found == ["character.instrument_hidden", "character.instrument_too_small"]
