@@ -22,6 +22,7 @@ from app.evaluation.excerpts import Excerpt
 from app.evaluation.imported_videos import require_covered
 from app.export.bind_pose import rest_transforms
 from app.export.file_names import REPORT, figure_stems
+from app.export.report import EarlierFiles
 from app.export.target import normalised_target
 from app.formats.bvh.clip import BvhClip
 from app.formats.files import cannot_read, read_file
@@ -48,9 +49,25 @@ _REPORT_BYTES: Final = 64_000_000
 
 
 class _Report(msgspec.Struct, frozen=True):
-    """Fields read from the report beside exported files."""
+    """Fields read from the report beside exported files: the time of their first frame, and files of earlier exports
+    with theirs.
+    """
 
     first_frame_s: float
+    earlier: tuple[EarlierFiles, ...] = ()
+
+    def start_s(self, file: Path) -> float:
+        """Return the time in seconds of the first frame of a file."""
+        found = (one.first_frame_s for one in self.earlier if _listed(file, one))
+        return next(found, self.first_frame_s)
+
+    def is_earlier(self, file: Path) -> bool:
+        """Return whether a file is of an earlier export than the report."""
+        return any(_listed(file, one) for one in self.earlier)
+
+
+def _listed(file: Path, earlier: EarlierFiles) -> bool:
+    return file.name.casefold() in (name.casefold() for name in earlier.files)
 
 
 def holds_motion(path: str | os.PathLike[str]) -> bool:
@@ -188,7 +205,8 @@ def read_keyframes(
     folder = os.path.isdir(path)
     requested = [body.id for body in project.bodies if not player_ids or body.id in player_ids]
     stems = {id: stem["character"] for id, stem in figure_stems(performance).items() if "character" in stem}
-    files = _in_folder(path, stems) if folder else _of_one(path, stems, requested)
+    report = None if offset_s is not None else _report(path if folder else path.parent)
+    files = _in_folder(path, stems, report) if folder else _of_one(path, stems, requested)
     names = {body.id: body.name for body in project.bodies}
     if not files:
         raise FileError("evaluate.keyframes_player", file=str(path), players=", ".join(stems[id] for id in names))
@@ -197,7 +215,7 @@ def read_keyframes(
             raise FileError(
                 "evaluate.keyframes_lacking", file=str(path), player=names[player_id], name=f"{stems[player_id]}.bvh"
             )
-    start_s = _start_s(performance, path if folder else path.parent) if offset_s is None else offset_s
+    usual_s = performance.time_frame.first_frame_s if offset_s is None else offset_s
     found = dict[str, PlayerKeyframes]()
     for player_id, file in files.items():
         musician = project.player(player_id)
@@ -205,14 +223,17 @@ def read_keyframes(
         clip = _read(file)
         rotations, hips_m = _on_skeleton(clip, file, performer)
         played = project.played_by(musician)
+        start_s = usual_s if report is None else report.start_s(file)
         for one in played:
             held = performer if one.id == player_id else performer_of(performance, one)
             found[one.id] = PlayerKeyframes(file, start_s, float(clip.fps), rotations, hips_m, held, len(played) > 1)
     return Keyframes(found)
 
 
-def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
-    """Find the motion file of each player in a folder, by player id; players with no file or several are omitted."""
+def _in_folder(folder: Path, stems: Mapping[str, str], report: _Report | None) -> dict[str, Path]:
+    """Find the motion file of each player in a folder, by player id; players without a file are omitted. Files of the
+    last export are preferred to those that an earlier one left.
+    """
     try:
         there = {path.name.casefold(): path for path in sorted(folder.iterdir())}
     except OSError as error:
@@ -221,7 +242,7 @@ def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
     for player_id, stem in stems.items():
         paths = [there[name] for suffix in SUFFIXES if (name := f"{stem}{suffix}".casefold()) in there]
         if paths:
-            found[player_id] = paths[0]
+            found[player_id] = min(paths, key=lambda one: report is not None and report.is_earlier(one))
     return found
 
 
@@ -234,12 +255,12 @@ def _of_one(path: Path, stems: Mapping[str, str], requested: Sequence[str]) -> d
     return {owners[0]: path} if owners else {}
 
 
-def _start_s(performance: Performance, folder: Path) -> float:
+def _report(folder: Path) -> _Report | None:
+    """Return the report of the exported files in a folder; None if there is none."""
     report = folder / REPORT
-    if os.path.isfile(report):
-        content = read_file(report, _REPORT_BYTES)
-        return decode_json(content, _Report, str(report), "evaluate.keyframes_report").first_frame_s
-    return performance.time_frame.first_frame_s
+    if not os.path.isfile(report):
+        return None
+    return decode_json(read_file(report, _REPORT_BYTES), _Report, str(report), "evaluate.keyframes_report")
 
 
 def _read(path: Path) -> BvhClip:

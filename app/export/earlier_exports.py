@@ -1,15 +1,20 @@
-"""Remarks about earlier exports in a folder: with other bars, or of the same music under another name."""
+"""Earlier exports in a folder: their files that stay there, and remarks about other bars or the same music under
+another name.
+"""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Collection
 from pathlib import Path
 from typing import Final
 
 import msgspec
 
+from app.encoding import shown
 from app.errors import FileError, Message
 from app.export.file_names import REPORT
+from app.export.report import EarlierFiles
 from app.export.unreal.layout import DESCRIPTION, SOURCES, Layout
 from app.formats.files import read_file
 from app.formats.json_data import decode_json
@@ -20,10 +25,38 @@ MOST_PIECES: Final = 64
 """Greatest number of pieces of an Unreal project that are examined."""
 
 
+MOST_NAMED: Final = 5
+"""Greatest number of files that a remark names."""
+
+
+class _WithFiles(msgspec.Struct, frozen=True):
+    """Fields of a performer or the stage in an earlier report: file names by content or format."""
+
+    files: dict[str, str] = {}
+    doubles: tuple[_WithFiles, ...] = ()
+
+
 class _EarlierReport(msgspec.Struct, frozen=True):
-    """The exported bars in the ``report.json`` of an earlier export; None for the whole piece."""
+    """Fields of the ``report.json`` of an earlier export: bars (None for the whole piece), time of the first frame,
+    and files.
+    """
 
     bars: tuple[int, int] | None
+    first_frame_s: float = 0.0
+    players: tuple[_WithFiles, ...] = ()
+    dancers: tuple[_WithFiles, ...] = ()
+    stage: _WithFiles | None = None
+    sound: str | None = None
+    earlier: tuple[EarlierFiles, ...] = ()
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Names of the animation and sound files that the export wrote, in order."""
+        listed = [*self.players, *(double for player in self.players for double in player.doubles), *self.dancers]
+        if self.stage is not None:
+            listed.append(self.stage)
+        names = [name for one in listed for name in one.files.values()]
+        return (*names, *([] if self.sound is None else [self.sound]))
 
 
 class _Named(msgspec.Struct, frozen=True):
@@ -52,15 +85,52 @@ class _EarlierPerformance(msgspec.Struct, frozen=True):
     metres: tuple[_EarlierMetre, ...]
 
 
+def files_that_stay(folder: Path, written: Collection[str]) -> tuple[EarlierFiles, ...]:
+    """Return the files in a folder that the report of an earlier export lists and that are not among the names
+    ``written`` now, by export from the newest to the oldest.
+    """
+    report = _report_in(folder)
+    if report is None:
+        return ()
+    seen = {name.casefold() for name in written}
+    found: list[EarlierFiles] = []
+    for one in (EarlierFiles(report.bars, report.first_frame_s, report.files), *report.earlier):
+        names = [name for name in one.files if name.casefold() not in seen and _is_file(folder, name)]
+        seen.update(name.casefold() for name in names)
+        if names:
+            found.append(msgspec.structs.replace(one, files=tuple(names)))
+    return tuple(found)
+
+
+def remark_on_files_that_stay(folder: Path, written: Collection[str]) -> Message | None:
+    """Return a remark that names the files of `files_that_stay`; None if there are none."""
+    names = [shown(name) for one in files_that_stay(folder, written) for name in one.files]
+    listed = ", ".join([*names[:MOST_NAMED], *(["…"] if len(names) > MOST_NAMED else [])])
+    return Message("export.earlier_files_stay", {"count": len(names), "files": listed}) if names else None
+
+
+def _is_file(folder: Path, name: str) -> bool:
+    # The names come from a file: only those within the folder count.
+    return Path(name).name == name and os.path.isfile(folder / name)
+
+
+def _report_in(folder: Path) -> _EarlierReport | None:
+    """Return the report of an earlier export in a folder; None if there is none of this program."""
+    try:
+        return decode_json(read_file(folder / REPORT, MOST_BYTES), _EarlierReport, REPORT)
+    except (OSError, FileError):
+        # No report, or not one of ours: nothing is known of the files there.
+        return None
+
+
 def other_bars(folder: Path, bars: tuple[int, int] | None) -> Message | None:
     """Return a remark if the earlier export in a folder has other bars than ``bars`` (first and last; None for the
     whole piece); None if there is nothing to remark.
     """
-    try:
-        there = decode_json(read_file(folder / REPORT, MOST_BYTES), _EarlierReport, REPORT).bars
-    except (OSError, FileError):
-        # No report, or not one of ours: nothing is known of the files there.
+    report = _report_in(folder)
+    if report is None:
         return None
+    there = report.bars
     if there == bars:
         return None
     if there is None or bars is None:

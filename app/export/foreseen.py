@@ -8,7 +8,7 @@ from pathlib import Path
 
 from app.encoding import shown
 from app.errors import Message
-from app.export.earlier_exports import other_bars
+from app.export.earlier_exports import other_bars, remark_on_files_that_stay
 from app.export.file_names import REPORT, file_names, sound_name, stage_names
 from app.export.formats import Format, requested
 from app.export.unreal.project import UnrealProject, find_project
@@ -29,8 +29,8 @@ class Foreseen:
     kept : tuple of Message
         Messages about existing files that will be kept.
     remarks : tuple of Message
-        Remarks about an earlier export (with other bars, or of the same music under another name), and about formats
-        whose files will have no face.
+        Remarks about an earlier export (with other bars, of the same music under another name, or files that stay), and
+        about formats whose files will have no face.
     project : UnrealProject or None
         The Unreal project; None for an export into a folder.
     """
@@ -113,7 +113,8 @@ def foresee_folder(
     if stage:
         written += stage_names(performance, formats, source).values()
     replaced = tuple(name for name in written if os.path.exists(folder / name))
-    remarks = [other_bars(folder, bars) if replaced else None, _without_face(formats) if motion_only else None]
+    remarks = [other_bars(folder, bars) if replaced else None, remark_on_files_that_stay(folder, written)]
+    remarks.append(_without_face(formats) if motion_only else None)
     return Foreseen(len(written), replaced, remarks=tuple(remark for remark in remarks if remark is not None))
 
 

@@ -243,6 +243,16 @@ class LeftOutReport(msgspec.Struct, frozen=True):
     reason: str
 
 
+class EarlierFiles(msgspec.Struct, frozen=True):
+    """Files of an earlier export that were still in the folder, with the bars (None for the whole piece) and the time
+    in seconds of the first frame of that export.
+    """
+
+    bars: tuple[int, int] | None
+    first_frame_s: float
+    files: tuple[str, ...]
+
+
 class Report(msgspec.Struct, frozen=True):
     """Contents of ``report.json``. Frame n is at ``first_frame_s + n / fps`` of the piece, so its sound starts at
     ``-first_frame_s`` of the animation. ``fps_exact`` is the rate as a fraction (``30000/1001``).
@@ -274,17 +284,25 @@ class Report(msgspec.Struct, frozen=True):
     """Image files used by FBX and USD files, with their folder."""
     ignored_problems: int = 0
     """Number of problems that the project ignores and that are not among the warnings."""
+    earlier: tuple[EarlierFiles, ...] = ()
+    """Files of earlier exports in the same folder that this export did not write."""
 
     @property
-    def file_count(self) -> int:
-        """Number of files written, including the report."""
+    def names(self) -> tuple[str, ...]:
+        """Names of the files written, with their folder for textures, without the report."""
         files = [
             *(player.files for player in self.players),
             *(double.files for player in self.players for double in player.doubles),
             *(dancer.files for dancer in self.dancers),
         ]
-        stage = 0 if self.stage is None else len(self.stage.files)
-        return sum(map(len, files)) + stage + len(self.textures) + (self.sound is not None) + 1
+        stage = () if self.stage is None else tuple(self.stage.files.values())
+        sound = () if self.sound is None else (self.sound,)
+        return (*(name for one in files for name in one.values()), *stage, *self.textures, *sound)
+
+    @property
+    def file_count(self) -> int:
+        """Number of files written, including the report."""
+        return len(self.names) + 1
 
 
 def encode_report(report: Report) -> bytes:

@@ -12,6 +12,7 @@ import msgspec
 import numpy as np
 
 from app.errors import Message, StopRequested, raise_if_stopped
+from app.export.earlier_exports import files_that_stay
 from app.export.file_names import REPORT, sound_name, stage_names
 from app.export.folder import files_into
 from app.export.measure import greatest_correlations
@@ -185,7 +186,7 @@ def _report(
     def later(remark: Message) -> bool:
         return request.bars is not None and begins_after(remark, request.bars[1])
 
-    return Report(
+    report = Report(
         version=request.creator,
         source=request.source,
         first_frame_s=span.first_frame_s,
@@ -211,3 +212,4 @@ def _report(
         textures=textures,
         ignored_problems=ignored,
     )
+    return msgspec.structs.replace(report, earlier=files_that_stay(request.folder, report.names))

@@ -172,6 +172,16 @@ def test_files_that_are_not_the_players_are_refused(performance: Performance, ex
         read_keyframes(performance, tmp_path / "take.bvh", [trumpet])
 
 
+def test_a_file_of_an_earlier_export_keeps_its_place(performance: Performance, exported: Path, tmp_path: Path) -> None:
+    trumpet = next(player.id for player in performance.project.players if player.name == "Trumpet 1")
+    shutil.copy(exported / "Trumpet 1.bvh", tmp_path)
+    (tmp_path / "report.json").write_text(
+        '{"first_frame_s": 20.0, "earlier": [{"bars": [9, 11], "first_frame_s": 0.5, "files": ["trumpet 1.BVH"]}]}'
+    )
+    assert read_keyframes(performance, tmp_path, [trumpet]).covered_s[0] == 0.5
+    assert read_keyframes(performance, tmp_path, [trumpet], 3.0).covered_s[0] == 3.0
+
+
 def test_videos_are_no_motion(tmp_path: Path) -> None:
     assert not holds_motion(tmp_path / "film.mp4")
     assert holds_motion(tmp_path / "Take.BVH")
