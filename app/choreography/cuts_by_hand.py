@@ -113,7 +113,11 @@ def removed_bound(cuts: Cuts, bound: int) -> Cuts:
 
 
 def automatic_accent(cuts: Cuts, accent: int, curve_rad_s2: FloatArray) -> Cuts:
-    """Return the cuts with the accent of a motion at the greatest acceleration."""
+    """Return the cuts of a clip with one accent moved to its automatic frame.
+
+    ``accent`` is the current frame of the accent of a motion; its new frame is that of the greatest angular
+    acceleration (a value for each frame of the clip) within the motion.
+    """
     return tuple(
         replace(cut, accent=_accent(curve_rad_s2, cut.start, cut.end)) if cut.accent == accent else cut for cut in cuts
     )

@@ -66,7 +66,8 @@ class Eye:
         self._shift_m = np.zeros(3)
 
     def place(self, shift_m: FloatArray) -> None:
-        """Record that the user has moved the camera, with a shift (3,) for a close-up."""
+        """Record that the user has moved the camera; ``shift_m`` (3,) is the distance in metres of a close-up's centre
+        from the followed object, zero in other views."""
         self.touched, self._shift_m = True, shift_m
 
     def jump(self, camera: Camera) -> None:

@@ -30,17 +30,27 @@ def opened(path: Path) -> Project:
 def found(*labels: str) -> dict[str, Any]:
     sources = dict.fromkeys(FACTS, "guess")
     notes = [{"pitch": 60 + index, "fingering_keys": label, "sources": sources} for index, label in enumerate(labels)]
+    # fmt: off
     player = {
         "name": "One",
         "instrument": "thing",
+        "character": "woman_adult", "character_title": "Woman", "outfit": None, "outfit_colours": {},
         "transposition_semitones": 0,
         "notes": notes,
         "breaths": [],
         "cues": [],
     }
+    # fmt: on
     return {
-        "duration_s": 1.0, "players": [player], "unplayed": [], "dancers": [], "left_out": [], "warnings": [],
-        "ignored_problems": 0, "ticks_per_beat": 480, "tempo": [{"bpm": 120.0}],
+        "duration_s": 1.0,
+        "players": [player],
+        "unplayed": [],
+        "dancers": [],
+        "left_out": [],
+        "warnings": [],
+        "ignored_problems": 0,
+        "ticks_per_beat": 480,
+        "tempo": [{"bpm": 120.0}],
     }  # fmt: skip
 
 

@@ -58,7 +58,8 @@ def test_inspect_lists_dancers(run: Run, tmp_path: Path) -> None:
     assert found["dancers"] == [
         {
             "name": "Ana", "choreography": str(tmp_path / "salsa.choreography"),
-            "character": danced.dancers[0].character_id,
+            "character": danced.dancers[0].character_id, "character_title": "Woman",
+            "outfit": None, "outfit_colours": {},
             "x_m": 1.5, "z_m": 3.0, "turn_deg": 90.0, "seed": 0, "delay_beats": 0.0, "mirrored": False, "source": -1,
             "size": 1.0, "weight": 0.0,
             "melody": 0.5,
