@@ -10,6 +10,7 @@ from app.cli.speech import said, sentence
 from app.cli.widths import on_left, on_right, width
 from app.contacts.bounds import GRIP_MM, TOUCH_MM, Spread
 from app.encoding import shown
+from app.export.joint_measures import BEYOND_DEG
 from app.export.measure import PlayerMeasures
 from app.export.report import (
     BONES_BOUND_MM,
@@ -19,6 +20,7 @@ from app.export.report import (
     PlayerReport,
     Report,
     failures,
+    missed_by_hold,
 )
 
 if TYPE_CHECKING:
@@ -123,13 +125,10 @@ def _judgement(report: Report) -> list[str]:
         for player in report.players:
             played += [player, *player.doubles]
         lines += ["", *columns([heads("export_report.heads"), *map(_row, played)])]
-        lines += [said("export_report.measures")]
+        lines += [said("export_report.measures", joints=BEYOND_DEG)]
         if any(one.measures is not None and one.measures.breaths.jaw_open is None for one in played):
             lines += [said("export_report.mouth_left_out")]
-        for one in played:
-            wrong = failures(one)
-            if wrong:
-                lines.append(f"! {one.name}: {', '.join(wrong)}")
+        lines += [f"! {one.name}: {', '.join(wrong)}" for one in played if (wrong := _beyond(one))]
     if any(dancer.measures is not None for dancer in report.dancers):
         lines += [
             "",
@@ -145,6 +144,16 @@ def _judgement(report: Report) -> list[str]:
             for part in report.unplayed
         ]
     return [*lines, *look_at(report.warnings, report.ignored_problems)]
+
+
+def _beyond(player: PlayerReport | DoubleReport) -> list[str]:
+    """Return texts that name all measures of a player that are beyond their bounds, each with a mark in the table or
+    without a column there.
+    """
+    wrong, held = list(failures(player)), missed_by_hold(player)
+    if player.measures is not None and not player.measures.arms.kept:
+        wrong.append("arms")
+    return [*wrong, *([said("export_report.of_hold", names=", ".join(held))] if held else [])]
 
 
 def look_at(warnings: Sequence[str], ignored: int = 0) -> list[str]:

@@ -15,7 +15,11 @@ from metadata.model import Body, JointLimits
 from metadata.skeleton_profile import SkeletonProfile
 
 _CHUNK = 512
-_BEYOND_DEG = 0.01
+BEYOND_DEG = 0.1
+"""Degrees beyond its range from which a joint counts as beyond it. A joint that turns between two angles at the edge of
+its range passes up to 0.06 degrees outside, since rotations do not add like angles; 0.1 degrees move a fingertip by
+less than 0.2 mm.
+"""
 _AXES = ("flexion", "sideways", "twist")
 
 
@@ -35,7 +39,7 @@ def measure_joints(
     joints: JointPlayback, body: Body, profile: SkeletonProfile, fps: float
 ) -> tuple[JointMeasure, JointMeasure]:
     """Return two measures: the joint angle furthest beyond its range in degrees (negative if all angles are inside, by
-    at least that much), and the angular acceleration closest to its limit.
+    at least that much) with the bound `BEYOND_DEG`, and the angular acceleration closest to its limit.
     """
     frames, limits = joints.playback.clip.frames, _limits(joints, body, profile)
     bounds = np.array([limit.acceleration_rad_s2 for limit in limits.values()])[:, None]
@@ -51,8 +55,8 @@ def measure_joints(
             angles = np.degrees(anatomical_angles(some[..., :_CHUNK], axes[rows]))
             excess = np.maximum(low[:, rows] - angles.min(axis=-1), angles.max(axis=-1) - high[:, rows])
             furthest[:, rows] = np.maximum(furthest[:, rows], excess)
-            if (excess > _BEYOND_DEG).any():
-                beyond = np.maximum(low[:, rows, None] - angles, angles - high[:, rows, None]) > _BEYOND_DEG
+            if (excess > BEYOND_DEG).any():
+                beyond = np.maximum(low[:, rows, None] - angles, angles - high[:, rows, None]) > BEYOND_DEG
                 outside += int(beyond.sum()) * (min(_CHUNK, frames - first) // angles.shape[-1])
         accelerations = angular_accelerations(turns[:, moves], fps)
         if accelerations.size:
@@ -81,7 +85,7 @@ def _furthest(
     for bone, row in zip(limits, excess_deg, strict=True):
         for name, excess in zip(_AXES, row, strict=True):
             worst = max(worst, (f"{joints.names[bone]} {name}", round(float(excess), 4)), key=lambda item: item[1])
-    return JointMeasure(worst[0], worst[1], 0.0, beyond)
+    return JointMeasure(worst[0], worst[1], BEYOND_DEG, beyond)
 
 
 def _fastest(

@@ -9,6 +9,7 @@ import msgspec
 from app.contacts.bounds import Spread, allowed_mm
 from app.export.check_skeleton import SkeletonDifference
 from app.export.formats import Format
+from app.export.joint_measures import BEYOND_DEG
 from app.export.measure import PlayerMeasures
 from app.export.reduced_keys import ROTATION_DEG
 from app.export.rig_options import DEFAULT_RIG, RigOptions
@@ -324,11 +325,12 @@ def _check_finite(value: object) -> None:
 
 
 def _allowed_beyond_deg(keys: KeyCount | None) -> float:
-    """Degrees by which a joint may be beyond its limit: with reduced keys, those a bone's rotation may be off.
+    """Degrees by which a joint may be beyond its limit: `BEYOND_DEG`, and with reduced keys those that a bone's
+    rotation may be off.
 
     A finger that rests at its limit plays to either side of it between fitted keys.
     """
-    return 0.0 if keys is None or keys.written >= keys.every else ROTATION_DEG
+    return BEYOND_DEG if keys is None or keys.written >= keys.every else ROTATION_DEG
 
 
 def failures(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
@@ -371,3 +373,18 @@ def failures(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
     ):
         failed.append("sway")
     return tuple(failed)
+
+
+def missed_by_hold(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
+    """Return the names of those distances that exceed their bounds because the player's hold does, and that `failures`
+    therefore does not list.
+    """
+    measures = player.measures
+    if measures is None:
+        return ()
+    spreads = {**measures.contacts, "penetration": measures.penetration}
+    return tuple(
+        name
+        for name, spread in spreads.items()
+        if not spread.kept and spread.max_mm <= allowed_mm(name, spread.bound_mm, player.missed)
+    )

@@ -12,6 +12,7 @@ import pytest
 from app.cli.summary import columns, summary
 from app.contacts.bounds import Spread
 from app.contacts.controls import ControlMeasure
+from app.export.arm_depths import ArmDepth
 from app.export.joint_measures import JointMeasure
 from app.export.measure import BreathMeasure, PlayerMeasures
 from app.export.report import (
@@ -77,6 +78,12 @@ def test_fitted_keys_may_be_beyond_a_joints_limit_by_as_much_as_they_may_turn_a_
     assert failures(msgspec.structs.replace(further, keys=KeyCount(10, 100))) == ("limits of x sideways",)
 
 
+def test_a_joint_may_pass_the_edge_of_its_range_by_less_than_a_tenth_of_a_degree() -> None:
+    limits = {beyond: measures(limits=JointMeasure("x sideways", beyond, 0.1, 3)) for beyond in (0.09, 0.11)}
+    assert failures(player(limits[0.09])) == ()
+    assert failures(player(limits[0.11])) == ("limits of x sideways",)
+
+
 @pytest.mark.parametrize(
     "changes",
     [
@@ -119,6 +126,20 @@ def test_the_table_marks_what_is_beyond() -> None:
     assert "tuba (3 notes): no map" in text
     assert "look here" in text
     assert "10/10" in text
+
+
+def test_every_mark_in_the_table_has_a_line() -> None:
+    found = measures(
+        contacts={"x": Spread(6.3, 6.3, 2.0, 10)},
+        penetration=Spread(12.7, 12.7, 3.0, 10),
+        arms=ArmDepth("left", 61.8, 1),
+    )
+    missed = msgspec.structs.replace(player(found), missed={"x": 7.8, "penetration": 11.4})
+    lines = summary(report(missed), Path("out"))
+    assert "6.30*" in "\n".join(lines)
+    (line,) = (line for line in lines if line.startswith("!"))
+    assert line.startswith("! Ünal 🎺: arms, as the hold")
+    assert line.endswith(": x, penetration")
 
 
 def test_the_table_says_that_a_mouth_without_curves_is_not_judged() -> None:
