@@ -198,9 +198,11 @@ def _swivel(
     target_rotation: FloatArray,
 ) -> None:
     """Rotate the arms (in place) about the line from shoulder to hand by angles (F,)."""
-    here = np.flatnonzero(turn_rad)
-    if not len(here):
+    turning = np.flatnonzero(turn_rad)
+    if not len(turning):
         return
+    # All are turned where most are: selecting them would take as long.
+    here = turning if 2 * len(turning) < len(turn_rad) else slice(None)
     bones = pose.bones[0][here], pose.bones[1][here]
     there = LimbPose(pose.upper[here], pose.lower[here], pose.end[here], pose.miss_m[here], bones)
     turn = quaternion.from_axis_angle(line[here], turn_rad[here])

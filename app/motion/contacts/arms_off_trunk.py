@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -70,12 +71,16 @@ class TrunkPose:
         rotations, positions_m = zip(*map(placed, shape.joints), strict=True)
         return cls(shape, rotations, positions_m)
 
-    def depths_m(self, frames: IndexArray, points_m: FloatArray) -> FloatArray:
-        """Return the depth (K, P) of P points (K, P, 3) in each of K frames; at least minus `BEYOND_M`."""
+    @cached_property
+    def matrices(self) -> tuple[FloatArray, ...]:
+        """Return the rotation (F, 3, 3) of each joint."""
+        return tuple(map(quaternion.to_matrix, self.rotations))
+
+    def depths_m(self, points_m: FloatArray) -> FloatArray:
+        """Return the depth (F, P) of P points (F, P, 3) in each frame; at least minus `BEYOND_M`."""
         deepest = np.full(points_m.shape[:2], -BEYOND_M)
-        for number, (rotation, position_m) in enumerate(zip(self.rotations, self.positions_m, strict=True)):
-            matrix = quaternion.to_matrix(rotation[frames])
-            local_m = np.matmul(points_m - position_m[frames, None], matrix)
+        for number, (matrix, position_m) in enumerate(zip(self.matrices, self.positions_m, strict=True)):
+            local_m = np.matmul(points_m - position_m[:, None], matrix)
             low_m = self.shape.corners_m[number]
             high_m = low_m + self.shape.sizes_m[number]
             near = ((local_m > low_m) & (local_m < high_m)).all(axis=2)
@@ -151,65 +156,118 @@ def remaining(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> R
     frames = np.arange(len(curves))
     for side, solved in solved_arms(player, curves, upper).items():
         forearm = _Forearm.of(side, solved, posed)
-        depth_m = np.maximum(depth_m, forearm.inside_m(frames, forearm.elbow_m))
+        depth_m = np.maximum(depth_m, forearm.inside_m(frames, 0.0))
         hand_m = player.skeleton.offsets_m[player.skeleton.index(f"{side}MiddleProximal")]
         palm_m = forearm.wrist_m[:, None] + quaternion.rotate(solved.hand[:, None], hand_m * PALM[:, None])
-        depth_m = np.maximum(depth_m, (posed.depths_m(frames, palm_m) + PALM_M + CLOTH_M).max(axis=1))
+        depth_m = np.maximum(depth_m, (posed.depths_m(palm_m) + PALM_M + CLOTH_M).max(axis=1))
         bent_rad = np.maximum(bent_rad, player.wrists[side].outside_rad(solved.pose.end))
     return Remaining(depth_m, bent_rad)
 
 
 @dataclass(frozen=True, eq=False)
 class _Forearm:
-    """A solved forearm beside a posed trunk; positions (F, 3) of shoulder and wrist, and of the elbow from the
-    shoulder, in metres."""
+    """A solved forearm beside a posed trunk, whose elbow goes about the line from shoulder to hand.
 
-    posed: TrunkPose
+    Attributes
+    ----------
+    shape : TrunkShape
+    thick_m : (P,) float64
+        Room for the forearm at `ALONG`.
+    wrist_m : (F, 3) float64
+        World position of the wrist.
+    seen_m : tuple of (4, F, 3) float64
+        In the frame of each joint of the shape: centre of the elbow's circle, wrist, vector from the centre to the
+        elbow, and the vector a quarter of a turn further.
+    """
+
+    shape: TrunkShape
     thick_m: FloatArray
-    shoulder_m: FloatArray
-    elbow_m: FloatArray
     wrist_m: FloatArray
+    seen_m: tuple[FloatArray, ...]
 
     @classmethod
     def of(cls, side: Side, solved: SolvedArm, posed: TrunkPose) -> _Forearm:
         """Return the forearm of a solved arm."""
-        pose, limb, shoulder_m = solved.pose, solved.limb, solved.shoulder.joint_m
+        pose, limb, line = solved.pose, solved.limb, solved.line
         elbow_m = quaternion.rotate(pose.bones[0], limb.upper_vector_m)
-        wrist_m = shoulder_m + elbow_m + quaternion.rotate(pose.bones[1], limb.lower_vector_m)
-        return cls(posed, posed.shape.radii_m[side] + CLOTH_M, shoulder_m, elbow_m, wrist_m)
+        wrist_m = solved.shoulder.joint_m + elbow_m + quaternion.rotate(pose.bones[1], limb.lower_vector_m)
+        along_m = line * quaternion.dot(line, elbow_m)[:, None]
+        centre_m, off_m = solved.shoulder.joint_m + along_m, elbow_m - along_m
+        vectors_m = np.stack([centre_m, wrist_m, off_m, quaternion.cross(line, off_m)], axis=1)
+        seen_m = []
+        for matrix, position_m in zip(posed.matrices, posed.positions_m, strict=True):
+            from_joint_m = vectors_m.copy()
+            from_joint_m[:, :2] -= position_m[:, None]
+            seen_m.append(np.ascontiguousarray(np.matmul(from_joint_m, matrix).transpose(1, 0, 2)))
+        return cls(posed.shape, posed.shape.radii_m[side] + CLOTH_M, wrist_m, tuple(seen_m))
 
-    def inside_m(self, frames: IndexArray, elbow_m: FloatArray) -> FloatArray:
-        """Return the greatest depth (K,) in K frames with elbows at ``elbow_m`` (K, 3) from the shoulder."""
-        elbow_m = self.shoulder_m[frames] + elbow_m
-        points_m = elbow_m[:, None] + ALONG[:, None] * (self.wrist_m[frames] - elbow_m)[:, None]
-        return np.asarray((self.posed.depths_m(frames, points_m) + self.thick_m).max(axis=1))
+    def inside_m(self, frames: IndexArray, turn_rad: float) -> FloatArray:
+        """Return the greatest depth (K,) in K frames with the elbow turned about the line by ``turn_rad``."""
+        deepest_m = np.full((len(frames), len(ALONG)), -BEYOND_M)
+        cosine, sine = float(np.cos(turn_rad)), float(np.sin(turn_rad))
+        for number, seen_m in enumerate(self.seen_m):
+            centre_m, wrist_m, off_m, across_m = seen_m[:, frames]
+            elbow_m = centre_m + cosine * off_m + sine * across_m
+            low_m = self.shape.corners_m[number]
+            high_m = low_m + self.shape.sizes_m[number]
+            reaches = (np.maximum(elbow_m, wrist_m) > low_m) & (np.minimum(elbow_m, wrist_m) < high_m)
+            near = np.flatnonzero(reaches.all(axis=1))
+            if not len(near):
+                continue
+            elbow_m, wrist_m = elbow_m[near, None], wrist_m[near, None]
+            points_m = (elbow_m + ALONG[:, None] * (wrist_m - elbow_m)).reshape(-1, 3)
+            found_m = self.shape.depths_m(number, points_m).reshape(len(near), -1)
+            deepest_m[near] = np.maximum(deepest_m[near], found_m)
+        return np.asarray((deepest_m + self.thick_m).max(axis=1))
 
 
 def _outward_rad(posed: TrunkPose, side: Side, solved: SolvedArm, wrist: Wrist) -> tuple[FloatArray, FloatArray]:
     """Return an arm's needed and greatest turn, each (F,)."""
     sign, forearm = (1.0 if side == "left" else -1.0), _Forearm.of(side, solved, posed)
-    elbow_m, count = forearm.elbow_m, len(solved.line)
+    count = len(solved.line)
     needed_rad, most_rad = np.zeros(count), np.full(count, MOST_RAD)
-    depth_m = forearm.inside_m(np.arange(count), elbow_m)
+    depth_m = forearm.inside_m(np.arange(count), 0.0)
     frames = np.flatnonzero(depth_m > -EASE_M)
     if not len(frames):
         return needed_rad, most_rad
     angles = np.linspace(0.0, MOST_RAD, TRIED)
-    depths_m, outside_rad = [depth_m[frames]], []
-    for angle in angles:
-        turn = quaternion.from_axis_angle(solved.line[frames], np.full(len(frames), sign * angle))
-        if angle:
-            depths_m.append(forearm.inside_m(frames, quaternion.rotate(turn, elbow_m[frames])))
-        lower = quaternion.multiply(turn, solved.pose.bones[1][frames])
-        outside_rad.append(wrist.outside_rad(end_of(solved.limb, lower, solved.hand[frames]), within=True))
-    depths, bent = np.stack(depths_m), np.stack(outside_rad)
+    # An elbow that is clear goes no farther.
+    depths = np.full((TRIED, len(frames)), -BEYOND_M)
+    depths[0] = depth_m[frames]
+    for number in range(1, TRIED):
+        inside = np.flatnonzero(depths[number - 1] > -EASE_M)
+        if not len(inside):
+            break
+        depths[number, inside] = forearm.inside_m(frames[inside], sign * float(angles[number]))
     # Where it stays inside at every angle, nearly the least depth is good enough.
     over = depths - np.maximum(depths.min(axis=0) + SLACK_M, 0.0)
     needed_rad[frames] = _turned(np.clip(1.0 + over / EASE_M, 0.0, 1.0), angles)
-    room_rad = np.maximum(-bent[0], LEAST_ROOM_RAD)
-    free = 1.0 - np.clip((bent - np.maximum(bent[0], -BENT_RAD)) / np.minimum(room_rad, BENT_RAD), 0.0, 1.0)
-    most_rad[frames] = _turned(np.minimum.accumulate(free, axis=0), angles)
+    most_rad[frames] = _turned(_free(solved, wrist, frames, sign * angles), angles)
     return needed_rad, most_rad
+
+
+def _free(solved: SolvedArm, wrist: Wrist, frames: IndexArray, angles: FloatArray) -> FloatArray:
+    """Return the share (A, K) by which the wrist lets the elbow go on at each of A angles, in K frames; it does not
+    grow again."""
+
+    def bent_rad(here: IndexArray, angle: float) -> FloatArray:
+        turn = quaternion.from_axis_angle(solved.line[here], np.full(len(here), angle))
+        lower = quaternion.multiply(turn, solved.pose.bones[1][here])
+        return wrist.outside_rad(end_of(solved.limb, lower, solved.hand[here]), within=True)
+
+    usual_rad = bent_rad(frames, 0.0)
+    room_rad = np.minimum(np.maximum(-usual_rad, LEAST_ROOM_RAD), BENT_RAD)
+    from_rad = np.maximum(usual_rad, -BENT_RAD)
+    free = np.zeros((len(angles), len(frames)))
+    free[0] = 1.0
+    for number in range(1, len(angles)):
+        going = np.flatnonzero(free[number - 1])
+        if not len(going):
+            break
+        over_rad = bent_rad(frames[going], float(angles[number])) - from_rad[going]
+        share = 1.0 - np.clip(over_rad / room_rad[going], 0.0, 1.0)
+        free[number, going] = np.minimum(share, free[number - 1, going])
+    return free
 
 
 def _turned(going: FloatArray, angles: FloatArray) -> FloatArray:

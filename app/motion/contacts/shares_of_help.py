@@ -129,7 +129,9 @@ def _eased(needed: FloatArray, half: int) -> FloatArray:
     """
     if not np.any(needed):
         return needed
-    held = greatest_within(np.maximum(needed, 0.0), half) + least_within(np.minimum(needed, 0.0), half)
+    held = greatest_within(np.maximum(needed, 0.0), half)
+    if needed.min() < 0.0:
+        held = held + least_within(np.minimum(needed, 0.0), half)
     weights = np.hanning(2 * half + 3)
     eased: FloatArray = np.convolve(held, weights / weights.sum(), mode="same")
     return eased
