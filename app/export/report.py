@@ -23,6 +23,9 @@ from app.rig.characters.dressed_characters import character_title, worn_colours
 
 SWAY_CORRELATION = 0.9
 """Correlation of sway above which two players are reported as moving alike."""
+SWAY_LEAST_S = 8.8
+"""Shortest excerpt in seconds in which sway is compared: two of the longest swings, since shorter pieces of two swings
+are alike by chance."""
 
 
 SLIDE_BOUND_MM_S = 5.0

@@ -19,6 +19,7 @@ from app.export.measure import greatest_correlations
 from app.export.player import ExportedPlayer
 from app.export.processes import export_players, process_count
 from app.export.report import (
+    SWAY_LEAST_S,
     DancerReport,
     LeftOutReport,
     PlayerReport,
@@ -33,6 +34,7 @@ from app.formats.atomic import atomic_write
 from app.formats.texture_files import texture_files
 from app.performance.performance_problems import reported_lines
 from app.score.chunks import INCOMPLETE
+from app.score.model import UnplayedPart
 from app.score.part_messages import begins_after
 
 Progress = Callable[[float, str], None]
@@ -148,11 +150,13 @@ def write_cast(
     return WordedReports(filed, _report(request, cast, players, tuple(dancers), stage, shown_in, textures))
 
 
-def _compared(players: Mapping[str, ExportedPlayer]) -> tuple[PlayerReport, ...]:
-    """Return the players' reports, with the correlations of the motion of their trunks with other players' added."""
+def _compared(players: Mapping[str, ExportedPlayer], duration_s: float) -> tuple[PlayerReport, ...]:
+    """Return the players' reports, with the correlations of the motion of their trunks with other players' added unless
+    the export is shorter than `SWAY_LEAST_S`.
+    """
     torsos = {id: np.array(one.torso_rad) for id, one in players.items() if one.torso_rad is not None}
     reports = {id: one.report for id, one in players.items()}
-    if len(torsos) >= 2:
+    if len(torsos) >= 2 and duration_s >= SWAY_LEAST_S:
         sway = greatest_correlations({id: torso[:, 0] for id, torso in torsos.items()})
         lean = greatest_correlations({id: torso[:, 1] for id, torso in torsos.items()})
         for id in torsos:
@@ -186,6 +190,9 @@ def _report(
     def later(remark: Message) -> bool:
         return request.bars is not None and begins_after(remark, request.bars[1])
 
+    def earlier(part: UnplayedPart) -> bool:
+        return request.bars is not None and part.end_tick <= project.score.metre_map.tick_of_bar(request.bars[0])
+
     report = Report(
         version=request.creator,
         source=request.source,
@@ -196,13 +203,13 @@ def _report(
         end_s=span.end_s,
         bars=request.bars,
         seed=project.seed,
-        players=_compared(players),
+        players=_compared(players, span.count / float(rate)),
         warnings=(*(wording(message) for message in project.score.warnings if not later(message)), *warnings),
         incomplete=tuple(wording(message) for message in project.score.warnings if message.id in INCOMPLETE),
         unplayed=tuple(
             UnplayedPartReport(part.name, wording(part.reason), part.note_count)
             for part in project.score.unplayed
-            if not later(part.reason)
+            if not later(part.reason) and not earlier(part)
         ),
         left_out=tuple(LeftOutReport(one.player.name, wording(one.reason)) for one in cast.left_out),
         sound=sound_name(request.source) if request.sound else None,

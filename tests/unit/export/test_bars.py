@@ -158,3 +158,6 @@ def test_remarks_on_reading_are_those_of_the_bars(tmp_path: Path) -> None:
     assert [line for line in some["warnings"] if line in texts] == [texts[0], *texts[2:]]
     assert len(every["unplayed"]) == 1
     assert some["unplayed"] == []
+    last = str(project.score.metre_map.bar_of_tick(late[0].onset_tick))
+    end = export(tmp_path / "end", "--format", "bvh", "--from-bar", last, "--to-bar", last, file=file)
+    assert end["unplayed"] == []

@@ -202,6 +202,12 @@ def test_a_second_run_has_the_same_bits_and_a_cut_the_wholes_frames(
     )
 
 
+def test_sway_is_not_compared_in_a_short_excerpt(tmp_path: Path) -> None:
+    only = ("--from-bar", "2", "--to-bar", "2", "--format", "bvh")
+    short = export(tmp_path / "out", *only, "--player", PLAYERS[0], "--player", PLAYERS[1])
+    assert [player["sway_correlation"] for player in short["players"]] == [None, None]
+
+
 def test_several_formats_at_once_and_what_has_a_skin_is_measured(tmp_path: Path) -> None:
     arguments = ("--fps", "25", "--from-bar", "2", "--to-bar", "2", "--player", PLAYERS[0])
     report = export(tmp_path / "out", *arguments, "--format", "glb, BVH", "--format", "bvh", "--bvh-names", "cmu")
