@@ -25,18 +25,18 @@ OPENED = (".suisou", *MUSIC)
 
 def main() -> int:
     """Run the program with the process's arguments, and return the exit status."""
-    # While modules load nothing has to be cleared up. The commands and the editor, which have something, take Ctrl-C
-    # over for as long as they run.
+    # Ctrl-C ends the program at once while modules load, since nothing needs cleanup yet. The commands and the editor
+    # install handlers of their own.
     signal.signal(signal.SIGINT, end_at_once)
     if sys.getfilesystemencoding() != "utf-8" and os.environ.get(UTF8_MODE) != "1":
         begin_again_in_utf8()
     status = run(sys.argv[1:])
     if status == 128 + signal.SIGINT:
-        # Python's own end would be death by the signal where KeyboardInterrupt came in code of `exec`, a dataclass's
-        # for one, although it was caught.
+        # Python would exit with the signal's status if KeyboardInterrupt was raised within `exec` (in generated code of
+        # a dataclass, for example), even if it was caught.
         sys.stdout.flush()
         os._exit(status)
-    # It is done, and Python's own end calls no handlers any more.
+    # The work is done; Python calls no signal handlers during its own shutdown.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     return status
 
@@ -91,7 +91,7 @@ def run(arguments: Sequence[str]) -> int:
 
 def edit(parsed: Namespace) -> int:
     """Start the editor with the options of the command line."""
-    # Which sound libraries this system lacks is nothing the user can act on.
+    # A warning about sound libraries missing on this system would not help the user.
     os.environ.setdefault("QT_LOGGING_RULES", "qt.multimedia.symbolsresolver=false;qt.multimedia.ffmpeg=false")
     from app.cli.speech import error_sentence
     from app.cli.status import BAD_INPUT, STOPPED

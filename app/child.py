@@ -71,7 +71,7 @@ class MessageChannel(Generic[T]):
 
     def hang_up(self) -> None:
         """Close the stream to the other process, which ends its input."""
-        # It may have been killed with something unsaid; the stream is closed all the same.
+        # Closing fails if the child was killed before it read everything; the stream is closed all the same.
         _close(self.outgoing)
 
     def _exactly(self, count: int) -> bytes:
@@ -143,7 +143,7 @@ class StartedChild(Child[T]):
         except subprocess.TimeoutExpired:
             self.process.kill()
             status = self.process.wait()
-        # Who still reads from it, in a thread, is reported first that nothing comes.
+        # A thread that still reads from the child sees the end of the stream before it is closed.
         _close(self.incoming)
         return status
 
@@ -199,7 +199,7 @@ class ForkedChild(Child[T]):
         super().__init__(kind, back, to)
         before = signal.pthread_sigmask(signal.SIG_BLOCK, ())
         try:
-            # What a signal raises within a fork is lost.
+            # An exception raised by a signal handler during the fork would be lost.
             signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)
             self._id = os.fork()
             if not self._id:

@@ -60,29 +60,29 @@ class ChildLimits:
 
 LIMITS: Final[Mapping[str, ChildLimits]] = MappingProxyType(
     {
-        # ffmpeg reads a film's first picture. Frames of 8192 x 8192 take 100 MB, and a decoder keeps some.
+        # Reading the first picture of a film. Frames of 8192 x 8192 take 100 MB, and a decoder keeps several.
         "ffmpeg.facts": ChildLimits(_GB, 64, 4 * _GB, cpu_s=4.0, cpu_s_per_mb=8.0, wall_s=30.0, written_bytes=0),
-        # It waits while no picture is requested, so there is no limit of time on the clock; static screen recordings
-        # have some minutes in a megabyte.
+        # ffmpeg waits while no picture is requested, so wall-clock time is unlimited; a megabyte can hold minutes of a
+        # static screen recording.
         "ffmpeg.pictures": ChildLimits(_GB, 64, 4 * _GB, cpu_s=4.0, cpu_s_per_mb=200.0, written_bytes=0),
-        # It is stopped by its reader, which counts what comes. A megabyte holds up to ten minutes of speech.
+        # The reading side counts the output and stops ffmpeg. A megabyte holds up to ten minutes of speech.
         "ffmpeg.sound": ChildLimits(_GB, 16, 2 * _GB, cpu_s=4.0, cpu_s_per_mb=10.0, written_bytes=0),
-        # Pictures and sound of our own: how much there is, the user said. x264 keeps some sixty frames.
+        # Encoding our own pictures and sound, whose length the user chose. x264 keeps about sixty frames.
         "ffmpeg.encode": ChildLimits(12 * _GB),
         "ffmpeg.join": ChildLimits(12 * _GB),
-        # ufbx, for files of others.
+        # ufbx reads foreign files.
         "ufbx.figure": ChildLimits(512 * _MB, 64, cpu_s=3.0, cpu_s_per_mb=4.0, wall_s=180.0, written_bytes=0),
         "ufbx.motion": ChildLimits(512 * _MB, 64, cpu_s=3.0, cpu_s_per_mb=8.0, wall_s=180.0, written_bytes=0),
-        # DracoPy and meshopt, for compressed parts of glTF files.
+        # DracoPy and meshopt decode compressed parts of glTF files.
         "unpacker": ChildLimits(512 * _MB, 64, cpu_s=3.0, cpu_s_per_mb=4.0, wall_s=180.0, written_bytes=0),
-        # Our own modules work on values that were checked when they were read. The recorder runs as long as a take, the
-        # others as long as there is work: they end with their input.
+        # Our own modules process values that were validated when read. The recorder runs as long as a take, the others
+        # until their input ends.
         "recorder": ChildLimits(8 * _GB),
         "render": ChildLimits(4 * _GB, written_bytes=0),
         "export": ChildLimits(48 * _GB),
-        # A driver of the graphics card may reserve any address space. It ends when the evaluation is stopped.
+        # A graphics driver may reserve any amount of address space. The process ends when the evaluation is stopped.
         "evaluation": ChildLimits(),
-        # The whole program for each piece of a folder: what it starts has the limits above.
+        # The whole program, run for each piece of a folder; the processes it starts have the limits above.
         "batch": ChildLimits(),
     }
 )
@@ -102,7 +102,7 @@ def limited_command(name: str, command: Sequence[str], size: int = 0) -> list[st
         return list(command)
     limits = LIMITS[name]
     memory, cpu_s, written = limits.memory_of(size), limits.cpu_of(size), limits.written_bytes
-    # A lower limit of the system's is left alone. Units: KB, seconds, blocks of 512 bytes.
+    # A lower limit set by the system is kept. Units: KB, seconds, blocks of 512 bytes.
     said = [
         *([f"ulimit -v {memory // 1024}"] if memory is not None else []),
         *([f"ulimit -t {cpu_s}"] if cpu_s is not None else []),
@@ -151,7 +151,7 @@ def confine_this_process(name: str, size: int = 0) -> None:
     if written is not None:
         _lower(resource.RLIMIT_FSIZE, written)
     if memory is not None and sys.platform == "linux":
-        # Elsewhere the address space has no limit that the system keeps.
+        # Other systems do not enforce a limit on the address space.
         with open("/proc/self/statm", encoding="ascii") as file:  # noqa: PTH123 - of the system
             pages = int(file.read().split()[0])
         _lower(resource.RLIMIT_AS, pages * resource.getpagesize() + memory)

@@ -29,7 +29,7 @@ ENCODINGS: Final = (
 """Encodings that can be chosen for texts in files."""
 
 _ESCAPED = re.compile("[%\ud800-\udfff]")
-# One character from beyond ASCII, alone, touching a small Latin letter: what "Flöte" in Latin-1 looks like in CP932.
+# A single non-ASCII character next to a small Latin letter: "Flöte" in Latin-1 decodes as such in CP932.
 _LONE_IN_WORD = re.compile(r"(?<=[a-z])[^\x00-\x7f](?![^\x00-\x7f])|(?<![^\x00-\x7f])[^\x00-\x7f](?=[a-z])")
 
 
@@ -53,7 +53,7 @@ def guessed(data: bytes) -> str:
 def is_encoding(name: str) -> bool:
     """Return whether a name is that of an encoding that can decode any bytes."""
     try:
-        # Looks it up, which an empty text does not; one that is for ASCII alone fails.
+        # An empty text would not look the encoding up; an ASCII-only encoding fails on this one.
         b"ab\xff".decode(name, errors="replace")
     except (LookupError, ValueError):
         return False
@@ -67,7 +67,7 @@ def stored(path: str | os.PathLike[str]) -> str:
     text = os.fspath(path)
     if text.startswith(PREFIX):
         if restored(text) == text:
-            return text  # of another system, which has other names
+            return text  # a path of another system, with other rules for names
     elif is_text(text):
         return text
     return PREFIX + _ESCAPED.sub(lambda found: quote_from_bytes(_bytes(found[0])), text)

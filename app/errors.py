@@ -40,7 +40,7 @@ class Message(msgspec.Struct, frozen=True, gc=False):
             if isinstance(value, str) and not (value.isascii() and value.isprintable()):
                 break
         else:
-            return  # Of most, and a plan has hundreds of thousands.
+            return  # The usual case; a plan has hundreds of thousands of messages.
         readable = {name: shown(value) if isinstance(value, str) else value for name, value in self.arguments.items()}
         msgspec.structs.force_setattr(self, "arguments", readable)
 

@@ -71,7 +71,7 @@ class IdentityCache(Generic[V]):
             if identity in self._kept:
                 self._kept.move_to_end(identity)
                 return self._kept[identity][1]
-        # Made outside the lock: two threads may make the same result, none waits for another's.
+        # Computed outside the lock: two threads may compute the same result, but neither waits for the other.
         value = function(*given, *inputs, **named)
         with self._lock:
             self._kept[identity] = ((*inputs, *named.values()), value)

@@ -135,9 +135,9 @@ class StepResults:
         self._before: dict[str, _Done] = {} if before is None else before._done
         self._done: dict[str, _Done]
         self._values: dict[str, Any]
-        # Of one table, both are in one order.
+        # With the same table both mappings have the same order of keys.
         if before is not None and before._steps is steps and _are_equal(before._given.values(), given.values()):
-            # Nothing has changed: no step has to be looked at.
+            # No input changed, so no step is examined.
             self._given, self._done, self._values = before._given, dict(before._done), dict(before._values)
         else:
             self._done, self._values = {}, dict(given)

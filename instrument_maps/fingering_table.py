@@ -96,7 +96,7 @@ def pressed_label(instrument: InstrumentMap, one: Fingering, name: str) -> str:
     control = instrument.control(name)
     value = one.controls.get(name, control.rest_value)
     steps = [0.0, 1.0] if control.half_value is None else [0.0, 1.0, control.half_value]
-    # A value between is nearer to one of the ends, and goes to the other.
+    # A value between both ends is set to the other end than the nearer one.
     after = steps[(steps.index(value) + 1) % len(steps)] if value in steps else float(value < 0.5)
     values = {**one.controls, name: after}
     pitch = [control for control in instrument.controls if control.role == "pitch"]
@@ -196,7 +196,7 @@ def _with_pitch(table: Table, written: int, own: Sequence[Fingering]) -> Table:
     return tuple(sorted([*others, *ranked], key=lambda one: (one.written_pitch, one.rank)))
 
 
-# The user's own file
+# User's file
 
 
 def base_table(instrument: InstrumentMap, path: Path | None) -> Table:

@@ -177,7 +177,7 @@ class Vocabulary(InstrumentRelations):
         text = _TOGETHER.sub(" ", unicodedata.normalize("NFKC", text))
         found = self._of_player(text)
         before, bracket, _ = text.partition("(")
-        # An abbreviation may mean anything: "Cor. 1 (Cornet)" is a cornet.
+        # An abbreviation is ambiguous: "Cor. 1 (Cornet)" is a cornet.
         first = self._of_player(before) if bracket and self.all_by_name(before) else None
         if found is None or first is None or first.vague or self.is_kind(found, first):
             return found
@@ -212,11 +212,11 @@ class Vocabulary(InstrumentRelations):
                     form, reported_by = self._form(named, beside.keys())
                     marks = {mark: count for mark, count in beside.items() if mark in self._keys | reported_by}
                     words = length - len(_IN.intersection(own))
-                    # A name of the table goes before one that is put together.
+                    # A name of the table has priority over a composed one.
                     total = 2 * (words + sum(marks.values())) - (bool(marks) and not keyed)
                     vague = form.vague or (keyed and self._is_loose(marks, tokens[:start] + tokens[start + length :]))
                     no_size = own not in self._marks and one not in self._marks
-                    # A single letter abbreviates: "Sax Alto" goes before "S Sax".
+                    # Single letters are abbreviations: "Sax Alto" has priority over "S Sax".
                     written_out = (own in self._written_out or one in self._written_out) and not any(
                         len(word) == 1 and word.isascii() for word in own
                     )
@@ -356,5 +356,5 @@ def _read() -> _Kept:
     return _Kept(table, {name: words_of(name) for name in (*names, *marks, *table.prefixes)})
 
 
-# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+# Created while the import lock is held: msgspec crashes if two threads use a type for the first time at once.
 _DECODER = msgspec.msgpack.Decoder(_Kept)

@@ -131,7 +131,7 @@ def _chart(instrument: InstrumentMap) -> KeyChart:
     names = tuple(dict.fromkeys((*(name for name in said if name in pitch), *pitch)))
     homes = _homes(instrument)
     placed: dict[str, ChartedKey] = {}
-    # What the map says stands there, and so do the fingers' own places; the others find room beside them.
+    # Positions given by the map or by the fingers are fixed; the others find room beside them.
     for name in sorted(names, key=lambda name: (name not in said or said[name].at is None, name not in homes)):
         control, row = pitch[name], said.get(name)
         sign = (row.sign if row is not None else "") or control.label

@@ -67,7 +67,7 @@ def _own_map(path: Path) -> Read[InstrumentMap]:
     reported = tuple(
         Message("table.invalid", {"file": str(path), "place": where, "detail": detail}) for where, detail in wrong
     )
-    # Another model is another instrument, also where the map says the same.
+    # Another model makes another instrument, even if the map is unchanged.
     return Read(None if reported else msgspec.structs.replace(instrument), (beside,), reported)
 
 

@@ -140,7 +140,7 @@ def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict
     base, own = table[BASE], Path(file).absolute()
     if not isinstance(base, str) or not base.isidentifier():
         raise MapError("table.invalid", file=file, place=BASE, detail=f"{base!r} is not the id of a map")
-    # The user's own map may extend the bundled one of its own name.
+    # The user's map may extend the bundled one of the same name.
     paths = [path for path in (folder / f"{base}.toml" for folder in (own.parent, FOLDER)) if path != own]
     path = next((path for path in paths if os.path.isfile(path)), None)
     if path in above or (path is None and base == own.stem):
@@ -156,5 +156,5 @@ def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict
     return extended(below, table)
 
 
-# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+# Created while the import lock is held: msgspec crashes if two threads use a type for the first time at once.
 _KEPT = msgspec.msgpack.Decoder(dict[str, InstrumentMap])

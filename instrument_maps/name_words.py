@@ -9,8 +9,8 @@ from __future__ import annotations
 import re
 import unicodedata
 
-# A word is a run of letters, one kana, kanji or hangul (Japanese and Chinese have no spaces, Korean joins words), a
-# number or an accidental.
+# A word is a run of letters, a single kana, kanji or hangul (Japanese and Chinese have no spaces, Korean joins words),
+# a number, or an accidental.
 _WIDE = re.compile(r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff\uac00-\ud7a3]")
 _WORD = re.compile(
     r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff\uac00-\ud7a3]"
@@ -76,7 +76,7 @@ def _unmarked(found: re.Match[str]) -> str:
     """Remove the diacritics from a letter; voicing marks of kana are kept, since they distinguish names."""
     if _WIDE.match(found[0]):
         return found[0]
-    # "Bässe" are no "Basse"; ö and ü are more often written without their dots than as two letters.
+    # "Bässe" is not "Basse"; ö and ü are more often written without dots than as two letters.
     letter = found[0].casefold()
     decomposed = unicodedata.normalize("NFD", _LETTERS.get(letter, letter)).replace("a\u0308", "ae")
     return "".join(c for c in decomposed if not unicodedata.combining(c))

@@ -188,7 +188,7 @@ def _endpin(instrument: InstrumentMap) -> Iterator[Problem]:
     pin = instrument.endpin
     if pin is None:
         return
-    # Its node is also the name of its bone, and of how far it is drawn out.
+    # Its node also names its bone and the control for its length.
     taken = {ROOT, *(control.node for control in instrument.controls), *(link.node for link in instrument.links)}
     if pin.node in taken or pin.node in {control.name for control in instrument.controls}:
         yield "endpin.node", f"'{pin.node}' is moved by something else already"

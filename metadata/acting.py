@@ -98,6 +98,6 @@ def _checked(path: Path, table: T) -> T:
     return table
 
 
-# As in `metadata.load`: types are worked out under the import's lock.
+# Created while the import lock is held, as in `metadata.load`.
 for _type in (Style, Habit):
     msgspec.json.Decoder(_type)

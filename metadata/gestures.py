@@ -223,5 +223,5 @@ def _check_times(path: Path, place: str, at: list[float]) -> None:
             raise invalid(path, f"{place}[{index}].at", f"must be {end:g}: a gesture begins at 0 and ends at 1")
 
 
-# As in `metadata.load`: types are worked out under the import's lock.
+# Created while the import lock is held, as in `metadata.load`.
 msgspec.json.Decoder(Gesture)

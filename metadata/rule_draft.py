@@ -95,7 +95,7 @@ def sets_of(draft: Draft, sets: Mapping[str, RuleSet], own: Collection[str]) -> 
     result: dict[str, RuleSet] = {}
     for name in sorted({*own, *(one.file for one in draft if one.file)}):
         there = sets.get(name, RuleSet(name, "", ()))
-        # What is hidden by a rule of a later file stays where it is.
+        # A rule hidden by one of a later file stays in its place.
         hidden = tuple(rule for rule in there.rules if before.get(rule.name) not in (name, None))
         kept = tuple(rule for rule in hidden if effective.get(rule.name) != name)
         rules = kept + tuple(one.rule for one in draft if one.file == name)

@@ -225,5 +225,5 @@ GROWS_FROM: Final[Mapping[Growth, str]] = {
 """Condition from which a strength grows, by the quantity that it grows with."""
 
 
-# As in `metadata.load`: types are worked out under the import's lock.
+# Created while the import lock is held, as in `metadata.load`.
 msgspec.json.Decoder(RuleSet)

@@ -92,5 +92,5 @@ class SkeletonProfile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def _mirrored(axis: Axis) -> Axis:
-    # 0.0 - y rather than -y: no negative zeros.
+    # 0.0 - y instead of -y avoids negative zeros.
     return (axis[0], 0.0 - axis[1], 0.0 - axis[2])

@@ -31,7 +31,7 @@ class Title(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 def bundled(folder: str, read: Callable[[Path], T], kind: type[T]) -> Callable[[], Mapping[str, T]]:
     """Make a function that returns all bundled tables of a folder, by file name; they are read once."""
-    # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+    # Created while the import lock is held: msgspec crashes if two threads use a type for the first time at once.
     decoder: msgspec.msgpack.Decoder[Any] = msgspec.msgpack.Decoder(dict[str, kind])  # type: ignore[valid-type]
 
     def made() -> Mapping[str, T]:

@@ -92,7 +92,7 @@ def _correlate(
     """Return the lags in frames (N,), and the similarity (N,), -1..1, of score and recording at each, weighted by their
     overlap; ``spectra`` caches transforms by size."""
     frames, length = recorded.shape[1], expected_chroma.shape[1]
-    from scipy import fft  # heavy, and only here
+    from scipy import fft  # slow to import and used only here
 
     size = fft.next_fast_len(frames + length, real=True)
     if size not in spectra:

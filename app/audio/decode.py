@@ -165,11 +165,11 @@ def _read(path: str, file: _Forward, size: int, progress: Progress, stop_request
     resampler = soxr.ResampleStream(rate_hz, RATE_HZ, 2, dtype="float32") if rate_hz != RATE_HZ else None
     most_s = _most_s(size)
     _check_said(path, file, most_s)
-    # It grows in place: a list of blocks would have to be copied at the end, which takes the memory twice.
+    # The buffer grows in place: joining a list of blocks at the end would take the memory twice.
     made = bytearray()
     warnings: tuple[Message, ...] = ()
     frames = 0
-    # The length in the header is a claim: it is used for the progress only.
+    # The length in the header may be wrong; it is used for the progress only.
     expected = max(file.frames, 1)
     while True:
         raise_if_stopped(stop_requested)

@@ -70,7 +70,7 @@ def loudness(samples: Samples, rate_hz: int) -> RecordingLoudness:
     samples : int16 array, shape (n, channels)
         Samples of the recording.
     """
-    from scipy.ndimage import gaussian_filter1d  # heavy, and not needed to begin
+    from scipy.ndimage import gaussian_filter1d  # slow to import and not needed at start-up
     from scipy.signal import sosfilt
 
     hop = max(round(STEP_S * rate_hz), 1)
@@ -80,7 +80,7 @@ def loudness(samples: Samples, rate_hz: int) -> RecordingLoudness:
     power = np.zeros(count)
     weighting = _weighting(rate_hz)
     state = np.zeros((len(weighting), 2, samples.shape[1]))
-    for first in range(0, count, _STEPS):  # All of an hour would take gigabytes.
+    for first in range(0, count, _STEPS):  # an hour at once would take gigabytes
         last = min(first + _STEPS, count)
         part = samples[first * hop : last * hop].astype(np.float64) / 32768.0
         weighted, state = sosfilt(weighting, part, axis=0, zi=state)
@@ -178,7 +178,7 @@ class _Sounding:
         values = np.interp(self.at_s, self.at_s[audible], values[audible])
         steps = np.round(_RESOLUTION * gaussian_filter1d(values, _SMOOTH_S / STEP_S, mode="nearest"))
         ticks = np.maximum(np.round(score.tempo_map.ticks(self.at_s)), 0).astype(np.int64)
-        # Of several at one tick the last counts, and repetitions fall away.
+        # The last of several values at one tick counts, and repeated values are dropped.
         last = np.append(np.diff(ticks) > 0, True)
         ticks, steps = ticks[last], steps[last]
         kept = np.append(True, np.diff(steps) != 0)

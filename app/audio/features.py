@@ -51,7 +51,7 @@ def tuning(sound: Sound, rate_hz: int) -> float:
         level = np.log(power + 1e-12)
         frame, line = np.nonzero((level[:, 1:-1] > level[:, :-2]) & (level[:, 1:-1] > level[:, 2:]))
         below, peak, above = level[frame, line], level[frame, line + 1], level[frame, line + 2]
-        # The top of the parabola through the three.
+        # Vertex of the parabola through the three values.
         hz = (line + 1 + 0.5 * (below - above) / (below - 2.0 * peak + above)) * rate_hz / _TUNED_FRAME
         weights = np.exp(0.5 * peak) * ((hz > _PITCHED_HZ[0]) & (hz < _PITCHED_HZ[1]))
         total += complex((weights * np.exp(2j * np.pi * 12.0 * np.log2(hz / _A4_HZ))).sum())
@@ -78,7 +78,7 @@ def chroma(sound: Sound, rate_hz: int, size: int, hop: int, tuned: float) -> Flo
     lines = np.arange(1, size // 2 + 1)
     octaves = np.log2(lines * rate_hz / size / _A4_HZ)
     apart = (12.0 * octaves[:, None] + 9.0 - tuned - np.arange(12) + 6.0) % 12.0 - 6.0
-    # Low lines are further apart than semitones: each counts for all that it may be.
+    # Low spectral lines are further apart than semitones: each counts for every semitone it may belong to.
     spread = np.maximum(_SPREAD, 6.0 * np.log2((lines + 1) / lines))[:, None]
     weights = np.exp(-0.5 * (apart / spread) ** 2)
     weights /= weights.sum(axis=1, keepdims=True)
@@ -103,7 +103,7 @@ def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> FloatArra
     """
     edges = np.geomspace(_LOWEST_BAND_HZ, rate_hz / 2, _BANDS, endpoint=False) * size / rate_hz
     starts = np.unique(np.round(edges).astype(np.intp))
-    # A window's energy, spread over the bands.
+    # Energy of a window, distributed over the bands.
     mean = max(float(np.square(sound, dtype=np.float64).mean()) * size**2 / 8 / len(starts), 1e-12)
     result: list[FloatArray] = []
     before: FloatArray | None = None

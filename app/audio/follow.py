@@ -318,7 +318,8 @@ def _beats(beat_s: FloatArray, times: FloatArray, found: FloatArray, warped: War
     from the onsets around each beat, else from the warping.
     """
     result = warped.at(beat_s)
-    # What the onsets say beside the warping, so that between them its tempo goes on.
+    # Differences between onsets and warping are averaged, so that the tempo of the warping continues between the
+    # onsets.
     aside = found - warped.at(times)
     for place, at_s in enumerate(beat_s.tolist()):
         before = beat_s[max(place - 1, 0)] - 1e-6
@@ -330,7 +331,7 @@ def _beats(beat_s: FloatArray, times: FloatArray, found: FloatArray, warped: War
             result[place] += float((weights**2 * aside[inside]).sum() / (weights**2).sum())
         else:
             result[place] += float(np.interp(at_s, times, aside))
-    from sklearn.isotonic import isotonic_regression  # heavy, and only here
+    from sklearn.isotonic import isotonic_regression  # slow to import and used only here
 
     gaps_s = LEAST_GAP_S * np.arange(len(result))
     fixed = np.searchsorted(beat_s, pins.score_s - 1e-6)

@@ -139,7 +139,7 @@ def _by_onsets(recorded: RecordedSound, expected: ExpectedSound, rough: Recordin
             inside = (frames >= 0) & (frames < len(edges) - 1)
             strength = np.where(inside, np.interp(frames, np.arange(len(edges)), edges), 0.0)
             if pitched:
-                # Onsets alone do not tell a run of equal notes from the same run a note later.
+                # Onsets alone do not distinguish a run of equal notes from the same run shifted by one note.
                 strength += pitched * chroma_similarity(times, there_s, shifts, shapes, recorded.chroma).T
             total = (strength * weights).sum(axis=1) / weights.sum()
             top = int(total.argmax())

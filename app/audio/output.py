@@ -23,7 +23,7 @@ from app.arrays import SingleArray
 from app.audio.sink import BUFFER_S, Sink
 from app.audio.track import RATE_HZ, Block
 
-# JACK is missing: its library prints to the terminal wherever its server does not run.
+# JACK is left out: its library prints to the terminal where no server runs.
 _BACKENDS: Final = tuple(
     miniaudio.Backend[name] for name in ("WASAPI", "DSOUND", "WINMM", "COREAUDIO", "PULSEAUDIO", "ALSA")
 )

@@ -107,7 +107,7 @@ def _rising(runs: list[tuple[int, int]], path: IntArray) -> list[tuple[int, int]
     """Select the runs of the recording that ascend in the score with the greatest total length, without beginnings that
     repeat what was played already.
     """
-    # By the last run: length, runs as they are cut.
+    # Best chain that ends with each run: its length and the runs after trimming.
     found: list[tuple[int, list[tuple[int, int]]]] = []
     for first, last in runs:
         best: tuple[int, list[tuple[int, int]]] = (last - first, [(first, last)])

@@ -85,7 +85,7 @@ class Playback(QObject):
         self._rest_timer.setInterval(_GRAINS_REST_MS)
         self._rest_timer.timeout.connect(self._end_grains)
 
-    # What is played
+    # Performance and output
 
     @property
     def mix(self) -> Mix:
@@ -117,7 +117,7 @@ class Playback(QObject):
             if sink is not None:
                 sink.set_volume(self._gain)
 
-    # Playing
+    # Transport
 
     @property
     def is_playing(self) -> bool:
@@ -179,7 +179,7 @@ class Playback(QObject):
             self._grains.set_volume(self._gain)
         self._rest_timer.start()
         count = round(_GRAIN_S * RATE_HZ)
-        # One grain at a time: what waits in the device would sound after the hand has moved on.
+        # One grain at a time: sound queued in the device would play on after the hand has moved.
         if self._grains.free() >= round(BUFFER_S * RATE_HZ) - count // 2:
             window = np.hanning(count).astype(np.float32)[:, None]
             self._grains.write(self._mix.read(round(position_s * RATE_HZ) - count // 2, count) * window)
@@ -200,7 +200,7 @@ class Playback(QObject):
             return self._position_s
         at, position_s, speed = self._marks[0]
         position_s += max(sample - at, 0.0) / RATE_HZ * speed
-        # Between marks: a loop's end is not overshot.
+        # Between marks the position must not pass the end of the loop.
         return min(position_s, self._loop_s[1]) if self._in_loop(position_s) and self._loop_s else position_s
 
     def feed(self) -> None:
@@ -209,7 +209,7 @@ class Playback(QObject):
         if sink is None:
             return
         if sink.failed():
-            # A device that fails as soon as it is opened is not tried again and again.
+            # A device that fails right after opening is not tried repeatedly.
             self._begin(self.position_s(), may_sound=self._now() - self._begun_s > _HOPELESS_S)
             return
         if self._silent and self._now() >= self._retry_s:
@@ -237,7 +237,7 @@ class Playback(QObject):
         self._begun_s = self._now()
         if sink is None and may_sound:
             sink = self._open_sink()
-        # One that was there, but failed at once, is not looked for again.
+        # A device that exists but failed at once is not looked for again.
         self._retry_s = self._begun_s + _RETRY_S if may_sound else float("inf")
         self._set_silent(sink is None)
         self._sink = sink if sink is not None else SilentSink(self._now)

@@ -94,7 +94,7 @@ class Reader:
         """Continue reading at a sample, discarding sound rendered ahead."""
         self._made -= len(self._waiting)
         self._waiting = self._waiting[:0]
-        # A frame of the stretch sounds around its middle: what the first one begins with lies as much earlier.
+        # The stretcher centres a frame on its time, so reading begins earlier by half the difference.
         self._lead = 0 if self._speed == 1.0 or self.silent else round(HOP * (1.0 - self._speed))
         self._at = at - self._lead
         self._fade_in = True
@@ -117,7 +117,7 @@ class Reader:
         self._marks.append((self._made, self._position() / RATE_HZ, self._speed))
         self._made += HOP
         if self.silent:
-            # The same walk through loops without the sound.
+            # Advance through loops as with sound, without rendering any.
             self._input_all(round(HOP * self._speed))
             return np.zeros((HOP, 2), np.float32)
         return self._stretch.step(self._speed)

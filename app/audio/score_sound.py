@@ -91,7 +91,7 @@ def analysis_sound(samples: Samples, rate_hz: int) -> Sound:
         The sound to convert.
     """
     mono = np.empty(len(samples), np.float32)
-    for first in range(0, len(samples), _BLOCK):  # All of an hour would take gigabytes.
+    for first in range(0, len(samples), _BLOCK):  # an hour at once would take gigabytes
         part = samples[first : first + _BLOCK].astype(np.float32)
         mono[first : first + _BLOCK] = part.mean(axis=1) / 32768.0
     return np.asarray(soxr.resample(mono, rate_hz, ANALYSIS_RATE_HZ))
@@ -115,7 +115,7 @@ def recorded_sound(samples: Samples, rate_hz: int, progress: Progress) -> Record
     part = sound[max(middle - 30 * ANALYSIS_RATE_HZ, 0) : middle + 30 * ANALYSIS_RATE_HZ]
     tuned = tuning(part, ANALYSIS_RATE_HZ)
     progress(0.3)
-    # From half a frame on: a frame's middle is where that of a frame of the score is.
+    # Starts half a frame late, so that frames are centred at the same times as those of the score.
     classes = chroma(sound[_CHROMA_HOP // 2 :], ANALYSIS_RATE_HZ, 2 * _CHROMA_HOP, _CHROMA_HOP, tuned)
     progress(0.5)
     onsets = onset_strength(sound, ANALYSIS_RATE_HZ, 1024, _ONSET_HOP)
@@ -157,7 +157,7 @@ def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.
     for above, loudness in expected.harmonics:
         row = (expected.pitch + above) % 12
         amount = expected.loudness * loudness
-        # A note fills its frames; the first and the last in part: written as differences, summed afterwards.
+        # A note fills its frames, the first and last in part: stored as differences and summed afterwards.
         for place, share, sign in ((first, begin - first, 1.0), (last, end - last, -1.0)):
             np.add.at(steps, (row, place), sign * amount * (1.0 - share))
             np.add.at(steps, (row, place + 1), sign * amount * share)
@@ -172,7 +172,7 @@ def onset_edges(onsets: FloatArray, width_s: float) -> FloatArray:
     """
     reach = max(round(3 * width_s / ONSET_S), 1)
     decay = np.exp(-(np.arange(reach) + 0.5) * ONSET_S / width_s)
-    # np.convolve turns its kernel round: what comes after a moment stands first.
+    # np.convolve reverses its kernel, so the part after a moment comes first.
     kernel = np.concatenate([decay[::-1], -decay]) / decay.sum()
     result: FloatArray = np.convolve(onsets, kernel, "full")[reach - 1 : reach - 1 + len(onsets)]
     return result

@@ -37,7 +37,7 @@ class _File:
         return made
 
     def added(self, samples: Samples) -> Samples:
-        # Written as a file: into memory that the disk has no room for, a write would end the program.
+        # Writing through a memory map would end the program when the disk is full; writing to the file raises an error.
         self.file.seek(self.used)
         self.file.write(samples.tobytes())
         self.file.flush()

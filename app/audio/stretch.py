@@ -56,7 +56,7 @@ class TimeStretcher:
         frame = self._input[at - self._first : at - self._first + _LENGTH] * _WINDOW
         out = frame[:HOP] + self._tail
         if self._before is None:
-            # Nothing came before: the beginning is not faded in.
+            # No sound precedes the beginning, so it is not faded in.
             out = self._input[at - self._first : at - self._first + HOP].copy()
         self._tail = frame[HOP:].copy()
         self._before = at

@@ -99,9 +99,9 @@ class Synthesiser:
             `RenderedPhrase.midi` of the dropped sounds.
         """
         lengths = {phrase.midi: phrase.end - phrase.start for phrase in used}
-        # Samples of two bytes.
+        # Samples have two bytes.
         coming = sum(2 * length for midi, length in lengths.items() if midi not in self._sounds)
-        # A copy: another worker that is being stopped may still add a sound.
+        # Iterate over a copy: another worker that is being stopped may still add a sound.
         gone = set()
         for midi in [midi for midi in list(self._sounds) if midi not in lengths]:
             if self._bytes + coming <= _MOST_CACHED_BYTES:
@@ -128,7 +128,7 @@ def phrases(part: Part, tempo_map: TempoMap, program: int) -> tuple[RenderedPhra
     controls = _controls(part, tempo_map, bent)
     opening = _opening(program, bent)
     windows = onset_ticks // (_WINDOW_QUARTERS * tempo_map.ticks_per_quarter)
-    # The notes stand by onset, so that those of a window follow one another.
+    # Notes are sorted by onset, so those of a window are consecutive.
     firsts = np.flatnonzero(np.diff(windows, prepend=windows[0] - 1))
     return tuple(
         _phrase(part.notes[first:last], onsets[first:last], ends[first:last], controls, opening)
@@ -148,7 +148,7 @@ def drum_phrases(hits: Sequence[PercussionHit], tempo_map: TempoMap) -> tuple[Re
         return ()
     ticks = np.array([hit.tick for hit in hits], np.int64)
     at = _samples(tempo_map, ticks)
-    # A drum sounds as long as it does: only the next stroke's note-on needs an end before it.
+    # The length of a drum's sound is fixed: a note-off is needed only before the next stroke.
     notes = [Note("", hit.tick, 1, SAME_SOUND.get(hit.pitch, hit.pitch), hit.velocity) for hit in hits]
     windows = ticks // (_WINDOW_QUARTERS * tempo_map.ticks_per_quarter)
     firsts = np.flatnonzero(np.diff(windows, prepend=windows[0] - 1))
@@ -235,7 +235,7 @@ def _phrase(
     """
     start = int(onsets.min()) // _BLOCK * _BLOCK
     last = int(ends.max())
-    # (sample, order, message): what ends a note comes before what begins the next, controllers before both.
+    # (sample, order, message): at one sample controllers come first, then note-offs, then note-ons.
     events = [(0, 0, opening)]
     for samples, messages in controls:
         first = max(int(np.searchsorted(samples, onsets.min(), side="right")) - 1, 0)

@@ -144,14 +144,14 @@ def dynamic_time_warping(
     one, other = one[alike], other[alike]
     frames, places = np.unique(one, return_inverse=True)
     middle = np.bincount(places, other) / np.maximum(np.bincount(places), 1)
-    # A match alone among others that are none is chance.
+    # An isolated match among frames that do not match is chance.
     reach = round(2.0 / frame_s)
     kept = np.searchsorted(frames, frames + reach) - np.searchsorted(frames, frames - reach) > reach
     score_s, recording_s = (frames[kept] + 0.5) * frame_s, (middle[kept] + 0.5) * frame_s
     if len(score_s) < 2:
         return Warped(score_s, recording_s, (), (), length_s)
     inside = tuple(span for span in added if recording_s[0] < span.start and span.end < recording_s[-1])
-    # Never across a jump, nor across a pin, where it may jump.
+    # Smoothing never crosses a jump, nor a pin, where the warping may be discontinuous.
     ends_s = np.sort(np.concatenate((pins.score_s, [jump.from_s for jump in jumps])))
     stretches = np.split(np.arange(len(score_s)), np.searchsorted(score_s, ends_s))
     recording_s = np.concatenate([_smoothed(score_s[stretch], recording_s[stretch]) for stretch in stretches])

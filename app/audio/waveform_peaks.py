@@ -117,7 +117,7 @@ def _reduced(values: Samples, first: IntArray, last: IntArray, of: np.ufunc) -> 
     """Apply ``of`` (`np.minimum` or `np.maximum`) to ``values[first:last]`` for every column; adjacent columns may
     share a value.
     """
-    # reduceat takes pairs of indices; an end at the array's own end must be left to its padding.
+    # reduceat takes pairs of indices and accepts no end equal to the length of the array, hence the padding.
     padded = np.append(values, values[-1:])
     indices = np.empty(2 * len(first), np.int64)
     indices[0::2], indices[1::2] = first, last

@@ -42,10 +42,10 @@ class ServerWatch:
         self.has_ended = False
         self.has_library = True
         self._client: int | None = None
-        # Kept: the library calls it as long as the client is open.
+        # Keep a reference: the library calls it while the client is open.
         self._reported = _SHUTDOWN(self._report)
         try:
-            # Python's lock is free while this library works, unlike within rtmidi.
+            # CDLL releases Python's lock during calls of this library, unlike rtmidi.
             self._library: Any = ctypes.CDLL(_LIBRARY)
         except OSError:
             self.has_library = False
@@ -54,7 +54,7 @@ class ServerWatch:
         self._library.jack_on_shutdown.argtypes = [ctypes.c_void_p, _SHUTDOWN, ctypes.c_void_p]
         self._library.jack_client_close.argtypes = [ctypes.c_void_p]
         status = ctypes.c_int()
-        # None where no server runs.
+        # None if no server runs.
         self._client = self._library.jack_client_open(_CLIENT, _NO_START_SERVER, ctypes.byref(status))
         if self._client:
             self._library.jack_on_shutdown(self._client, self._reported, None)

@@ -70,7 +70,7 @@ class _Version(msgspec.Struct, frozen=True):
     version: int
 
 
-# Made under the import's lock: see the end of `metadata.load`.
+# Created while the import lock is held: see the end of `metadata.load`.
 _HEADERS: Final = msgspec.json.Decoder(JournalHeader)
 _VERSIONS: Final = msgspec.json.Decoder(_Version)
 
@@ -134,7 +134,7 @@ class JournalWriter:
         mode = "r+" if resumed and os.path.exists(path) else "x+"
         try:
             self._file = FileIO(path, mode)
-            # For a reader of the journal: it is still being written.
+            # The lock shows a reader of the journal that it is still being written.
             lock(self._file)
             is_new = mode == "x+" or self._cut() == 0
         except FileExistsError as error:
@@ -222,7 +222,7 @@ class JournalWriter:
         self._pending.clear()
         self._is_synced = True
         former[1].close()
-        # It takes room on a disk that has none; what cannot be removed is only a part of this one.
+        # The old file only takes space on a full disk; if it cannot be removed, its content is a part of the new one's.
         with contextlib.suppress(OSError):
             Path(former[0]).unlink()
 
@@ -245,7 +245,7 @@ def read_journal(path: Path) -> Journal:
     """
     data = read_file(path, MOST_BYTES)
     first, *lines = data.split(b"\n")
-    # What follows the last line feed was torn off, or nothing.
+    # Text after the last line feed is incomplete (or empty).
     torn = not lines
     header = None if torn else _header(path, first)
     if header is None:
@@ -274,7 +274,7 @@ def read_journal(path: Path) -> Journal:
                 raise ValueError(f"{word!r} is no word of a journal")
         except (ValueError, TypeError) as error:
             raise FileError("journal.line", file=str(path), line=number, detail=_detail(error)) from error
-    # A device that is opened again hands its events over in another thread.
+    # A device that is reopened delivers its events in another thread, so they may be out of order.
     events.sort(key=lambda event: event[0])
     return Journal(
         header=header,
@@ -323,7 +323,7 @@ def _sync(before: Sequence[SyncPoint], ns: str, position: str, pass_: str) -> Sy
 
 
 def _begin_gap(gaps: list[Gap], ns: int) -> None:
-    # A recorder that goes on with another's journal does not know that the device had gone before.
+    # A recorder that continues the journal of another one has no record that the device was lost.
     if not gaps or gaps[-1][1] is not None:
         gaps.append((ns, None))
 
@@ -335,7 +335,7 @@ def _end_gap(gaps: list[Gap], ns: int) -> None:
 
 
 def _detail(error: Exception) -> str:
-    # Too few or too many values: Python would tell of our functions.
+    # msgspec's message about the number of values would name our functions.
     if isinstance(error, TypeError):
         return "too few or too many values"
     return "not ASCII" if isinstance(error, UnicodeDecodeError) else str(error)

@@ -103,7 +103,7 @@ class RecorderLink:
             if before is None and self._open is not None:
                 self._report(self._open)
             elif self._report(Leave()):
-                # The next recorder opens it: a port in use is only closed by the end of its process.
+                # The next recorder process opens the port: a port in use is closed only when its process ends.
                 self._is_leaving = True
                 self._end_surely()
 
@@ -220,7 +220,7 @@ class RecorderLink:
                 return None
             self._child = _started(self._system)
             if self._take is not None:
-                # What no recorder has begun must not be there.
+                # The journal must not exist yet if no recorder has begun it.
                 began_ns = resumed_ns if self._is_begun else None
                 self._is_begun = (
                     self._report(msgspec.structs.replace(self._take, resumed_ns=began_ns)) or self._is_begun
@@ -280,7 +280,7 @@ class RecorderLink:
 
     def _port_changed(self, reported: Lost | Opened | Back) -> None:
         with self._lock:
-            # Another may have been chosen since.
+            # Another port may have been chosen since.
             if reported.port == self.port:
                 self._open = Open(reported.port, is_lost=isinstance(reported, Lost))
                 self._refused = ""
@@ -292,7 +292,7 @@ class RecorderLink:
 
     def _take_ended(self, reported: RecordingFinished | NotStarted) -> None:
         with self._lock:
-            # A journal that was started while another ran ends that one.
+            # Starting a journal while another one is written ends the other.
             if self._take is not None and (isinstance(reported, NotStarted) or reported.path == self._take.path):
                 self._take = None
                 self._is_stopping = False
@@ -309,7 +309,7 @@ def _started(system: str) -> StartedChild[News]:
     if system:
         options["env"][SYSTEM_VARIABLE] = system
     if sys.platform == "win32":
-        # Elsewhere see `app.capture.recorder.take_precedence`.
+        # For other systems see `app.capture.recorder.take_precedence`.
         options["creationflags"] |= subprocess.HIGH_PRIORITY_CLASS
     return StartedChild(News, "app.capture.recorder", **options)
 

@@ -117,8 +117,8 @@ class PythonRtmidi:
         midi = self._rtmidi.MidiIn(self._numbers[system], CLIENT)
         midi.ignore_types(sysex=True, timing=True, active_sense=True)
         midi.open_port(index, "in")
-        # Not before: Python's lock is held while it connects, and JACK waits meanwhile for its thread, which waits for
-        # that lock with the first event.
+        # Not before connecting: that call holds Python's lock while JACK waits for its thread, which waits for the lock
+        # to deliver the first event.
         midi.set_callback(receive)
         return _PythonRtmidiInput(midi)
 
@@ -151,7 +151,7 @@ class Rtmidi2:
     """MIDI input and output by the package rtmidi2."""
 
     def __init__(self) -> None:
-        # The copy of JACK's library in its wheel speaks an older protocol than the servers of today.
+        # The JACK library bundled in the wheel uses an older protocol than current servers.
         share_library()
         import rtmidi2
 
@@ -163,7 +163,7 @@ class Rtmidi2:
             "winmm": rtmidi2.API_WINDOWS_MM,
         }
         self.systems: tuple[str, ...] = _RTMIDI2_SYSTEMS.get(sys.platform, ())
-        # RtMidi's own errors become RuntimeError.
+        # Errors of RtMidi are raised as RuntimeError.
         self.errors: tuple[type[Exception], ...] = (RuntimeError, OSError, ValueError, TypeError)
 
     def lists(self, system: str) -> PortLists:
@@ -185,7 +185,7 @@ class Rtmidi2:
         midi = self._rtmidi2.MidiIn(CLIENT, api=self._numbers[system])
         midi.ignore_types(midi_sysex=True, midi_time=True, midi_sense=True)
         midi.open_port(index)
-        # Not before, as with python-rtmidi.
+        # Not before connecting, as with python-rtmidi.
         midi.callback = receive
         return _Rtmidi2Input(midi)
 
@@ -195,14 +195,14 @@ class _Rtmidi2Lists:
         self._inputs, self._outputs = inputs, outputs
 
     def inputs(self) -> list[str]:
-        # A port without a name is None.
+        # The library returns None for a port without a name.
         return [name or "" for name in self._inputs.ports]
 
     def outputs(self) -> list[str]:
         return [name or "" for name in self._outputs.ports]
 
     def close(self) -> None:
-        # Deleting the objects disconnects them.
+        # Deleting the objects closes their connections.
         self._inputs = self._outputs = None
 
 

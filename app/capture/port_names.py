@@ -28,7 +28,7 @@ _OWN: Final = re.compile(rf"{CLIENT}(-\d+)?:")
 _ALSA: Final = re.compile(r"(?P<client>[^:]+):(?P<port>.*) \d+:\d+")
 _BRIDGES: Final = (
     re.compile(r"a2j:(?P<client>.+) \[\d+\] \((?:capture|playback)\): (?P<port>.+)"),
-    # PipeWire numbers ports of one name at their end; a device's own numbers are shorter.
+    # PipeWire appends a number to ports of the same name; numbers in device names are shorter.
     re.compile(r"Midi-Bridge:(?P<client>[^:]+):\((?:capture|playback)_\d+\) (?P<port>.+?)(?:-\d{2,})?"),
     re.compile(r"Midi-Bridge:(?P<client>)(?P<port>.+) \((?:capture|playback)\)"),
 )

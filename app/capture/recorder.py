@@ -272,7 +272,7 @@ def _private_output() -> IO[bytes]:
     from then on; Python's own errors still appear.
     """
     own = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    # On Windows a program without a console has none.
+    # On Windows a program without a console has no standard error.
     if sys.stderr is not None:
         sys.stderr = os.fdopen(os.dup(sys.stderr.fileno()), "w", errors="backslashreplace", buffering=1)
     nowhere = os.open(os.devnull, os.O_WRONLY)
@@ -298,7 +298,7 @@ def take_precedence() -> None:
         if sys.platform == "linux":
             first = os.sched_param(os.sched_get_priority_min(os.SCHED_RR))
             for task in (int(path.name) for path in Path("/proc/self/task").iterdir()):
-                # One may have ended since.
+                # The process may have ended since.
                 with contextlib.suppress(ProcessLookupError):
                     if os.sched_getscheduler(task) == os.SCHED_OTHER:
                         os.sched_setscheduler(task, os.SCHED_RR, first)
@@ -313,7 +313,7 @@ def main() -> None:
     confine_this_process("recorder")
     take_precedence()
     sys.setswitchinterval(_SWITCH_S)
-    # What is loaded stays: no stamp waits until all of it was looked through for garbage.
+    # Loaded objects are exempt from garbage collection, so that no time stamp is delayed by a full collection.
     gc.freeze()
     channel = MessageChannel[Command](Command, sys.stdin.buffer, _private_output())
     news: NewsQueue = SimpleQueue()
@@ -344,7 +344,7 @@ def main() -> None:
     writing.join()
     news.put(None)
     sending.join()
-    # The port is not closed: see `app.capture.midi_library.OpenInput`.
+    # The port stays open: see `app.capture.midi_library.OpenInput`.
     os._exit(0)
 
 

@@ -102,7 +102,7 @@ def _column(body: Captured, name: str, across: FloatArray, ways: FloatArray) -> 
     """
     upright = middle(body.within(name, body.up)[body.standing])
     if name != "hips":
-        # Not the vertical: who runs leans ahead all the time.
+        # The mean direction of the trunk is used, not the vertical: a runner leans forward all the time.
         upright = body.mean(name, body.top - body.start("hips"))
     along = body.mean(name, ways) if np.linalg.norm(ways, axis=1).min() > 1e-6 else upright
     plain = _framed(across, upright)
@@ -110,7 +110,7 @@ def _column(body: Captured, name: str, across: FloatArray, ways: FloatArray) -> 
     lean_deg = float(np.degrees(np.arctan2(way[2], way[1])))
     if abs(lean_deg - LEANS_DEG[name]) > MOST_LEAN_DEG:
         return plain
-    # A positive turn about X leans ahead.
+    # A positive rotation about X leans forward.
     return quaternion.multiply(quaternion.from_axis_angle(X, np.radians(LEANS_DEG[name] - lean_deg)), plain)
 
 
@@ -151,7 +151,7 @@ def _limb(body: Captured, limb: list[str], sign: float, known: FloatArray | None
         way = body.mean(segment, body.at(end) - body.at(start))
         axis, sure = body.hinge(segment, bend)
         if segment.endswith("LowerArm"):
-            # A forearm may turn the palm: then no axis is fixed in it, and the mean one is how it is usually held.
+            # A forearm may pronate, so no bend axis is fixed in it; the mean axis is its usual orientation.
             sure = body.bent(bend)
         if known is not None:
             usual = body.mean(segment, known)
@@ -203,7 +203,7 @@ def _palm(body: Captured, side: str, sign: float) -> FloatArray | None:
     elif np.linalg.norm(thumb := body.mean(name, body.thumbs[name])) > 0.5:
         ahead = _beside(thumb, along)
         up = np.cross(ahead, sign * unit(along))
-        # A thumb is below the palm.
+        # The thumb lies below the plane of the palm.
         up = up * np.cos(np.radians(THUMB_DEG)) - ahead * np.sin(np.radians(THUMB_DEG))
     else:
         return None
@@ -244,7 +244,7 @@ def _foot(body: Captured, side: str) -> FloatArray:
     toes = body.mean(name, body.at(f"{side}Toes") - body.at(name)) if has_toes else body.tips[name]
     bend = body.bend([side + part for part in LEG], 1.0)
     far = np.linalg.norm(bend, axis=1)
-    # The ankle turns as well: the middle of its turns, in frames in which the knee shows its axis best.
+    # The ankle rotates too, so the mean over the frames with the clearest knee axis is used.
     axis = middle(unit(body.within(name, bend))[far >= np.median(far)])
     sure = body.hinge(name, bend)[1]
     up = _sole_up(body, name)
@@ -253,7 +253,7 @@ def _foot(body: Captured, side: str) -> FloatArray:
     toes = unit(toes)
     beside = unit(np.cross(up, toes))
     if sure > SURE:
-        # Of a foot that stands on its edge only the knee says what is level.
+        # For a foot that stands on its edge only the knee axis shows which direction is level.
         by_knee = _beside(axis, toes)
         between = FLAT_DEG < angle_deg(by_knee, beside) < EDGE_DEG
         beside = unit(by_knee + beside) if between else by_knee
@@ -280,7 +280,7 @@ def _sole_up(body: Captured, name: str) -> FloatArray:
     near = ups @ ups.T > np.cos(np.radians(FLAT_DEG))
     mean: FloatArray = ups[near[int(near.sum(axis=1).argmax())]].mean(axis=0)
     for _ in range(SETTLES):
-        # Of several frames that are as good, any leads to the same mean.
+        # Starting from any of several equally good frames leads to the same mean.
         mean = ups[ups @ unit(mean) > np.cos(np.radians(FLAT_DEG))].mean(axis=0)
     return mean
 

@@ -46,7 +46,7 @@ def classify(
         proceed()
         return _k_means(features, min(states, differ), seed)[0]
     fewest, most = 1, max(1, min(differ, len(features) // LEAST_MOTIONS))
-    # The spread falls with the number of classes, but for bad luck of k-means.
+    # The spread decreases as the number of classes increases, unless k-means finds a poor solution.
     while fewest < most:
         proceed()
         middle = (fewest + most) // 2
@@ -64,10 +64,10 @@ def _k_means(features: FloatArray, states: int, seed: int) -> tuple[IntArray, fl
     """
     if not len(features):
         return np.zeros(0, np.int64), 0.0
-    # NumPy's generator of old, which scikit-learn uses, takes 32 bits.
+    # scikit-learn uses NumPy's legacy generator, which accepts seeds of 32 bits.
     found = KMeans(states, n_init=STARTS, random_state=seed % 2**32).fit(features)
     _, first, classes = np.unique(found.labels_, return_index=True, return_inverse=True)
     by_appearance = np.argsort(np.argsort(first))
-    # A point has three coordinates.
+    # Inertia sums over the three coordinates of each point.
     spread = np.sqrt(3.0 * found.inertia_ / features.size)
     return np.asarray(by_appearance[classes], np.int64), float(spread)

@@ -89,7 +89,7 @@ def checked(body: Captured, turns: Mapping[str, FloatArray]) -> tuple[Checked, .
                 off(kind, f"{side}LowerLeg", turned("hips", bend), X, MOST_TURNED_DEG)
         foot = f"{side}Foot"
         off("toes", foot, quaternion.rotate(turns[foot], body.tips[foot]) * LEVEL, Z)
-        # What is across and above: toes of a runner point down and back half of the time.
+        # The axes across and above the foot are compared: a runner's toes point down and back half of the time.
         own = quaternion.multiply(body.rotations[:, body.segments[foot]], quaternion.conjugate(turns[foot]))
         off("toes", foot, turned("hips", quaternion.rotate(own, X) * LEVEL) * LEVEL, X, MOST_TURNED_DEG)
         off("toes", foot, turned("hips", quaternion.rotate(own, Y)), Y, MOST_TURNED_DEG)

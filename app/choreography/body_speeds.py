@@ -26,7 +26,7 @@ def part_speeds(clip: MotionClip) -> FloatArray:
 
 def angle(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return the angle in radians between rotations (..., 4)."""
-    # By the distance of the unit quaternions, which is exact where it is small, as the cosine is not.
+    # The distance between unit quaternions is exact for small angles, unlike the arc cosine of their product.
     dot = np.einsum("...i,...i->...", a, b)
     apart = np.linalg.norm(a - np.where(dot < 0.0, -1.0, 1.0)[..., None] * b, axis=-1)
     return np.asarray(4.0 * np.arcsin(np.clip(0.5 * apart, 0.0, 1.0)))

@@ -167,7 +167,7 @@ class _Motion:
         mapping = map_joints(self.figure)
         if _missing(mapping.bones):
             return mapping
-        # Which side is left depends on where ahead is.
+        # Left and right depend on the forward direction.
         standing = upright(self.figure, mapping.bones)
         return map_joints(facing_ahead(standing, mapping.bones, _foot_tips(self._bvh, standing, mapping.bones)))
 
@@ -219,7 +219,7 @@ class _Motion:
         tips = {name: _tip(self._bvh, name, segments[name], others) for name in ENDS}
         for name in ENDS:
             if not tips[name].any():
-                # The next joint is at the same place: what is below it says where this one points, in the mean.
+                # The next joint is at the same position: the mean direction of the joints below it is used.
                 tips[name] = max(_hanging(self._bvh, self.places, self._rotations, segments[name]), key=np.linalg.norm)
         return Captured(*turned, bones, segments, tips, thumbs), up
 

@@ -104,11 +104,11 @@ def _lead(clip: MotionClip) -> int:
     t_pose = _first_run(in_t_pose)
     if t_pose and (settled := _settled(clip, t_pose - 1)) > t_pose:
         return settled
-    # A dancer who takes the pose again between its ends dances it.
+    # A T-pose that also occurs in the middle of the clip is a part of the dance.
     taken = [stop for start, stop in runs(in_t_pose) if stop - start >= T_POSE_S * fps and start]
     danced = any(stop < len(clip) - LOWERS_S * fps for stop in taken)
     if danced or t_pose < T_POSE_S * fps:
-        # No dancer takes it exactly: a clip that begins so was blended with its rest pose.
+        # No dancer takes the pose exactly, so a clip that begins exactly in it was blended with its rest pose.
         exact = _in_t_pose(clip.span(0, 1), EXACT_RAD).any() and not danced
         return _arms_down(clip, max(t_pose, 1)) if exact else 0
     return _arms_down(clip, t_pose)
@@ -127,7 +127,7 @@ def _settled(clip: MotionClip, frame: int) -> int:
     fast = np.flatnonzero(speeds[:2] > JUMP_RAD_S)
     if not len(fast):
         return frame
-    # Files are filtered with their rest pose in them: after the jump the body still slows down and swings.
+    # Files are often smoothed together with their rest pose: after the jump the body still decelerates and swings.
     usual = CALM * float(np.median(speeds[steps:])) if len(speeds) > steps else JUMP_RAD_S
     wild = np.flatnonzero(speeds[:steps] > max(usual, CALM_RAD_S))
     return frame + (int(wild[-1]) if len(wild) else int(fast[-1])) + 1

@@ -94,7 +94,7 @@ def segment(clip: MotionClip) -> Segmentation:
     curve = angular_acceleration(clip)
     fps = float(clip.fps)
     height = np.log(np.maximum(curve, FLOOR_RAD_S2))
-    from scipy.signal import find_peaks  # heavy; a dialog that learns nothing yet is up before
+    from scipy.signal import find_peaks  # slow to import; the learning dialog opens without it
 
     peaks, _ = find_peaks(height, prominence=np.log(PROMINENCE), distance=max(1.0, LEAST_SPAN_S * fps))
     bounds = [0, *peaks.tolist(), len(curve) - 1]
@@ -123,7 +123,7 @@ def angular_acceleration(clip: MotionClip) -> FloatArray:
     smooth = quaternion.normalize(_low_pass(clip.rotations, fps))
     steps = quaternion.multiply(quaternion.conjugate(smooth[:-1]), smooth[1:])
     speed = quaternion.to_rotation_vector(steps) * fps
-    # A velocity belongs between two frames, an acceleration to the frame between two velocities.
+    # A velocity lies between two frames, an acceleration at the frame between two velocities.
     squares = np.sum((np.diff(speed, axis=0) * fps) ** 2, axis=-1)
     weights = np.array([WEIGHTS[name] for name in SEGMENTS])
     mean = np.pad(squares @ (weights / weights.sum()), 1, mode="edge")
@@ -148,7 +148,7 @@ def _low_pass(rotations: FloatArray, fps: float) -> FloatArray:
     """
     if 0.45 * fps <= CUT_OFF_HZ:
         return rotations
-    from scipy.signal import butter, sosfiltfilt  # heavy, as above
+    from scipy.signal import butter, sosfiltfilt  # slow to import
 
     sections = butter(ORDER, CUT_OFF_HZ, fs=fps, output="sos")
     filtered: FloatArray = sosfiltfilt(sections, rotations, axis=0, padlen=min(len(rotations) - 1, int(fps)))

@@ -132,7 +132,7 @@ def damage(clip: MotionClip, tolerance: float = 1.0, *, captured: bool = True) -
     for length in window_lengths(float(clip.fps), TRUNK_WINDOW_S):
         if length > lengths[-1]:
             spread = [one for one in _off_the_cubic(clip, speeds, length, tolerance) if one[2] in _TRUNK]
-            # Shorter times show the flanks of a dip only.
+            # Shorter windows show only the edges of a dip.
             found.update(one for one in spread if one[2] == PLACE)
             found.update(_unknown(spread, found, len(clip)))
     found = with_held(speeds, found)
@@ -196,7 +196,7 @@ def _off_the_cubic(
 def _too_fast(speeds: FloatArray, fps: float) -> Iterator[tuple[int, int, int]]:
     """Yield the spans of joints that rotate too fast, and of hips that turn fast without spinning."""
     for part in np.flatnonzero((speeds > FASTEST).any(axis=0)).tolist():
-        # Such a turn is followed to where it begins and ends, and so is a spin.
+        # A fast turn, like a spin, is followed to its beginning and end.
         for start, stop in runs(speeds[:, part] > FASTEST[part] * BEGINS):
             turned = speeds[start:stop, part]
             spins = part == 0 and (stop - start) / fps >= SPIN_S and turned.sum() / fps >= SPIN_RAD

@@ -184,7 +184,7 @@ class _Moments:
 
     def _sounding(self, time_s: float) -> IntArray:
         """Return the pitches (K,) of all notes that sound at a time."""
-        # All that began before the first of these has ended.
+        # All notes that begin before the first sounding one have ended.
         start = np.searchsorted(self._sounded_s, time_s, side="right")
         stop = np.searchsorted(self._starts_s, time_s, side="right")
         return np.asarray(self._pitches[start:stop][self._ends_s[start:stop] > time_s])

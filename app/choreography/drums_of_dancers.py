@@ -58,7 +58,7 @@ class DancersDrums:
         struck = counts / np.maximum(heard, 1.0)[:, None]
         itself = np.sum(struck * np.log(np.maximum(struck, 1e-12)), axis=1)
         unlike = itself[:, None] - struck @ np.log(shares).T
-        # The nearest mixture: expectation maximisation, of which every round comes nearer.
+        # Expectation maximisation of the closest mixture; no round makes the distance greater.
         parts = np.full(unlike.shape, 1.0 / max(len(shares), 1))
         for _ in range(_ROUNDS if known.any() else 0):
             parts = parts * ((struck / np.maximum(parts @ shares, 1e-12)) @ shares.T)

@@ -99,7 +99,7 @@ def on_beats(
     falls = [at for at, stand in enumerate(standing) if stand.start > 0]
     starts = {at: float(stand.start) for at, stand in enumerate(standing)}
     by_foot = [[at for at, stand in enumerate(standing) if stand.foot == foot] for foot in range(2)]
-    # The first frame is no fall, and a stand that ends when it did does not begin at its end.
+    # A stand at the first frame is no landing, and a stand that ends at its landing is not followed by one.
     after = {at: following for own in by_foot for at, following in pairwise(own)}
     kept = {at for own in by_foot for at in own if at not in after or after[at] in kicked}
     bounds_s = []
@@ -223,7 +223,7 @@ def _chosen(
     times = [first_s + fall.start / fps for fall in falls]
     alone = [_options(time_s, grid, *bounds) for time_s, bounds in zip(times, bounds_s, strict=True)]
     options = [[*own, *_along(at, falls, times, alone, bounds_s)] for at, own in enumerate(alone)]
-    # By the options of the last fall but one and of the last: the worth so far.
+    # Best total so far for each pair of options of the last two landings.
     value = np.zeros((1, 1))
     back: list[np.ndarray] = []
     for at, own in enumerate(options):

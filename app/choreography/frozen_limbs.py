@@ -98,7 +98,7 @@ def _rests(clip: MotionClip, speeds: FloatArray, part: int) -> list[tuple[int, i
     if part in _HINGES and found:
         bent = angle(clip.rotations[:, part], quaternion.IDENTITY)
         least_bent = float(bent.min()) + STRETCHED_RAD
-        # Exactly as in the rest pose: its marker was lost.
+        # The limb is exactly in its rest pose because its marker was lost.
         found = [run for run in found if bent[run[0]] > least_bent or bent[run[0]] < EXACT]
     return sorted(set(found))
 

@@ -107,7 +107,7 @@ def _deepest_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArra
         radius = part * height_m(clip)
         start, end = (_place_m(clip, world, name) for name in (first, last))
         wrist = world.positions_m[:, hand]
-        # A wrist that is farther from the capsule than this has its whole hand outside.
+        # If the wrist is farther from the capsule than this, so is the whole hand.
         near = np.flatnonzero(np.linalg.norm(_away_m(wrist, start, end), axis=1) < radius + length_m + NEAR_M)
         if not len(near):
             continue

@@ -106,7 +106,7 @@ def fading_difference(value: FloatArray, slope: FloatArray, times_s: FloatArray,
     """
     u = np.clip(times_s / fade_s, 0.0, 1.0).reshape(-1, *(1,) * np.ndim(value))
     rest = 1.0 - u
-    # Basis of the quintic: value 1 and slope 0, value 0 and slope 1 at the start; bend 0; all 0 at the end.
+    # Basis of the quintic: value 1 and slope 0, value 0 and slope 1 at the start, curvature 0; all 0 at the end.
     held = rest**3 * (1.0 + 3.0 * u + 6.0 * u * u)
     return np.asarray(held * value + _fading_slope(u) * (fade_s * np.asarray(slope)))
 

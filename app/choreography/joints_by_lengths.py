@@ -181,5 +181,5 @@ class _Body:
             path.append(max(children, key=lambda one: float(self._bone[one] + self._reach[one])))
             children = list(self._tree.children[path[-1]])
         if len(path) > 1 and not children and not self._reach[path[-1]] and path[-1] not in self._turning:
-            path.pop()  # The crown, as files without end sites have it.
+            path.pop()  # the crown, present in files without end sites
         return path

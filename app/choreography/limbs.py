@@ -89,7 +89,7 @@ def unbroken(clip: MotionClip) -> MotionClip:
     for side in SIDES:
         shank = rotations[:, SEGMENTS.index(f"{side}LowerLeg")]
         bent_rad = quaternion.twist_angle(shank, _ACROSS)
-        # A knee that is bent by more than half a turn is no knee that bends backwards by nearly as much.
+        # A negative bend of more than 90 degrees is a knee folded past 180 degrees, not one that bends backwards.
         bent_rad = np.where(bent_rad < -0.5 * np.pi, bent_rad + 2.0 * np.pi, bent_rad)
         back_rad = softly_within(bent_rad, 0.0, FOLDED_RAD) - bent_rad
         shank[:] = quaternion.multiply(shank, quaternion.from_rotation_vector(back_rad[:, None] * np.array(_ACROSS)))
@@ -132,9 +132,10 @@ def bend(
     distance = np.maximum(_softly(requested, upper + lower), np.minimum(requested, natural))
     distance = np.maximum(distance, abs(upper - lower) + 1e-4)
     way = line / np.maximum(requested, 1e-9)[:, None]
-    # The knee stays off the line from hip to ankle where it was, whose plane turns with the line alone; of a leg that
-    # is straight, or a little more than straight, it goes where the thigh faces, for there is no plane to keep. So that
-    # the thigh always faces across the line, it turns with it too: a leg that kicks would face along a line downwards.
+    # The knee keeps its offset from the line between hip and ankle, and its plane rotates with that line. A leg that is
+    # straight or slightly overextended has no such plane, so its knee points forward from the thigh. The thigh's
+    # direction rotates with the line too, so that it stays across it: in a kick it would otherwise point down along the
+    # leg.
     before = (was - hip) / np.maximum(natural, 1e-9)[:, None]
     off = knee - hip - before * np.einsum("fi,fi->f", knee - hip, before)[:, None]
     swung = quaternion.between(before, way)

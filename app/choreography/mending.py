@@ -98,7 +98,7 @@ def _pairs(clip: MotionClip, jumps: Sequence[Damage]) -> list[Damage]:
         back = -1
         for one, other in pairwise(sorted(jump for jump in jumps if part in jump.parts)):
             apart_s = (other.start - one.stop) / float(clip.fps)
-            # A jump that undid the one before does not begin another span.
+            # A jump that undoes the previous one does not begin another damaged span.
             undone = (
                 part != "place" and one.stop != back and (_swapped(part, one, other) or _undone(clip, at, one, other))
             )
@@ -264,7 +264,7 @@ def _bridge(values: FloatArray, one: Damage, clip: MotionClip) -> None:
     short = count / float(clip.fps) <= LONGEST_S or count <= 2
     rotates = values.shape[1] == 4
     if rotates and float(values[start] @ values[stop]) < 0.0:
-        # All later frames change sides, which no rotation shows.
+        # All later quaternions change sign, which does not change their rotations.
         values[stop:] *= -1.0
     slopes = count * (values[start] - values[first]), count * (values[last] - values[stop])
     slopes = slopes if short else (np.zeros_like(slopes[0]), np.zeros_like(slopes[1]))

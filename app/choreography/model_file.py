@@ -209,7 +209,7 @@ class _Check:
         hips = self._array(f"{place}.hips_m", motion.hips_m, (motion.frames, 3))
         self.is_true(f"{place}.hips_m", bool((np.abs(hips) <= LARGEST_M).all()), "a place is out of range")
         turns = self._array(f"{place}.rotations", motion.rotations, (motion.frames, len(SEGMENTS), 4))
-        # A sum of squares of what is not finite is not near to 1 either; float64 holds every square of a float32.
+        # The sum of squares of non-finite values is not near 1 either; float64 holds the square of every float32.
         unit = np.abs(np.einsum("fsi,fsi->fs", turns, turns) - 1.0) <= 2.0 * UNIT
         self.is_true(f"{place}.rotations", bool(unit.all()), "a rotation is no unit quaternion")
         return MotionClip(BodyShape.of(offsets, ends), fps, hips, turns)
@@ -236,7 +236,7 @@ class _Check:
         lengths = {len(row) for row in rows} if len(shape) > 1 else {shape[-1]}
         self.is_true(place, len(rows) == shape[0] and lengths == {shape[-1]}, f"its size is not {shape}")
         values = np.array(rows, np.float64)
-        # Only numbers up to 1 are added up: the sum of others may be too large.
+        # Only values up to 1 are summed, since the sum of larger ones could overflow.
         right = (np.abs(values - 0.5) <= 0.5).all() and (np.abs(values.sum(axis=-1) - 1.0) <= UNIT).all()
         self.is_true(place, bool(right), "a row of probabilities does not sum to 1")
         return values

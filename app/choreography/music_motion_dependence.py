@@ -123,12 +123,12 @@ class _Test:
         groups, sounded = groups_of_copies(model), np.zeros((len(self._states), len(SYMBOLS)))
         for at, one in enumerate(model.segments):
             np.add.at(sounded[at], list(one.sounds), 1.0)
-        # What is copied with its sounds counts once; other copies are on the side of the first third and second.
+        # A motion copied together with its sounds counts once; other copies are counted among the learned thirds.
         once = np.zeros(len(places), bool)
         once[np.unique(np.column_stack([groups, sounded]), axis=0, return_index=True)[1]] = True
         places = np.where(once, _earliest(groups, places), np.nan)
         learned = places < LEARNED
-        # Half of what is learned from says how far the other half's sounds can be trusted.
+        # One half of the learned motions shows how reliably sounds predict the other half.
         half = places < LEARNED / 2.0
         self._parts = (np.flatnonzero(half), np.flatnonzero(learned & ~half))
         self._learned, self._held_out = np.flatnonzero(learned), np.flatnonzero(once & ~learned)
@@ -153,7 +153,7 @@ class _Test:
         for clip in range(self._shape[0]):
             own = np.flatnonzero(self._clips == clip)
             ends = np.cumsum(random.integers(STRETCH[0], STRETCH[1] + 1, 1 + len(own) // STRETCH[0]))
-            # Round the end to the start, so that no stretch begins where the source does.
+            # Rotated from the end to the start, so that no stretch begins where the source begins.
             stretches = np.split(np.roll(own, int(random.integers(max(len(own), 1)))), ends[ends < len(own)])
             order[own] = np.concatenate([stretches[at] for at in random.permutation(len(stretches))])
         return order

@@ -120,7 +120,7 @@ def _fit(motion: FloatArray, music: FloatArray) -> tuple[FloatArray, IntArray]:
     """Return the correlation (K,), -1..1, of the overlapping parts of motion and music at each lag, and the lags (K,)
     in grid steps."""
     lags = np.arange(-(len(music) - 1), len(motion))
-    from scipy.signal import correlate  # heavy; only who learns a dance needs it
+    from scipy.signal import correlate  # slow to import and used only when a dance is learned
 
     shared = correlate(np.ones_like(motion), np.ones_like(music), method="fft").round()
     enough = shared >= LEAST_OVERLAP * min(len(motion), len(music))

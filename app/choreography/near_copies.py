@@ -45,7 +45,7 @@ def _groups(found: FloatArray, clips: IntArray) -> IntArray:
     the clips of the motions.
     """
     count = len(found)
-    # A point has three coordinates.
+    # Points have three coordinates.
     most = COPIES * np.sqrt(found.shape[1] / 3.0)
     centred = found - found.mean(axis=0)
     directions = np.linalg.svd(centred[:: max(1, count // 200)], full_matrices=False)[2][:_DIRECTIONS]

@@ -34,7 +34,7 @@ def prominent_peaks(values: FloatArray, least: float) -> tuple[IntArray, FloatAr
     if not len(peaks):
         return peaks, np.zeros(0)
     heights = values[peaks].tolist()
-    # The lowest place before the first peak, between each two, and after the last one.
+    # Lowest values before the first peak, between neighbouring peaks, and after the last one.
     valleys = np.minimum.reduceat(values, np.concatenate([[0], peaks])).tolist()
     before = _lowest_sides(heights, valleys[:-1])
     after = _lowest_sides(reversed(heights), reversed(valleys[1:]))[::-1]

@@ -64,7 +64,7 @@ def piece_beats(score: Score) -> tuple[FloatArray, IntArray, IntArray]:
     if score.pickup_ticks and len(ticks) > 1:
         ticks[0] = np.arange(lines[1] - beat_ticks[1], -1, -beat_ticks[1])[::-1]
         counts[0] = len(ticks[1]) - np.arange(len(ticks[0]), 0, -1)
-    # Twelve quarters over the lower number are three of what the metre counts.
+    # Three beats of the metre: twelve quarters divided by its lower number.
     threes = [12 * score.ticks_per_quarter / metre_map.metre_at(bar).denominator for bar in bars.tolist()]
     divisions = np.repeat(np.where(np.abs(beat_ticks - threes) < 1.0, 3, 2), [len(bar) for bar in ticks])
     return score.tempo_map.seconds(np.concatenate(ticks).astype(np.float64)), np.concatenate(counts), divisions

@@ -79,7 +79,7 @@ def _likeness(rhythm: Rhythm) -> FloatArray:
     struck = np.zeros((len(beats), max(1, len(sounds)), POSITIONS * int(beats.max())))
     here = bar[inside]
     np.add.at(struck, (here, sound, places[inside] - POSITIONS * downbeats[here]), rhythm.strengths[inside])
-    # No drummer is exact.
+    # Strokes are blurred, since drummers are never exactly on the grid.
     flat = gaussian_filter1d(struck, 0.7, axis=-1, mode="constant").reshape(len(beats), -1)
     flat /= np.maximum(np.linalg.norm(flat, axis=1, keepdims=True), 1e-9)
     return np.asarray((flat @ flat.T) * (beats[:, None] == beats[None, :]))

@@ -259,7 +259,7 @@ def _with_marks(
         near = np.searchsorted(lands_s, time_s - 1e-6)
         before_s = time_s - float(lands_s[near - 1]) if near else np.inf
         after_s = float(lands_s[near]) - time_s if near < len(lands_s) else np.inf
-        # A step is made ready when the mark before it is down.
+        # The foot has no time to lift if the previous landing is too near.
         if min(before_s, after_s) < 0.99 * apart_s:
             continue
         phrase = _phrase(time_s, rhythm)
@@ -272,7 +272,7 @@ def _with_marks(
             foot = 1 - foot
         up_s = min(HEEL_S, LIFT_SHARE * apart_s)
         if after_s < 1.5 * apart_s:
-            # The other foot is about to step.
+            # The other foot is about to step, so this one marks the beat.
             foot = 1 - stepped[near].foot
         place_m = next((row.place_m for row in reversed(stepped[:near]) if row.foot == foot), (0.0, 0.0))
         rows.append(_Row(foot, kind, time_s - up_s, time_s, 1.0, place_m))

@@ -169,7 +169,7 @@ def _of_figure(bvh: BvhClip, file: Path, fps: Fraction | None, joints: Mapping[s
     rate = fps or bvh.fps
     require_rate(rate, str(file))
     seconds = (len(bvh.rotations_xyzw) - 1) / float(rate)
-    # What lies beside a file counts, too.
+    # Files beside this one count too.
     size = max(file.stat().st_size, bvh.rotations_xyzw.nbytes)
     require_frames(str(file), seconds, float(rate), len(SEGMENTS), size)
     return motion_of(bvh, str(file), fps, joints)
@@ -300,7 +300,7 @@ def _end(name: str, ways: FloatArray) -> FloatArray:
     """
     along = {"head": (0.0, 1.0, 0.0), "leftHand": (1.0, 0.0, 0.0), "rightHand": (-1.0, 0.0, 0.0)}
     reach = ways @ np.array(along.get(name, (0.0, 0.0, 1.0)))
-    # A head reaches up over what sticks out of it (eyes); the others as far as the farthest.
+    # A head extends beyond joints such as eyes, along the upward axis; other segments extend to their farthest point.
     return ways[int(np.argmax(reach))] if name != "head" else np.array([0.0, float(reach.max()), 0.0])
 
 

@@ -21,6 +21,6 @@ def resampled(clip: MotionClip, fps: Fraction) -> MotionClip:
     count = int((len(clip) - 1) / clip.fps * fps) + 1
     frames = np.arange(count) * float(clip.fps / fps)
     known = np.arange(len(clip))
-    # Neighbouring rotations are on the same side and near to each other: their numbers can be interpolated.
+    # Neighbouring quaternions have the same sign and are close, so their components can be interpolated.
     rotations = quaternion.normalize(CubicSpline(known, clip.rotations)(frames))
     return MotionClip(clip.shape, fps, CubicSpline(known, clip.hips_m)(frames), rotations)

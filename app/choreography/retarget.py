@@ -152,7 +152,7 @@ def _collar(chest: FloatArray, upper: FloatArray, sign: float) -> FloatArray:
     along = quaternion.rotate(quaternion.multiply(quaternion.conjugate(chest), upper), np.array([sign, 0.0, 0.0]))
     rise = np.arcsin(np.clip(along[:, 1], -1.0, 1.0))
     lifted = COLLAR_SHARE * COLLAR_SOFT_RAD * np.logaddexp(0.0, rise / COLLAR_SOFT_RAD)
-    # A hanging arm leaves the collar bone where it is, to the bit.
+    # With a hanging arm the collar bone keeps its exact captured rotation.
     lifted = np.where(rise < -6.0 * COLLAR_SOFT_RAD, 0.0, lifted)
     return quaternion.from_axis_angle(np.array([0.0, 0.0, sign]), lifted)
 
@@ -200,7 +200,7 @@ def _floor_m(
         slow = np.linalg.norm(np.gradient(ankles_m[side], axis=0), axis=-1) * fps < STANDING_M_S
         heights.append(_sole_m(skeleton, side, segments[f"{side}Foot"], ankles_m[side])[slow])
     standing = np.concatenate(heights) if heights else np.zeros(0)
-    # What is lower than half of them stood; a foot that is held still in the air is higher.
+    # Feet in the lowest half of heights stood on the floor; a foot held still in the air is higher.
     return np.array([0.0, float(np.percentile(standing, 30.0)) if len(standing) else 0.0, 0.0])
 
 
@@ -243,7 +243,7 @@ def _leg(
     target, foot = _over_the_floor(skeleton, side, segments[f"{side}Foot"], ankle_m)
     hip, knee, ankle = (places_m[f"{side}{name}"] for name in ("UpperLeg", "LowerLeg", "Foot"))
     length_m = float(np.linalg.norm(knee[0] - hip[0]) + np.linalg.norm(ankle[0] - knee[0]))
-    # A straight leg does not say where its knee points: its thigh does.
+    # The direction of a straight leg's knee follows from its thigh.
     ahead = quaternion.rotate(segments[f"{side}UpperLeg"], np.array([0.0, 0.0, 1.0]))
     pole = knee - 0.5 * (hip + ankle) + KNEE_AHEAD * length_m * ahead
     pose = solve_limb(limb, socket_m, world[skeleton.index("hips")], target, foot, pole)

@@ -64,7 +64,7 @@ def delayed(rhythm: Rhythm, beats: float) -> Rhythm:
     if len(rhythm.beats_s) < 2:
         return rhythm
     count = np.arange(len(rhythm.beats_s), dtype=np.float64)
-    # Behind the last beat its tempo goes on.
+    # The last tempo continues after the last beat.
     more = np.arange(1, int(np.ceil(beats)) + 2)
     all_s = np.concatenate([rhythm.beats_s, rhythm.beats_s[-1] + more * (rhythm.beats_s[-1] - rhythm.beats_s[-2])])
     numbers = np.arange(len(all_s), dtype=np.float64)

@@ -189,7 +189,7 @@ def choose(
     chosen: list[tuple[int, int]] = []
     phrases = np.flatnonzero(grid.on_beat)[::PHRASE_BEATS].tolist()
     for first, stop in pairwise((*phrases, count)):
-        # What comes next is looked at too, so that a phrase does not end where nothing goes on.
+        # The search looks beyond the phrase, so that it does not end with a motion that cannot continue.
         seen = search.latest(stop - 1) + 1
         noise = weights.chance * (random.gumbel(size=segments) + random.gumbel(size=(seen - first, segments)))
         since_s = grid.times_s[first] - LATELY_S
@@ -231,7 +231,7 @@ def _danced_again(
         danced[place] = segment
     again = np.zeros((len(places), segments))
     rows = slice(places.start, places.stop)
-    # A place -1 is behind the last one, where nothing is danced.
+    # Index -1 is the row after the last accent, in which no segment is danced.
     own = danced[returns.earlier[rows]]
     row, bar = np.nonzero((own >= 0) & (returns.worths[rows] != 0.0))
     worths = returns.worths[rows][row, bar]
@@ -258,7 +258,7 @@ class _Turns:
         (``again``, from `_danced_again`) favours the take that was danced to it before.
         """
         beats, takes = grid.beats, self._takes.takes
-        # An accent is danced about its place; what was danced since the last phrase is taken off.
+        # The beats danced since the last phrase are subtracted from what each take is owed.
         for (place, segment), (following, _) in pairwise((*chosen[self._counted :], (first, -1))):
             self._owed[takes[segment]] -= max(0.0, beats[following] - beats[place])
         self._counted = len(chosen)
@@ -323,7 +323,7 @@ class _Search:
         count = stop - first
         best = np.full((count, len(self._initial)), float(NEVER) * 10.0)
         segments = len(self._initial)
-        # Place and segment that each accent was reached from, as one number.
+        # Preceding accent and segment of each entry, encoded as one number.
         came = np.full((count, segments), -1, np.int64)
         for place in range(first, stop):
             row = place - first
@@ -361,7 +361,7 @@ class _Search:
         """Return the best sequence as (accent, segment) pairs, traced back from the best accent near the end; ``best``
         are scores (accents, segments), ``came`` the predecessors."""
         reached = best.max(axis=1)
-        # The phrase ends with an accent as late as one can be; a place or two later need not have one.
+        # The phrase ends at the latest accent that can be reached; the accents after it may be unreachable.
         last = max((row for row in range(stop - first) if reached[row] > NEVER / 2.0), default=-1)
         if last < 0:
             return []

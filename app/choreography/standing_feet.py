@@ -256,7 +256,7 @@ def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> Flo
             value, slope = _edge(result, stop, 1)
             fade = min(SETTLE_S * fps, 0.5 * (stop - start + 1))
             result[start:stop] += _eased(value, -slope, (stop - times) / fade, fade)
-        # A foot that should have stood all the time lifts for its step.
+        # A foot that stood all the time in the capture is lifted for its step.
         if before is not None and after is not None and stop - start <= 1.5 * STEP_S * fps:
             way = np.linalg.norm(np.subtract(after.place_m, before.place_m))
             low = np.maximum(0.0, STEP_HIGH_M - np.ptp(tip_m[start:stop, 1])) * min(1.0, way / STEP_FAR_M)

@@ -145,11 +145,11 @@ class Stitcher:
                 if not follows or step != before + 1:
                     turn, moved = self._aligned(earlier, segment, turn, moved, self._heights_m[body])
                 turn, moved = _steered(turn, moved, out, start, _faces(captured[1][start + run : stop + run]))
-                # Of what follows in the capture only the place and the facing may have been steered.
+                # If the capture continues, only position and facing may have been steered and need blending.
                 carried = max(out.fading(start), int(kept != (turn, moved))) if follows else len(SEGMENTS)
                 if not follows:
                     seams.append(start)
-            # One frame more: by the first two it is known how fast the old and the new motion go apart.
+            # One additional frame: the first two show how fast the old and the new motion diverge.
             here = slice(start + run, stop + run + 1)
             hips, rotations = _placed(captured[0][here], captured[1][here], turn, moved)
             out.append(start, hips, rotations, carried)
@@ -241,7 +241,7 @@ class _Output:
         if carried and start >= 2:
             hips_before, hips_last = self.hips[start - 2 : start]
             turns_before, turns_last = self.rotations[start - 2 : start, :carried]
-            # Where the old motion would go on to: this frame and the next.
+            # The old motion extrapolated to this frame and the next.
             step, turn = hips_last - hips_before, quaternion.multiply(turns_last, quaternion.conjugate(turns_before))
             off = hips_last + step * np.array([[1.0], [2.0]]) - hips[:2]
             goes_on = np.stack([once := quaternion.multiply(turn, turns_last), quaternion.multiply(turn, once)])
@@ -249,7 +249,7 @@ class _Output:
                 quaternion.multiply(goes_on, quaternion.conjugate(rotations[:2, :carried]))
             )
             spin = turned[1] - turned[0]
-            # A difference about half a turn has two ways round; no join as bad as that is chosen.
+            # A difference near half a turn is ambiguous; a join that poor is never chosen.
             spin = np.where(np.linalg.norm(spin, axis=-1, keepdims=True) > 1.0, 0.0, spin)
             length = math.ceil(FADE_S * self._rate)
             self._fades_until, self._carried = start + length, carried
@@ -295,7 +295,7 @@ def _steered(turn: float, moved: complex, out: _Output, frame: int, ahead: compl
     off = float(np.angle(complex(np.exp(1j * turn)) * ahead))
     if abs(off) > FACES_RAD:
         nudge = -math.copysign(min(TURN_BACK * (abs(off) - FACES_RAD), MOST_TURN_RAD), off)
-        # About where the body is, so that it does not swing round the middle of the stage.
+        # Rotated about the position of the body, so that it does not orbit the centre of the stage.
         here = out.place(frame)
         moved = here + complex(np.exp(1j * nudge)) * (moved - here)
         turn += nudge

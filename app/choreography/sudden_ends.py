@@ -129,7 +129,7 @@ def _calm(
         inside = slice(start - beside.start, stop - beside.start)
         joint, tip = _calm_points(points[beside, 0], points[beside, 1], _ROOM * most, held, planted[beside])
         if _suddenness(np.stack([joint, tip], axis=1), most) >= _suddenness(points[beside], most):
-            # Between stands that are close together there may be no calmer path.
+            # Between two stands in quick succession a calmer path may not exist.
             continue
         changed = True
         was, now = (points[here, 1] - points[here, 0]), (tip - joint)[inside]
@@ -160,7 +160,7 @@ def _calm_points(
         calm = _bent(tip, float(most[1]), held | planted)
         joint, tip = joint + calm - tip, calm
         calm, along = _bent(joint, float(most[0]), held), _unit(tip - joint)
-        # The distance is constant, so a joint moves along the hand or foot only together with its tip.
+        # The distance between joint and tip is constant, so along the hand or foot both move together.
         tip = tip + free * along * np.sum((calm - joint) * along, axis=-1, keepdims=True)
         joint = tip - length * _unit(tip - calm)
         if _suddenness(np.stack([joint, tip], axis=1), most) <= 1.01:
@@ -175,7 +175,7 @@ def _bent(path: FloatArray, most: float, held: BoolArray) -> FloatArray:
     moved, before = np.zeros_like(path), np.zeros_like(path)
     free = ~held[:, None]
     for number in range(ROUNDS):
-        # Nesterov's momentum: far fewer rounds for long stretches.
+        # Nesterov's momentum needs far fewer rounds for long stretches.
         ahead = moved + number / (number + 3.0) * (moved - before)
         change = np.diff(path + ahead, 2, axis=0)
         size = np.linalg.norm(change, axis=-1, keepdims=True)

@@ -124,7 +124,7 @@ def _sunk(clip: MotionClip, world: JointTransforms) -> Iterator[tuple[int, int]]
     soles = [_end_m(clip, world, name, reach)[:, 1] for name in FEET for reach in (0.0, 1.0)]
     lowest, hips = np.min(soles, axis=0), clip.hips_m[:, 1]
     around = 1 + 2 * round(0.5 * FLOOR_S * float(clip.fps))
-    # Every so manieth frame shows where the floor is.
+    # A sample of the frames suffices to find the height of the floor.
     every = max(1, around // 60)
     frames = np.arange(0, len(clip), every)
     wide = 1 + 2 * (around // (2 * every))
@@ -135,6 +135,6 @@ def _sunk(clip: MotionClip, world: JointTransforms) -> Iterator[tuple[int, int]]
     under = floor - lowest
     sunk = np.asarray((under > UNDER_M) & (usual - hips > WITH_FEET * under))
     for start, stop in runs(np.asarray(under > BEGINS * UNDER_M)):
-        # It began to sink before it was so low.
+        # The span includes the frames in which the body began to sink.
         if sunk[start:stop].any():
             yield max(start - 1, 0), min(stop, len(clip) - 1)

@@ -128,7 +128,7 @@ def map_with_arrivals(
     if not met:
         return plain
     (first_s, first_along), (last_s, last_along) = met[0], met[-1]
-    # Before the first and after the last beat that is met it goes as captured.
+    # Before the first and after the last matched beat the captured speed is kept.
     ends = (
         (first_s - (first_along - plain.along_s[0]), plain.along_s[0]),
         (last_s + (plain.along_s[-1] - last_along), plain.along_s[-1]),

@@ -89,7 +89,7 @@ def main(arguments: Sequence[str]) -> int:
 
 def _run(arguments: Sequence[str]) -> int:
     for argument in arguments:
-        # Whoever names a file on another computer agrees to that computer.
+        # By naming a file on another computer the user agrees that it is accessed.
         agree(argument.partition("=")[2] if argument.startswith("--") else argument)
     broken = next((argument for argument in arguments if "\0" in argument), None)
     if broken is not None:
@@ -103,7 +103,7 @@ def _run(arguments: Sequence[str]) -> int:
         with interrupted_by(signal.SIGINT):
             status = run(parsed)
         sys.stdout.flush()
-    except SystemExit as stop:  # argparse: --help and --version end with 0, bad use with 2
+    except SystemExit as stop:  # argparse: --help and --version exit with 0, incorrect arguments with 2
         return stop.code if isinstance(stop.code, int) else BAD_USE
     except UsageError as error:
         return _fail(error_sentence(error), BAD_USE)
@@ -112,7 +112,7 @@ def _run(arguments: Sequence[str]) -> int:
     except KeyboardInterrupt:
         return _fail(said("cli.stopped"), STOPPED)
     except BrokenPipeError:
-        # The reader of our output has ended (`| head`): not an error. Python would complain once more at exit.
+        # The reader of our output has ended (`| head`), which is no error. Python would report it again at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
     return DONE if status is None else status

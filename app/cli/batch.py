@@ -153,7 +153,7 @@ def export_folder(arguments: argparse.Namespace) -> int:
         finally:
             progress.clear()
     for future, piece in futures.items():
-        # One may have been done before it could be stopped.
+        # A piece may have finished before it could be stopped.
         if stopped and piece not in outcomes and future.done() and not future.cancelled():
             results.add(piece, future)
     say(*_table(pieces, outcomes, known, stopped))
@@ -205,7 +205,7 @@ def _is_music(path: Path) -> bool:
         with open_file(path) as stream:
             return b"<score-" in stream.read(_START).replace(b"\0", b"")
     except (FileError, OSError):
-        # Its export says why it cannot be read.
+        # Exporting the file reports why it cannot be read.
         return True
 
 
@@ -285,7 +285,7 @@ def _executor(scheduler: str | None, jobs: int | None) -> Iterator[Executor]:
         finally:
             threads.shutdown(cancel_futures=True)
         return
-    # Only where it is asked for: its modules take long to load.
+    # Imported on demand, since its modules are slow to load.
     from app.cli.cluster import cluster_executor
 
     with cluster_executor(scheduler) as executor:

@@ -101,7 +101,7 @@ def _named_files(piece: Path) -> list[Path]:
     try:
         project = load(piece)
     except AppError:
-        return []  # Its export reports what is wrong with it.
+        return []  # Exporting the piece reports the error.
     return [Path(path) for path in dict.fromkeys(_named(project))]
 
 

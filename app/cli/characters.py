@@ -279,7 +279,7 @@ def checked(
     hidden, note = (hidden, None) if keep_props else _left_out(reading, hidden)
     figure = at_height(reading.figure.without(hidden), height_m)
     lacking = [joint for joint in REQUIRED_JOINTS if joint not in reading.joints.bones]
-    # What only shape found in a figure without a whole body is no joint.
+    # A joint found only by shape counts only if the figure has a complete body.
     mapped = reading.joints if reading.joints.profile or not lacking else JointMapping("", {}, (), ())
     beside: dict[str, list[str]] = {}
     for bone, joint in bones_beside_hands(reading.figure, mapped.bones).items():

@@ -223,7 +223,7 @@ def add_pitch_options(command: argparse.ArgumentParser, of_players: bool = True)
 
 
 def _add_arguments(name: str, command: argparse.ArgumentParser) -> None:
-    # All that modules make lasts: collecting garbage takes a tenth of the time that loading them takes.
+    # All objects that modules create stay alive: garbage collection takes a tenth of the import time.
     collects = gc.isenabled()
     gc.disable()
     try:

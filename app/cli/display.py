@@ -66,7 +66,7 @@ def _wayland_socket(name: str, environment: Mapping[str, str]) -> Path:
 def _x_answers(display: str) -> bool:
     found = _DISPLAY.match(display)
     if found is None or found["path"]:
-        # Something of another system: Qt knows better.
+        # Other systems have other rules, which Qt applies.
         return True
     number = int(found["number"])
     if found["host"] in ("", "unix"):

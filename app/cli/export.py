@@ -177,7 +177,7 @@ def export(arguments: argparse.Namespace) -> int:
     elif arguments.scheduler is not None:
         raise UsageError("dask.one_piece")
     formats = _requested_formats(arguments)
-    # What is wrong with it is reported before anything is read.
+    # Errors of the Unreal project are reported before any file is read.
     unreal = None
     if arguments.unreal is not None:
         from app.export.unreal.project import find_project
@@ -265,7 +265,7 @@ def _request(
     chosen = select_players(arguments.players, names)
     count = len(project.players)
     players = tuple(project.players[index] for index in chosen if index < count)
-    # Before the plans, which say what a body does not reach.
+    # Reported before the plans, which say what a body cannot reach.
     musicians = dict.fromkeys(project.musician(player) for player in players)
     find_holds(performance, [player for musician in musicians for player in project.played_by(musician)])
     return ExportRequest(

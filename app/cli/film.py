@@ -147,7 +147,7 @@ def film(arguments: argparse.Namespace) -> int:
         try:
             return _draw(requested, stop_requested)
         except AppError as error:
-            # The encoder has got the same Ctrl-C, and then refuses what it gets.
+            # The encoder received the same Ctrl-C and rejects further input.
             if stop_requested() or isinstance(error, Cancelled):
                 raise KeyboardInterrupt from error
             if error.message.id not in ("picture.film_no_gl", "picture.no_gl"):
@@ -158,7 +158,7 @@ def film(arguments: argparse.Namespace) -> int:
 
 def _draw(film: _Film, stop_requested: StopRequested) -> int:
     """Draw the frames of a film and write them to the output, and return the exit status of the command."""
-    # All of Qt.
+    # imports all of Qt
     from app.performance.cast import require_players
     from widgets.viewport.offscreen import offscreen
 
@@ -319,7 +319,7 @@ def caption_texts(performance: Performance, times_s: Sequence[float], language: 
     found = []
     for time_s in times_s:
         frame = round((time_s - performance.time_frame.first_frame_s) * fps)
-        # Tempi are stored in whole microseconds: a time on the beat is not exactly a tick.
+        # Tempi are stored in whole microseconds, so a time on the beat is not exactly at a tick.
         tick = round(float(performance.piece.clock.ticks(time_s)))
         time_text = f"{time_s:.2f}".replace("-", "−")
         found.append((text(Message("picture.time", {"time": time_text, "frame": frame}), language), metres.label(tick)))

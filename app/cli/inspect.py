@@ -123,7 +123,7 @@ def inspection(
     """
     project = performance.project
     score = project.score
-    # No one plans for an instrument that is not there.
+    # Players whose instrument is missing are not planned.
     playable = attempt(project.players, performance.instrument)
     absent = {one.player.id for one in playable.left_out}
     if contacts:
@@ -261,7 +261,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap,
         "source": part.source,
         "musician": performance.project.musician(player).name,
         **_person(player, speech),
-        # Of notes struck together only one is played; the others are among what to look at.
+        # Only one of several simultaneous notes is played; the others are listed among the problems.
         "notes": [
             _note(note, fingerings[note.id], keys[fingerings[note.id].label], instrument, clock)
             | {
@@ -303,7 +303,7 @@ def _of_some_players(
     if origins:
         table["marks"] = [_mark(mark) | {"source": origin} for mark, origin in origins.items()]
     if plan.poses:
-        # Only where the animator held something differently: nothing else has any.
+        # Included only for a player whose hold was edited; other players have no such values.
         angles = ("up_deg", "left_deg", "roll_deg")
         table["poses"] = _events(plan.poses, clock, reason, "target", *angles, "fade_in_s", "fade_out_s")
     if plan.mutes:

@@ -39,4 +39,4 @@ def _same(one: Path, other: Path) -> bool:
     try:
         return one.samefile(other)
     except OSError:
-        return False  # what is written is not there yet
+        return False  # the output file does not exist yet

@@ -109,7 +109,7 @@ def picture_size(least_px: tuple[int, int], most_px: tuple[int, int]) -> Callabl
 
     def parsed(text: str) -> tuple[int, int]:
         width, _, height = text.partition("x")
-        # No more digits than `int` reads at once.
+        # Limited to the number of digits that `int` accepts.
         if not all(side.isascii() and side.isdecimal() and len(side) <= _MOST_SHOWN for side in (width, height)):
             raise argparse.ArgumentTypeError(said("cli.no_size", typed=_cut(text)))
         result = int(width), int(height)
@@ -228,7 +228,7 @@ def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
     )
     found = set_piece_settings(project, _piece(arguments, project))
     if getattr(arguments, "preroll", None) is None and not is_project_file(arguments.file):
-        # Of a new piece it is as long as it takes to come up from rest, in whatever beat is felt.
+        # A new piece starts as early as a player needs to raise the instrument, rounded to its beat.
         found = set_preroll(found, preroll_of_new(found))
     return with_outfits(with_settings(found, settings, maps), getattr(arguments, "outfits", ()))
 

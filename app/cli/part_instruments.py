@@ -123,7 +123,7 @@ def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned], i
     added = [word for one in parts for word in _option(f"{one.part}={one.map_id}")]
     words = list(arguments.given)
     if getattr(arguments, "piece", None) is not None:
-        # One of a folder, whose other pieces have other parts.
+        # A piece of a folder; the other pieces have other parts.
         words = ["export", os.fspath(arguments.piece), "--to", os.fspath(arguments.to)]
     named = ", ".join(one.part for one in parts)
     command = shown(_joined(["suisou", *words, *added]))

@@ -44,7 +44,7 @@ class PortMonitor:
         while True:
             self._news.clear()
             yield from self.link.poll()
-            # In bites: on Windows Ctrl-C does not end a wait.
+            # Waits in short intervals: on Windows Ctrl-C does not interrupt a wait.
             left_s = end_s - time.monotonic()
             if left_s <= 0.0:
                 return

@@ -94,7 +94,7 @@ def stream(arguments: argparse.Namespace) -> int:
     first = _first_frame(span, arguments.from_s)
     performers = project.performers
     asked = [performers[at] for at in select_players(arguments.players, [one.name for one in performers])]
-    # A musician selected by any instrument is sent with all of them.
+    # A musician selected by one instrument is streamed with all of them.
     chosen = list(dict.fromkeys(project.musician(one) if isinstance(one, Player) else one for one in asked))
     if not chosen:
         raise UsageError("stream.no_players")
@@ -112,7 +112,7 @@ def stream(arguments: argparse.Namespace) -> int:
     if not made:
         require_players(left_out, str(arguments.file), sentence)
     status = report_left_out((one.player.name, sentence(one.reason)) for one in left_out)
-    # An excluded player keeps its port, so that the ports of the others never change.
+    # An excluded player keeps its port number, so that the other players' ports never change.
     ports = {one.id: arguments.port + place for place, one in enumerate(chosen)}
     sent = [one for one in chosen if one.id in made]
     senders = [Sender(address.port(ports[one.id]), arguments.broadcast) for one in sent]

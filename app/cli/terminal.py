@@ -33,7 +33,7 @@ def warn(sentence: str) -> None:
 def say_json(value: Any) -> None:
     """Print a value as JSON with terminal control characters escaped."""
     text = json.dumps(value, ensure_ascii=False)
-    # Of ASCII JSON escapes all but one itself: megabytes need not be searched.
+    # JSON in ASCII escapes every control character but DEL, so megabytes need not be searched.
     if not text.isascii() or "\x7f" in text:
         text = HIDDEN.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
     print(msgspec.json.format(text, indent=2))

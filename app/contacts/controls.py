@@ -124,7 +124,7 @@ class NoteFrames:
             targets = self.targets(control)
             goes = targets[here] != targets[following]
             leaves_s[goes] = np.minimum(leaves_s[goes], self._leaves_s(control, targets)[here[goes]])
-        # One that must leave before its note begins leaves the notes before it as early.
+        # A control that must leave before its note begins limits all earlier notes of it as well.
         until = np.minimum.accumulate(np.searchsorted(self._times_s, leaves_s - 1e-9)[::-1])[::-1]
         return self._inside(starts[here], np.minimum(stops[here], until))
 
@@ -202,7 +202,7 @@ class NoteFrames:
             needed_s = distances_m / control.max_speed_m_s
         if control.unhurried_speed_m_s:
             unhurried_s = distances_m / control.unhurried_speed_m_s
-        # A note may sound on under the next one (legato); its control belongs to it until then only.
+        # In legato a note may continue under the next one; its control is needed only until the next begins.
         ends_s = np.minimum(self._ends_s[:-1], next_s)
         allowed_s = np.maximum(next_s - ends_s, control.move_note_share * (ends_s - starts_s))
         window_s = np.maximum(needed_s, np.minimum(np.maximum(control.move_window_s, unhurried_s), allowed_s))

@@ -105,7 +105,7 @@ class HandDepths:
         sizes = [size for size in BLOCKS if size <= frames]
         joints = world_from_joint.transpose(0, 2, 1, 3).astype(np.float32, order="C")
         base = steadiest([world_from_node[node] for node in self._nodes], joints)
-        # Whole blocks: the last frame is repeated.
+        # Padded to whole blocks by repeating the last frame.
         order = np.minimum(np.arange(-(-frames // sizes[0]) * sizes[0]), frames - 1)
         local = joints_in_node(world_from_node[self._nodes[base]], joints)
         features = (local[:, 3] + local[:, 0] * np.float32(_ARM_M)).transpose(1, 0, 2).reshape(frames, -1)
@@ -298,7 +298,7 @@ class _Search:
         frames of B blocks are raised in place.
         """
         placed, own_m = self._placed(pairs, vertices), radii_m[pairs.spots]
-        # Something this far away is known to be less deep than what has been found.
+        # Anything this far away is certainly less deep than the depth found so far.
         clear_m = own_m + placed.moves_m - pairs.of_blocks(depths_m.min(axis=1))
         about_m, error_m = self._field.about_m(placed.places_m.T, pairs.nodes, clear_m, placed.moves_m)
         _raise(depths_m, pairs, -about_m - error_m - placed.moves_m)

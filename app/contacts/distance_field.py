@@ -147,7 +147,7 @@ class DistanceField:
         are clipped to its edge, where no body is near.
         """
         scaled = np.ascontiguousarray(np.maximum(scaled, 0.0))
-        # Compared before they are whole numbers, which hold less.
+        # Clamped before conversion to integers, which have a smaller range.
         np.minimum(scaled, (self._shapes.T * parts - _EDGE).astype(scaled.dtype).take(nodes, axis=1), out=scaled)
         return scaled
 
@@ -180,7 +180,7 @@ class DistanceField:
         found: SingleArray = self._middle_m.take(flat)
         missing = np.isnan(found)
         if missing.any():
-            # Threads that find the same missing compute the same.
+            # Threads that miss the same bricks compute identical values.
             new = np.unique(flat[missing])
             distances_m, _, firsts = self._from_middles_m(self._corners_of(new), self._nodes_of(new))
             self._middle_m[new] = np.minimum.reduceat(distances_m, firsts)
@@ -226,7 +226,8 @@ class DistanceField:
         radius_m = _HALF_DIAGONAL * _BRICK_M
         middle_m, body, firsts = self._from_middles_m(corners_m, nodes)
         brick = np.repeat(np.arange(len(flat)), self._owned[nodes])
-        # What is nearest somewhere in a brick is no further from its middle than the nearest and the brick's diagonal.
+        # The surface nearest to a point in a brick is no farther from the centre than the nearest distance plus the
+        # diagonal.
         nearest_m = np.minimum(np.minimum.reduceat(middle_m, firsts) + 2.0 * radius_m, FAR_M + radius_m)
         count = len(self._touching)
         for lists, near in (
@@ -237,7 +238,7 @@ class DistanceField:
         self._place_of = np.concatenate([self._place_of, flat.astype(np.int32)])
         cells_m = np.full((len(flat), BRICK_CELLS**3), np.nan, dtype=np.float32)
         self._about_m = np.concatenate([self._about_m, cells_m])
-        # Last, since other threads look here without a lock.
+        # Written last, because other threads read it without a lock.
         self._brick_at[flat] = count + np.arange(len(flat), dtype=np.int32)
 
     def _compute_cells(self, cells: AnyIntArray) -> None:

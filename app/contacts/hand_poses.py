@@ -86,7 +86,7 @@ def _through(matrices: SingleArray, at: IndexArray, points_m: SingleArray) -> Si
     """Transform N points (3, N) by the matrices selected by ``at`` (N,) among M matrices (3, 4, M)."""
     result = np.empty_like(points_m)
     for axis, row in enumerate(matrices):
-        # In the order of a matrix product, whose rounding this has.
+        # Summed in the order of a matrix product, to reproduce its rounding.
         moved_m = row[0].take(at)
         moved_m *= points_m[0]
         for column in (1, 2):
@@ -296,7 +296,7 @@ class PartMoves:
         at = nodes * self.chords.shape[1] + blocks
         places_m = _through(self.node_from_base.reshape(3, 4, -1), at, base_m)
         lengths_m, reaches_m = _lengths(places_m), self.reaches_m.take(nodes)
-        # However far a point is, its distance changes by no more than what the node has moves.
+        # The distance of any point changes by no more than the movement of the node.
         turns_m = self.chords.reshape(-1).take(at) * np.minimum(lengths_m, reaches_m)
         return NodePoints(places_m, moves_m + self.shifts_m.reshape(-1).take(at), turns_m, lengths_m - reaches_m)
 
@@ -341,7 +341,7 @@ def _chords(changes: SingleArray) -> SingleArray:
     """Bound on the movement of a point at distance 1 from the origin, given the ``changes`` (3, 3 or more, ...) of a
     rotation matrix.
     """
-    # A turn by an angle moves it by the chord, 2 sin(angle / 2), at most.
+    # A rotation moves a point by at most the chord, 2 sin(angle / 2) times its radius.
     square = np.zeros(changes.shape[2:], dtype=np.float32)
     for row in changes:
         for change in row[:3]:

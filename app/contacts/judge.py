@@ -97,7 +97,7 @@ class ContactJudge:
         traces = Traces(marks, world_from_nodes(place_m, turn, nodes))
         lips_m = traces.lips_m(instrument)
         if lips_m is not None:
-            # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
+            # A catch breath shortens a note: the note still sounds in the score, but the lips have left.
             off_lips = (lips_m * 1000.0 > LIPS_MM) & ~notes.within(self._breaths_s)
             yield from runs(("lips", "", ""), times_s, lips_m, off_lips)
         placed = self._curves.placed(times_s)
@@ -124,7 +124,7 @@ class ContactJudge:
             if contact.grip == "guide":
                 continue
             gaps_m = judge.gap_m(index)
-            # Where the whole hand has moved, its fingers have with it.
+            # If the whole hand is displaced, so are its fingers.
             most_mm = allowed_mm(contact_name(contact), bound_mm(contact), self._missed)
             broken = (gaps_m * 1000.0 > most_mm) & ~off[contact.part.split(".")[0]]
             if broken.any():

@@ -105,7 +105,7 @@ def hand_reach(
     places: list[Place] = []
     grips = grips_of(fingerings)
     for event in grips:
-        # By identity: notes of one fingering share its table.
+        # Compared by identity: notes with the same fingering share its table.
         place = known.get(id(event.controls))
         if place is None:
             place = known[id(event.controls)] = _place(event, carried)
@@ -153,7 +153,7 @@ def _gaps_m(holding: Holding, instrument: InstrumentMap, examples: list[Fingerin
     still = PlayerPlan(player_id, frame, held, (), (), (), (), (), (), ())
     parameters = PlayerParameters(amplitude=0.0, posture=posture, sway=0.0, weight_shift=0.0)
     curves = prepare(StepRuns(), still, parameters, instrument, character, grip, body, felt_beats=((0, 1),))
-    # One frame in the middle of each note.
+    # One frame at the middle of each note.
     fps = Fraction(1, round(_NOTE_S / 2.0))
     motion = curves.motion(fps, 0, round((frame.end_s - frame.first_frame_s) * fps))
     times_s = motion.first_frame_s + np.arange(motion.frames) / float(fps)

@@ -100,7 +100,7 @@ def hole_values(instrument: InstrumentMap, traces: Traces) -> dict[str, FloatArr
             continue
         touches = [contact for contact in instrument.contacts if control.name in worked_by(contact, instrument)]
         if not touches:
-            # No one's finger is there: fingers that do not bend (`app.rig.grip.fitting.fitted_instrument`).
+            # Fingers that do not bend touch nothing (`app.rig.grip.fitting.fitted_instrument`).
             continue
         whole_m = np.min([_gap_m(contact, instrument, traces) for contact in touches], axis=0)
         values = np.where(whole_m > instrument.size * CLEAR_MM / 1000.0, 0.0, np.nan)
@@ -185,12 +185,12 @@ class TouchJudge:
             controls = [instrument.control(name) for name in names]
             frames = frames & notes.kept(station, self._stations[finger], controls)
             for control in map(instrument.control, worked_by(contact, instrument)):
-                # Of a hole without a moving part the finger itself is the measure: it closes it where it should.
+                # An open hole has no moving part: the finger is measured, since it closes the hole itself.
                 if control.motion is not None:
                     frames = frames & notes.working(control, self._values[control.name])[0]
         stopped = instrument.stopped
         if stopped is not None and contact.part.startswith(stopped.hand):
-            # The fingers stay on the wall of the bell, thumb and palm do not.
+            # The fingers stay on the wall of the bell; thumb and palm leave it.
             frames = frames if contact.part.split(".")[1] in FINGERS_KEPT else frames & ~self._closing
         return frames
 

@@ -133,7 +133,7 @@ def _tick(session: PlannedPiece, player: Player, event_id: str) -> int | None:
     for place in EventId.parse(event_id).places:
         if place.startswith("@") and place[1:].lstrip("-").isdecimal():
             return int(place[1:])
-        # A mark over several notes names the first and the last one.
+        # A mark over several notes names its first and last note.
         note = note_of(session.project.score, place.partition("-")[0], player.part_id)
         if note is not None:
             return note.onset_tick

@@ -160,7 +160,7 @@ class Files(QObject):
         project = self.session.project
         return not self.session.document.is_saved and (self.autosave is None or not self.autosave.has(project))
 
-    # Opening
+    # Opening and creating
 
     def begin(self) -> None:
         """Open a new, empty piece."""
@@ -331,7 +331,8 @@ class Files(QObject):
         def done(opened: tuple[Project, tuple[Recoverable, ...]]) -> None:
             project, items = opened
             self._become(project, None)
-            # The bundled example is offered by itself; it is no file of this user's, and nothing is written beside it.
+            # The bundled example is not a file of the user: it is not listed as recent, and no files are written beside
+            # it.
             if not path.is_relative_to(Path(str(files("resources")))):
                 self.settings.folder = str(path.parent)
                 self.settings.add_recent(path)
@@ -348,7 +349,7 @@ class Files(QObject):
     def _failed(self, path: Path) -> Callable[[AppError], None]:
         def failed(error: AppError) -> None:
             self.session.notice(error.message, Severity.ERROR)
-            # Unlike `Path.exists`, it is no error where the name cannot be any file's.
+            # Unlike `Path.exists`, this returns False for names that no file can have.
             if not os.path.exists(path):
                 self.changed.emit()
 
@@ -378,7 +379,7 @@ class Files(QObject):
         self.opened.emit()
         self.changed.emit()
 
-    # Letting go
+    # Closing
 
     def let_go(self, then: Then) -> None:
         """Run a function that closes the open project, after its changes are saved or discarded."""
@@ -489,13 +490,13 @@ class Files(QObject):
             if not self.session.document.is_saved:
                 self._note_unsaved()
             elif self.autosave is not None and self.autosave.has_work:
-                # Undone to what is in the file.
+                # Undo led back to the saved state.
                 self._begin_autosave()
                 if self.autosaved:
                     self.saved_s, self.autosaved = None, False
         self.changed.emit()
 
-    # Unsaved work
+    # Autosave
 
     def _begin_autosave(self, former: storage.Autosaved | None = None, held: Path | None = None) -> None:
         """Start autosaving for the project just opened.

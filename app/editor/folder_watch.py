@@ -46,9 +46,9 @@ class FolderWatch(QObject):
         """Watch the folder and its files; if the folder does not exist, watch its parent."""
         folder = self._folder()
         requested = {str(next(place for place in (folder, *folder.parents) if os.path.isdir(place)))}
-        with contextlib.suppress(FileError):  # Who reads the folder says that it cannot be listed.
+        with contextlib.suppress(FileError):  # reading the folder reports the error
             requested |= {str(path) for path in files_in(folder, *self._suffixes) if os.path.exists(path)}
-        # Of what is not UTF-8 Qt would watch something else.
+        # Qt would watch another folder if the path is not valid UTF-8.
         requested = set(filter(is_text, requested))
         watched = {*self._watcher.directories(), *self._watcher.files()}
         if gone := watched - requested:

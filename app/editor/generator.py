@@ -136,9 +136,9 @@ class Generator(QObject):
 
     def _plan(self, project: Project) -> None:
         if self._long:
-            # It is finished first: of edits that come faster than plans, some are seen.
+            # The current plan is finished first: if edits come faster than plans, intermediate results are shown.
             return
-        # Two threads of Python hold each other up: the user waits for this one, until the edit is drawn.
+        # Threads of Python slow each other down, so the worker pauses until the window has drawn the edit.
         self._worker.pause()
         QTimer.singleShot(0, self, self._worker.go_on)
         try:
@@ -172,7 +172,7 @@ class Generator(QObject):
             try:
                 self._make_now(performance)
             finally:
-                # Also where the player in front met a fault.
+                # Runs also if planning the player in front failed.
                 self._session.set_performance(performance)
 
     def _make_now(self, performance: Performance) -> None:
@@ -204,7 +204,7 @@ class Generator(QObject):
             performance.hold(stop_requested, progress)
 
         def ended() -> None:
-            # Also what was stopped because other players came has ended then: theirs go on.
+            # Also reached if the work was stopped because other players were requested; their work continues.
             if self._holding is requested:
                 self._holding = frozenset()
 
@@ -229,7 +229,7 @@ class Generator(QObject):
             try:
                 performance.prepare(stopped, progress, lambda: session.players, planned)
             finally:
-                # Also where the user stopped it: then no one is reported.
+                # Also reached if the user stopped the work, in which case no player was reported.
                 if self._shown < number:
                     self._long = False
             return performance
@@ -298,7 +298,7 @@ class Generator(QObject):
         self._opened, self._coming, self._around = False, None, None
         self.live.show(self._session.performance)
         self.live.request(self._session.playhead_s, player_ids=self._session.players)
-        # Once the panels have shown the plans: two threads of Python hold each other up.
+        # Resumes after the panels have shown the plans, since threads of Python slow each other down.
         QTimer.singleShot(0, self, self._worker.wake)
         self.motion_changed.emit()
 

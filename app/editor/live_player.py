@@ -90,7 +90,7 @@ class LivePlayer(QObject):
         if of != self._of:
             if self._play_along is not None:
                 self._session.live_players.end(self._play_along.player_id)
-            # Who cannot be seen is among the problems.
+            # A player that cannot be shown is listed among the problems.
             self._play_along = None
             for performer in performers_of(performance, (player,)).made.values():
                 curves = performance_curves(performance, performer, danced=False)

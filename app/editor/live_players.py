@@ -136,7 +136,7 @@ class LivePlayers(QObject):
         blend = self._blends.get(player_id)
         share = blend.at(now_s) if blend is not None else 0.0
         if blend is not None and share == blend.after == 0.0:
-            # Back at the performance.
+            # The blend back to the performance is complete.
             del self._blends[player_id]
             self._poses.pop(player_id, None)
         return share

@@ -88,7 +88,7 @@ class PictureReader:
             self._condition.notify()
         self._thread.join()
 
-    # The thread
+    # Thread
 
     def _run(self) -> None:
         try:

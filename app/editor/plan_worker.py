@@ -212,7 +212,7 @@ class PlanWorker(Generic[T]):
         try:
             more = self._live.work(lambda: self._closed or self._paused or self._pending is not None)
         except PlayerFault as fault:
-            # The others go on.
+            # The other players' plans continue.
             self._fell(fault)
             return
         except Exception as fault:  # noqa: BLE001 - reported in the window's thread

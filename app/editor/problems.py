@@ -75,7 +75,7 @@ def go_to_problem(session: Session, performer_id: str, problem: Problem) -> None
     session.select(Selection(notes=notes))
     frame = session.performance.time_frame
     lasts_throughout = problem.start_s <= frame.first_frame_s and problem.end_s >= frame.end_s
-    # Such a problem is seen anywhere: there is no place to go to.
+    # A problem that lasts throughout is visible at the current time, so the playhead stays.
     at_s = session.playhead_s if lasts_throughout else problem.start_s
     if not session.recording.running:
         session.set_playhead(at_s)

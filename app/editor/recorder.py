@@ -151,7 +151,7 @@ class Recorder(QObject):
         files.opened.connect(self._project_opened)
         session.playing_changed.connect(self._playing_changed)
 
-    # The device
+    # Device
 
     def begin(self) -> None:
         """Start looking for MIDI devices, unless this was done before."""
@@ -221,7 +221,7 @@ class Recorder(QObject):
             latency_s = float(self._settings.midi_device(port, "latency_s") or 0.0)
         except ValueError:
             latency_s = 0.0
-        # Also where the settings were edited to nan or an hour.
+        # Also handles values such as nan or an hour from a hand-edited settings file.
         latency_s = latency_s if abs(latency_s) <= LARGEST_LATENCY_S else 0.0
         self._state.set(
             controller=controller, latency_s=latency_s, mapping=self._mapping(port, controllers[controller])
@@ -235,10 +235,10 @@ class Recorder(QObject):
         try:
             return msgspec.convert({**said, "channel": int(said["channel"])}, ControllerMapping)
         except (ValueError, msgspec.ValidationError):
-            # Nothing was set, or the settings were edited by hand.
+            # No setting was stored, or the settings file was edited by hand.
             return ControllerMapping(controller.channel, controller.breath[0], controller.bite)
 
-    # News
+    # Reports from the recorder
 
     def poll(self) -> None:
         """Receive and handle the messages of the recorder's process."""
@@ -253,7 +253,7 @@ class Recorder(QObject):
             case Ports():
                 state.set(ports=reported.inputs)
                 self._find_again(reported.inputs)
-                # What held us up is no more; whether the device can be had now is reported next.
+                # The system no longer blocks the device; whether it can be opened is reported next.
                 if reported.system and state.refusal is not None and state.port not in reported.inputs:
                     state.set(connection="waiting" if state.port else "none", refusal=None)
             case Opened() | Back():
@@ -286,17 +286,18 @@ class Recorder(QObject):
         """Report a failure of the recorder's process, such as a device that cannot be opened."""
         state = self._state
         if reason.id == "capture.port_not_here":
-            # It is waited for; a window that opens without it need not warn.
+            # The editor waits for the device; no warning is needed when a window opens without it.
             state.set(connection="waiting", refusal=None)
             return
         if reason.id in NO_DEVICE:
-            # That it has gone, and that the take is kept, was said just now; why it is not back stands in the dialog.
+            # The loss of the device and the rescue of the take have just been reported; the dialog shows why it is not
+            # back.
             is_reported = state.connection == "lost"
             is_ours = reason.arguments.get("port", state.port) == state.port
             if is_ours:
                 state.set(connection="refused" if state.port else "none", refusal=reason)
             if not state.port or is_reported:
-                # Or none was requested yet: the list of devices shows it.
+                # Or no device was requested yet; the list of devices shows it.
                 return
         self._session.notice(reason, Severity.ERROR)
 
@@ -319,7 +320,7 @@ class Recorder(QObject):
         self._state.set_played(0.0, None)
         self._live.silence()
 
-    # A take
+    # Take
 
     def toggle(self) -> None:
         """Start recording a take, or end the take that is being recorded."""
@@ -346,7 +347,7 @@ class Recorder(QObject):
         start_s = session.playhead_s
         if session.loop_s is not None and not session.loop_s[0] <= start_s < session.loop_s[1]:
             start_s = session.loop_s[0]
-        # Nothing is played before the piece begins: from the pre-roll, as after Home, a take begins with the piece.
+        # Nothing sounds before the piece begins: a take started in the pre-roll, as after Home, begins with the piece.
         lead_s, start_s = start_s, max(start_s, 0.0)
         if self._state.count_in_bars:
             lead_s = self.count_in_from_s(start_s)
@@ -355,7 +356,7 @@ class Recorder(QObject):
         except AppError as error:
             session.notice(error.message, Severity.ERROR)
             return
-        # After a crash the take is looked for beside the project: it must be there too.
+        # After a crash the take is looked for beside the project file, so the project must be saved too.
         self._files.write_soon()
         header = JournalHeader(
             project=stored(self._files.path or ""),
@@ -396,7 +397,7 @@ class Recorder(QObject):
     def stop(self) -> None:
         """End the take and stop playback."""
         if self._session.playback is not None and self._session.playback.is_playing:
-            # Notified of it, `_playing_changed` ends the take.
+            # Stopping the playback notifies `_playing_changed`, which ends the take.
             self._session.playback.stop()
         else:
             self._end_take()
@@ -413,7 +414,7 @@ class Recorder(QObject):
         if running.first_s is None:
             running.first_s = running.last_s = position_s
             return
-        # The device plays nothing for a while at first: it is silent then.
+        # A device just opened is silent at first.
         if running.passes == 1 and abs(position_s - running.first_s) < _STILL_S:
             return
         speed = self._session.listening.speed
@@ -444,7 +445,7 @@ class Recorder(QObject):
         running, self._running = self._running, None
         if running is not None and self._link is not None:
             if not running.last_ns and self._session.playback is not None:
-                # It ended before its position was known: the take needs one.
+                # The take ended before its position was known, so the position is reported now.
                 self._link.sync(self.now_ns(), self._session.playback.position_s(), 0)
             self._adopting.append(running)
             self._link.stop()
@@ -455,7 +456,7 @@ class Recorder(QObject):
         self._state.set(running=False)
         self._sound.set_recording(None)
 
-    # What becomes of it
+    # Journal and recovery
 
     def _moved(self, path: Path, reason: str) -> None:
         """Use the new path of a take's journal, which the recorder moved because it could not write to the first one,
@@ -525,7 +526,7 @@ class Recorder(QObject):
         if not self._session.attempt(Message("edit.record", {"count": len(takes)}), recorded):
             return False
         self._adopted[path] = takes[0]
-        # What was played is in a file within a second, not in half a minute.
+        # Saved within a second, instead of the usual half a minute.
         self._files.write_soon()
         return True
 
@@ -535,7 +536,7 @@ class Recorder(QObject):
             return
         document = self._session.document
         known = {take.recorded for recorded in document.project.takes.values() for take in recorded.takes}
-        # Where another project was opened meanwhile the takes are in no file: their journal waits for theirs.
+        # If another project was opened meanwhile, no file contains the takes, so their journal is kept.
         is_this = bool(document.done or document.undone)
         for path, take in self._adopted.items():
             if take.recorded in known or is_this:
@@ -546,7 +547,7 @@ class Recorder(QObject):
         """Add to the opened project the takes whose recording was interrupted by a crash."""
         if self._state.running:
             self.stop()
-        # What was played for another project waits beside that one's file until it is opened again.
+        # Takes of another project stay beside its file until it is opened again.
         self._adopting.clear()
         self._state.set(armed="", punch=False, punch_ticks=None)
         if self._files.is_open:
@@ -566,7 +567,7 @@ class Recorder(QObject):
             try:
                 journal = read_journal(path)
             except AppError:
-                # Which project it belongs to cannot be known; it stays.
+                # The project of this journal is unknown, so the journal is kept.
                 continue
             if file_named(journal.header.project) == str(document):
                 self._recover(path, journal)

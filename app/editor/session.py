@@ -162,7 +162,7 @@ class Session(QObject):
         """Spread of the players after `randomise`, 0..1."""
         self.document.observe(self._document_changed)
 
-    # The project and its plans
+    # Project and plans
 
     @property
     def project(self) -> Project:
@@ -215,7 +215,7 @@ class Session(QObject):
         if not broken and not ignored:
             return planned, ()
         if broken and (not performance.planned or player_id not in performance.plans):
-            # Of a dancer the motion's are all; a player who is being planned has none yet.
+            # For a dancer all problems come from the motion; a player that is being planned has none yet.
             planned, broken = broken if player_id in performance.project.dancer_ids else planned, ()
         known, sources = self._problems.get(player_id), (planned, broken, ignored)
         if known is None or not all(map(is_, known[0], sources)):
@@ -283,7 +283,7 @@ class Session(QObject):
         if change.before.ignored_problems is not change.after.ignored_problems:
             self.problems_changed.emit()
 
-    # Who is in front
+    # Player in front
 
     @property
     def players(self) -> tuple[str, ...]:
@@ -327,7 +327,7 @@ class Session(QObject):
         number = players.index(player) if isinstance(player, Player) else self.project.dancers.index(player)
         return self.tokens.player(number if isinstance(player, Player) else len(players) + number)
 
-    # The rest of the state
+    # Other state
 
     @property
     def selection(self) -> Selection:

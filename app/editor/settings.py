@@ -166,7 +166,7 @@ class Settings(StoredSettings):
     def _read(self) -> dict[str, Any]:
         table = super()._read()
         pitch = table.get("pitch")
-        # Version 0.1 had letters or syllables.
+        # Version 0.1 stored either letters or syllables.
         if isinstance(pitch, dict) and pitch.pop("syllables", False) is True:
             pitch.setdefault("names", "syllables")
         return table
@@ -181,12 +181,12 @@ class Settings(StoredSettings):
                 setting.held.changed(session).connect(partial(self._remember, session, setting, setting.held))
 
     def _remember(self, session: Session, setting: Setting[Any], held: SettingBinding) -> None:
-        # Notified of much else, as of every phrase that is made: only what the user chose is written.
+        # Many other changes notify as well, such as each rendered phrase; only values chosen by the user are written.
         value = held.get(session)
         if getattr(self, setting.name) != value:
             setattr(self, setting.name, value)
 
-    # Values that are several
+    # Settings with several values
 
     def midi_device(self, port: str, name: str) -> str:
         """Return a stored property of a MIDI device, such as its latency; empty if it is not stored."""

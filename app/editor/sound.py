@@ -106,7 +106,7 @@ class EditorSound(QObject):
         """Return whether some of the sound is not rendered yet."""
         return self._stems.is_busy
 
-    # The playhead
+    # Playhead
 
     def _follow_sound(self) -> None:
         self._own_move = True
@@ -176,7 +176,7 @@ class EditorSound(QObject):
         known = self._audition
         if known is None or known[0] is not project or known[1] is not take:
             audition = comp_whole(project, take.player_id, take.take_id)
-            # In a recording of the piece the part sounds already: the take alone is added to it.
+            # A recording of the piece already contains the part, so the take is added to it alone.
             over = project.audio is not None and self._session.listening.source == "recording"
             everyone = [player.id for player in project.players]
             if take.alone or over:
@@ -200,7 +200,7 @@ class EditorSound(QObject):
                 self._session.listening.set(ready=self._stems.ready)
         elif change.before.audio is None and change.after.audio is not None:
             audio = change.after.audio
-            # An offset that is there already, or was there before an undo, is the user's.
+            # An offset that exists already, or existed before an undo, was chosen by the user.
             fresh = audio.offset_s == 0.0 and audio.confidence is None and audio.path not in self._estimated
             self._unplaced = audio.path if fresh else ""
         self._take()
@@ -286,7 +286,7 @@ class EditorSound(QObject):
             self._click = (key, click_track(project, start_s, end_s))
         return self._click[1]
 
-    # The recording
+    # Recording
 
     def _read_agreed(self) -> None:
         """Read the recording, after the user has allowed reading it from another computer."""
@@ -320,7 +320,7 @@ class EditorSound(QObject):
         def failed(error: AppError) -> None:
             self._session.notice(error.message, Severity.ERROR)
 
-        # Later: the edit that adds the recording is still being reported.
+        # Deferred: the edit that adds the recording is still being reported.
         QTimer.singleShot(
             0,
             self,

@@ -201,7 +201,7 @@ class Stems(QObject):
         job = self._job
         if job is None:
             return
-        # Asked before what is ready: what ends in between is seen the next time.
+        # Read before the finished phrases: if the job ends in between, the next call notices it.
         ended = job.has_ended
         if job.is_cut:
             self._made = job.made
@@ -231,7 +231,7 @@ def _next_phrases(
     ordered = sorted(phrases, key=lambda item: (item[1].end < from_s * RATE_HZ, item[1].start))
     taken = 0
     for index, (_, phrase) in enumerate(ordered):
-        # Samples of two bytes.
+        # Samples have two bytes.
         taken += 2 * (phrase.end - phrase.start)
         if taken > _MOST_BYTES:
             later = phrase.end >= from_s * RATE_HZ

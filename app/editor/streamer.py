@@ -83,7 +83,7 @@ class Streamer(QObject):
         ):
             signal.connect(self.moved)
 
-    # What is requested
+    # Requests
 
     def _restore(self) -> None:
         settings = self._settings
@@ -201,7 +201,7 @@ class Streamer(QObject):
             anchor = _Anchor(session.playhead_s, time.perf_counter(), 0.0, None)
         self._thread.move(anchor)
 
-    # How it goes
+    # Reports
 
     def _report(self, sent_hz: int, no_receiver: bool) -> None:
         state: StreamState = "no_receiver" if no_receiver else "sending"
@@ -279,7 +279,7 @@ class _Thread:
         self._reported_s = self._began_s
         self._thread = threading.Thread(target=self._run, name="streamer", daemon=True)
 
-    # Called by the window
+    # Calls of the window
 
     def begin(self) -> None:
         self._thread.start()
@@ -303,7 +303,7 @@ class _Thread:
         if self._thread.is_alive() and self._thread is not threading.current_thread():
             self._thread.join(2.0)
 
-    # The thread
+    # Thread
 
     def _run(self) -> None:
         due_s = time.perf_counter()
@@ -319,7 +319,7 @@ class _Thread:
         """Send the frame that is due, and return the time of the next one."""
         with self._changed:
             moved_s = self._moved_s
-            # Woken early where something moves again, or something else is requested.
+            # Woken early when something moves again or another request arrives.
             while not self._closed and (self._request is None or time.perf_counter() < due_s):
                 if self._request is not None and self._moved_s != moved_s and self._rests(moved_s):
                     break
@@ -338,7 +338,7 @@ class _Thread:
         if anchor.speed or self._poses.is_live:
             self._moved_s = max(self._moved_s, now_s)
         step_s = RESTING_S if self._rests(self._moved_s) else 1.0 / request.rate_hz
-        # By the clock and not by the last frame, so that the rate is kept; what was missed is not made up for.
+        # Due times follow the clock and not the last frame, which keeps the rate; missed frames are skipped.
         due_s += step_s
         return due_s if now_s - step_s < due_s <= now_s + step_s else now_s + step_s
 
@@ -352,12 +352,12 @@ class _Thread:
             self._senders.pop(port).close()
         everything = [*(one.id for one in request.performers), *(one.id for played in request.beside for one in played)]
         posed = dict(zip(everything, self._poses.poses(everything, time_s), strict=True))
-        # What is played besides and cannot be seen is not sent.
+        # Instruments that are played besides but cannot be shown are not sent.
         beside = {
             performer.id: [one for one in played if posed[one.id] is not None]
             for performer, played in zip(request.performers, request.beside, strict=True)
         }
-        # Whose character is gone since the pose was made is among the problems.
+        # A player whose character was removed after the pose was made is listed among the problems.
         sent = attempt(
             request.performers, lambda performer: self._sent_of(performer, request.faces, beside[performer.id])
         ).made
@@ -365,7 +365,7 @@ class _Thread:
         for performer, port, stage in zip(request.performers, request.ports, request.stages, strict=True):
             pose = posed[performer.id]
             others = [other for one in beside[performer.id] if (other := posed[one.id]) is not None]
-            # What is not made yet is not sent: who receives it keeps the last one.
+            # Poses that do not exist yet are not sent: the receiver keeps the last one.
             if pose is not None and performer.id in sent:
                 datagrams = sent[performer.id].datagrams(pose, now_s - self._began_s, stage, others)
                 if port not in self._senders:

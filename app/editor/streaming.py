@@ -77,7 +77,7 @@ class Streaming(State):
             Ids of the selected players, the active one first.
         """
         players = {player.id: player for player in project.players}
-        # A musician who plays several instruments is sent once.
+        # A musician with several instruments is sent once.
         in_front = [project.musician(players[id]).id if id in players else id for id in front[:1]]
         ids = [performer.id for performer in project.seen] if self.everyone else in_front
         return tuple(

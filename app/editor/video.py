@@ -69,14 +69,14 @@ class ReferenceVideo(QObject):
         if reader is not None:
             reader.close()
 
-    # Another project, another video
+    # Change of the video
 
     def _changed(self, change: Change) -> None:
         before, after = change.before.video, change.after.video
         if change.opened:
             self._unplaced = ""
         elif before is None and after is not None:
-            # An offset that is there already is the user's, or the recording's.
+            # An existing offset was chosen by the user or belongs to the recording.
             self._unplaced = after.path if after.offset_s == 0.0 and after.confidence is None else ""
         path = after.path if after is not None else ""
         if path != self._path:
@@ -115,7 +115,7 @@ class ReferenceVideo(QObject):
                 self._refuse(error)
 
         name = Message("work.read_video", {"file": Path(path).name})
-        # Later: the edit that adds the video is still being reported.
+        # Deferred: the edit that adds the video is still being reported.
         QTimer.singleShot(0, self, lambda: self._session.tasks.run(name, work, done, failed, key="video"))
 
     def _state_changed(self) -> None:
@@ -143,7 +143,7 @@ class ReferenceVideo(QObject):
         self._session.video.set(fault=error.message)
         self._session.notice(error.message, Severity.ERROR)
 
-    # Its place
+    # Offset
 
     def estimate(self, unasked: bool = False) -> None:
         """Find the video's offset by its sound, and set it as an edit.

@@ -34,7 +34,7 @@ class _Bell:
 
     def ring(self) -> None:
         with self._lock:
-            # A full buffer wakes as well.
+            # A full buffer wakes the receiver too, so the failed write is ignored.
             if self._far.fileno() >= 0:
                 with contextlib.suppress(BlockingIOError):
                     self._far.send(b"\0")
@@ -71,7 +71,7 @@ class Calls(QObject):
         except Empty:
             return
         if not self._asked.empty():
-            # In a turn of its own: this call may fail, or open a dialog and wait in it.
+            # Other calls get a turn of the event loop of their own: this one may fail, or open a dialog and wait.
             self._bell.ring()
         call()
 

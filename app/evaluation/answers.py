@@ -142,12 +142,12 @@ def decode_answers(content: bytes, path: Path) -> ViewerFile:
     if tuple(_fields(header, separator)) != COLUMNS:
         raise FileError("results.header", file=file, expected=",".join(COLUMNS))
     if lines[-1]:
-        # The line's last field may have lost digits.
+        # Digits may be missing in the last field of the line.
         raise FileError("results.cut_off", file=file, line=len(lines))
     rows = [
         (number, _fields(line, separator))
         for number, line in enumerate(lines[1:], start=2)
-        if line.strip(_SEPARATORS + " ")  # A spreadsheet may leave rows without content.
+        if line.strip(_SEPARATORS + " ")  # spreadsheets may leave empty rows
     ]
     if not rows:
         raise FileError("results.empty", file=file)
@@ -181,7 +181,7 @@ def _answer(row: Sequence[str], line: int, file: str) -> Answer:
     for column, field in zip(COLUMNS, row, strict=True):
         raw = field.replace(",", ".") if column == "seconds" else field
         try:
-            # "Cannot judge" is an empty field; the kind without None would take the word "null" for it.
+            # "Cannot judge" is stored as an empty field; decoding with None would accept the word "null".
             empty = column == "answer" and not raw
             values[column] = None if empty else msgspec.convert(raw, _KINDS[column], strict=False)
         except msgspec.ValidationError as error:

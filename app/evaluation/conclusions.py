@@ -132,7 +132,7 @@ def _viewers(results: EvaluationResults) -> Iterator[Message]:
     counts: dict[Question, int] = {}
     for contrast in results.contrasts:
         counts[contrast.question] = counts.get(contrast.question, 0) + 1
-    # The question with the fewest comparisons is corrected least.
+    # Holm's correction is smallest for the question with the fewest comparisons.
     comparisons = min(counts.values(), default=1)
     least_p = min(1.0, comparisons * smallest_p(viewers))
     if least_p >= SIGNIFICANT:

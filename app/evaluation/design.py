@@ -61,7 +61,7 @@ def williams(count: int) -> tuple[tuple[int, ...], ...]:
     """
     if count < 1:
         return ((),)
-    # 0, 1, n - 1, 2, n - 2, ...: neighbours differ by every distance once.
+    # 0, 1, n - 1, 2, n - 2, ...: each difference between neighbours occurs once.
     first = [0]
     for step in range(1, count):
         first.append((step + 1) // 2 if step % 2 else count - step // 2)

@@ -170,7 +170,7 @@ def _followed(
     followed = follow_recording(project, following, path)
     assert followed.audio is not None
     video = ImportedVideo(path, followed.audio.offset_s, facts, samples, following.mean_confidence)
-    # The video is no recording that the synthesiser's place could take.
+    # The video contains no recording that could replace the synthesiser.
     return video, replace(followed, audio=project.audio)
 
 

@@ -265,7 +265,7 @@ def _report(folder: Path) -> _Report | None:
 
 def _read(path: Path) -> BvhClip:
     clip = read_motion_file(path)
-    # Nothing here reports how a frame time was understood, so it is taken as it is.
+    # A guess of the frame rate could not be reported here, so the stated frame time is used.
     said = clip.rate_guess
     require_rate(clip.fps if said is None else 1 / Fraction(said.arguments["said"]), str(path))
     return clip

@@ -16,7 +16,7 @@ PEAK: Final = 0.89
 _SILENT_LUFS: Final = -70.0
 """Absolute gate of BS.1770: sounds below it are silence and not amplified."""
 
-# Table 1 and 2 of BS.1770-4, for 48 kHz.
+# Tables 1 and 2 of BS.1770-4, for 48 kHz.
 _HEAD: Final = ((1.53512485958697, -2.69169618940638, 1.19839281085285), (1.0, -1.69065929318241, 0.73248077421585))
 _LOW: Final = ((1.0, -2.0, 1.0), (1.0, -1.99004745483398, 0.99007225036621))
 
@@ -29,7 +29,7 @@ def loudness_lufs(sound: Block) -> float:
     sound : (N, 2) float32
         Samples at 48 kHz, -1..1.
     """
-    from scipy.signal import lfilter  # heavy, and only here
+    from scipy.signal import lfilter  # slow to import and used only here
 
     if RATE_HZ != 48_000:
         raise ValueError("the filters are those for 48 kHz")

@@ -204,7 +204,7 @@ def quantity_of_motion_mm_s(place_m: FloatArray, fps: float, counted: BoolArray)
     if not counted.any() or len(place_m) < period_frames:
         return None
     top_hz = min(SEEN_HZ[1], 0.45 * fps)
-    from scipy.signal import butter, sosfiltfilt  # heavy; a process that refuses or is stopped needs none
+    from scipy.signal import butter, sosfiltfilt  # slow to import; refused input needs none
 
     sections = butter(2, (SEEN_HZ[0], top_hz), "band", fs=fps, output="sos")
     moved = np.asarray(sosfiltfilt(sections, place_m, axis=0))

@@ -99,7 +99,7 @@ def _lags(
     for index, note in enumerate(fingerings):
         target = note.controls.get(control.name, control.rest_value)
         change, after_rest_s = (before, target), note.start_s - ended_s
-        # In a rest fingers leave for the next note when the last one ends.
+        # Before a rest the fingers may leave for the next note as soon as the last one ends.
         first_s = min(note.start_s, ended_s) - _AROUND_S
         vented = note.vent is not None and control.name in note.vent.controls
         before, ended_s = control.rest_value if vented else target, note.end_s
@@ -127,7 +127,7 @@ def _arrivals_s(control: Control, values: FloatArray, before: float, target: flo
     bound = min(touches, (1.0 - PRESSED) * abs(target - before)) + 1e-9
     off = np.abs(values - target)
     after = np.flatnonzero((off[1:] <= bound) & (off[:-1] > bound)) + 1
-    # As far along between the frames as if the motion were even there.
+    # Linear interpolation between the two frames.
     share = (off[after - 1] - bound) / (off[after - 1] - off[after])
     crossed: FloatArray = times_s[after - 1] + share * (times_s[after] - times_s[after - 1])
     return crossed
@@ -136,6 +136,6 @@ def _arrivals_s(control: Control, values: FloatArray, before: float, target: flo
 def _share_outside(lags_s: FloatArray, bounds_s: tuple[float, float]) -> float | None:
     if not len(lags_s):
         return None
-    # A lag on a bound is inside; frames are not more exact than this.
+    # A lag equal to a bound counts as inside; times of frames are rounded.
     outside = (lags_s < bounds_s[0] - 1e-9) | (lags_s > bounds_s[1] + 1e-9)
     return round(float(np.count_nonzero(outside)) / len(lags_s), 4)

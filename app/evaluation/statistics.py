@@ -118,12 +118,12 @@ def _wilcoxon_p(ranked: FloatArray, alternative: Literal["two-sided", "less"]) -
     """
     if len(ranked) > _EXACT:
         return min(1.0, float(stats.wilcoxon(ranked, alternative=alternative, method="approx").pvalue))
-    # Ranks of ties are halves.
+    # Doubled, because ranks of ties are multiples of one half.
     doubled = np.rint(2.0 * stats.rankdata(np.abs(ranked))).astype(np.int64)
     chances = np.zeros(int(doubled.sum()) + 1)
     chances[0] = 1.0
     for rank in doubled.tolist():
-        # Each rank is above zero or below with the same chance.
+        # Under the null hypothesis each rank is positive or negative with equal chance.
         chances[rank:] = chances[rank:] + chances[: len(chances) - rank]
         chances *= 0.5
     above = int(doubled[ranked > 0.0].sum())
@@ -169,7 +169,7 @@ def ordinal_alpha(ratings: Mapping[object, Sequence[int]]) -> float | None:
         counts = np.bincount([place[value] for value in given], minlength=len(values)).astype(np.float64)
         coincidences += (np.outer(counts, counts) - np.diag(counts)) / (len(given) - 1)
     totals = coincidences.sum(axis=1)
-    # The distance of two steps is how many ratings lie between them, half of their own included.
+    # The distance between two steps is the number of ratings between them, plus half of their own.
     middles = np.cumsum(totals) - totals / 2.0
     distances = np.square(middles[:, None] - middles[None, :])
     expected = float((np.outer(totals, totals) * distances).sum()) / (float(totals.sum()) - 1.0)

@@ -136,7 +136,7 @@ def measures_table(measures: Sequence[VariantMeasures], language: str) -> Result
 def _number(value: float | None, digits: int = 2, signed: bool = False) -> str:
     if value is None:
         return NONE
-    # Never "-0".
+    # Adding 0.0 turns -0.0 into 0.0.
     rounded = round(value, digits) + 0.0
     return f"{rounded:+.{digits}f}" if signed else f"{rounded:.{digits}f}"
 

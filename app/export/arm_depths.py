@@ -123,7 +123,7 @@ def _surfaces(joints: JointPlayback, mesh: SkinnedMesh) -> Iterator[_TrunkSurfac
         faces = mesh.faces[materials == material]
         faces = faces[held[faces].all(axis=1)]
         if len(faces):
-            # Polygons as fans.
+            # Polygons are split into fans of triangles.
             fans = [faces[:, [0, corner, corner + 1]] for corner in range(1, faces.shape[1] - 1)]
             yield _TrunkSurface(joints.playback, mesh, np.unique(faces), np.concatenate(fans))
 

@@ -92,7 +92,7 @@ def _joined(character: Scene, instrument: Scene, before: int) -> Clip:
     )
 
 
-# As read
+# Reading back
 
 
 def in_world(instrument: Scene, character: Scene, socket: str) -> Scene:

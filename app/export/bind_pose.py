@@ -95,7 +95,7 @@ def _twisted(character: Character, target: TargetSkeleton, world_from_joint: Any
     return result
 
 
-# The skin
+# Skin
 
 
 def bound_meshes(character: Character, target: TargetSkeleton) -> tuple[Mesh, ...]:
@@ -126,7 +126,7 @@ def _with_twists(character: Character, target: TargetSkeleton, mesh: Mesh) -> Me
         knots = [bone for bone, twist in target.twists.items() if twist.base == base]
         if "Arm" not in base_name or not knots:
             continue
-        # A forearm's own bone has none of the hand's twist, an upper arm's all of its own.
+        # The bone at the start of a forearm takes none of the hand's twist; that of an upper arm takes all of its own.
         at = {bone: _along(target, bone) for bone in knots} | {own: float(base_name.endswith("UpperArm"))}
         order = sorted(at, key=lambda bone: at[bone])
         way = joints_m[end] - joints_m[base]
@@ -138,7 +138,7 @@ def _with_twists(character: Character, target: TargetSkeleton, mesh: Mesh) -> Me
             weights.append(share[:, None])
         weights[0] = np.where(bones == own, 0.0, weights[0])
     joints, shares = np.concatenate(columns, axis=1), np.concatenate(weights, axis=1)
-    # By weight, without columns that are empty.
+    # Sorted by weight; empty columns are dropped.
     by_weight = np.argsort(-shares, axis=1, kind="stable")[:, : max(int((shares > 0.0).sum(axis=1).max(initial=1)), 1)]
     return replace(
         mesh,

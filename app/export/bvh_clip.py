@@ -65,7 +65,7 @@ def scene_bvh(
     ends_cm = _end_sites_cm(scene, chosen)
     axes = [scene.bones[bone].axes for bone in chosen]
     return BvhClip(
-        # BVH takes no blanks in names.
+        # BVH allows no spaces in names.
         names=numbered("_".join(names.get(bone, scene.bones[bone].name).split()) or "bone" for bone in chosen),
         parents=tuple(place[parent] if parent >= 0 else -1 for parent in parents),
         offsets_cm=quaternion.rotate(above, offsets_cm),

@@ -117,7 +117,7 @@ def _bones(target: TargetSkeleton, character: Character, mesh: SkinnedMesh) -> t
     centimetres relative to the parent."""
     offsets_cm, rotations = target.offsets_m * CENTIMETRES, target.rest
     if target.choice == "ue5" or target.rest_pose != "model":
-        # Where the mesh was bound: Unreal takes that pose for the rest pose, and three.js mixes the two.
+        # The pose in which the mesh was bound: Unreal uses it as the rest pose, and three.js combines the two.
         binds = np.asarray(mesh.world_from_bone_bind, np.float64)
         turned = quaternion.from_matrix(binds[:, :3, :3])
         places_cm, rotations = local_placements(target.parents, binds[:, :3, 3], turned)
@@ -139,7 +139,7 @@ def character_clip(
 
     ``morph_weights`` are the weights (F,) of the face's morphs by name; ``held`` as in `character_scene`.
     """
-    if target.normalised:  # there is nothing to work out
+    if target.normalised:  # the rests are identity
         bones = BoneMotion(motion.rotations, {target.hips: motion.hips_m.astype(np.float64)})
     else:
         bones = bone_motion(target, character.skeleton, motion, held)
@@ -162,7 +162,7 @@ def _own_meshes(figure: Figure, target: TargetSkeleton, name: str) -> tuple[Skin
     names = mesh_names([f"{name}_{mesh.name or 'mesh'}" for mesh in figure.meshes], target.names)
     meshes = [_LIT.step(with_morph_normals, mesh) for mesh in figure.meshes]
     return tuple(
-        # What has no weight may name any bone.
+        # A vertex without weight may refer to any bone.
         skinned_mesh(mesh, own_name, np.maximum(mesh.joints + np.int32(added), 0), mesh.weights, binds)
         for mesh, own_name in zip(meshes, names, strict=True)
     )

@@ -74,7 +74,7 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[SkeletonDiffe
     moved = {target.names[bone] for bone in target.moved}
     found = [*_roots(target, asset), *_unit(target, asset)]
     requested = {target.names[bone] for bone in target.added}
-    # Added joints are the eyes, which keep still where shapes turn them.
+    # Added joints are the eyes, which do not move if shapes turn them.
     still = {target.names[bone] for bone in target.added if target.joint_of_bone[bone] >= 0 and target.eyes == "shapes"}
     found += [
         SkeletonDifference("requested", name, severe=False)
@@ -90,12 +90,12 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[SkeletonDiffe
         our_parent = target.names[above] if above >= 0 else ""
         their_parent = asset.bone_names[other_above] if other_above >= 0 else ""
         if our_parent != their_parent:
-            # A matter of roots, or of parents that have other names, is reported there.
+            # Differences at roots, and parents with other names, are reported elsewhere.
             if our_parent and their_parent and (our_parent in theirs or their_parent in ours):
                 found.append(SkeletonDifference("parent", name, severe=True, ours=our_parent, theirs=their_parent))
             continue
         off_mm = 1000.0 * float(np.linalg.norm(target.offsets_m[bone] - asset.translations_m[other]))
-        # The hips are where the motion has them, wherever they rest; so is what follows something else.
+        # The motion positions the hips whatever their rest; so are bones that follow something else.
         if off_mm > POSITION_MM and bone not in target.loose:
             found.append(SkeletonDifference("position", name, severe=False, amount=round(off_mm, 2)))
         turn = quaternion.multiply(quaternion.conjugate(asset.rotations[other]), target.rest[bone])
@@ -181,7 +181,7 @@ def _unit(target: TargetSkeleton, asset: Figure) -> list[SkeletonDifference]:
     ratios = [ours / other for ours, other in lengths if min(ours, other) > 1e-5]
     factor = float(np.median(ratios)) if ratios else 1.0
     for note in asset.notes:
-        if note.id == "figure.scaled":  # the reader has corrected a unit that Unreal takes as it is
+        if note.id == "figure.scaled":  # the reader corrected a unit that Unreal would accept unchanged
             factor *= float(note.arguments["factor"])
     if UNIT[0] < factor < UNIT[1]:
         return []

@@ -119,7 +119,7 @@ def _report_in(folder: Path) -> _EarlierReport | None:
     try:
         return decode_json(read_file(folder / REPORT, MOST_BYTES), _EarlierReport, REPORT)
     except (OSError, FileError):
-        # No report, or not one of ours: nothing is known of the files there.
+        # Without a report of ours the origin of the files is unknown.
         return None
 
 

@@ -98,9 +98,9 @@ def _animation_scene(
 ) -> Scene:
     scene = humanoid_scene(character, motion, name, request.creator, target)
     assert scene.clip is not None
-    # Names and the gaze are VRM's own.
+    # VRM has its own names of expressions and its own gaze.
     weights = written_weights(scene.clip.morph_weights, request.face.parts)
     scene = replace(scene, clip=replace(scene.clip, morph_weights=weights))
-    # Viewers turn the keys of an animation to the rest of their figure, and not all do so with slopes.
+    # Viewers rotate the keys of an animation to the rest pose of their figure, and some ignore tangents in doing so.
     keys: KeyChoice = "every" if request.keys == "every" else "linear"
     return keyed_character(scene, keys, request.formats, character, target)

@@ -31,7 +31,7 @@ def figure_stems(performance: Performance) -> Stems:
         for player in project.played_by(musician):
             stem = f"{own[musician.id]}_{player.instrument_id}"
             held[player.id] = f"{stem}_{own[player.id]}" if stem in held.values() else stem
-    # A player with the name of another's instrument keeps it.
+    # A player whose name equals another player's instrument keeps its name.
     held = dict(zip(held, file_stems([*own.values(), *held.values()])[len(own) :], strict=True))
     stems: Stems = {id: {"instrument": stem} for id, stem in held.items()}
     bodies: list[Player | Dancer] = [*project.bodies, *project.dancers]

@@ -44,7 +44,7 @@ def files_into(folder: Path) -> Iterator[Path]:
         made.clear()
     finally:
         for parent in reversed(made):
-            with contextlib.suppress(OSError):  # another program has put a file there meanwhile
+            with contextlib.suppress(OSError):  # another program has written a file there meanwhile
                 parent.rmdir()
 
 

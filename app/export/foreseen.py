@@ -102,7 +102,7 @@ def foresee_folder(
     """
     names = file_names(performance, formats, props)
     project = performance.project
-    # Of a musician also the other instruments.
+    # For a musician this includes the other instruments.
     everything = [
         *player_ids,
         *(one.id for one in project.players if one.doubles in player_ids and project.musician(one) is not one),

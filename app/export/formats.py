@@ -126,7 +126,7 @@ class FileFormat:
         return f"{held}_{self.id}"
 
 
-# Writers and readers are loaded when something is written: the command line names the formats in its help.
+# Writers and readers are imported on use, since the command line lists the formats in its help.
 
 
 def _shown(scenes: Iterable[Scene], options: WriteOptions) -> Iterator[Scene]:

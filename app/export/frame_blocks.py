@@ -47,7 +47,7 @@ class Walk:
         skins = _skins(joints, character, requested | {*_HANDS})
         self.hands = [HandDepths(skins[name], instrument.proxy) for name in _HANDS if name in skins]
         low = joints.bone(_TORSO[0])
-        high = joints.bone(_TORSO[1], "head")  # VRM leaves the neck optional; the head is next above it.
+        high = joints.bone(_TORSO[1], "head")  # the neck is optional in VRM; the head is the next joint above it
         self._limbs = PlaybackBones(self._player, {low, high}.union(*(skin.joints.tolist() for skin in skins.values())))
         self._low, self._high = self._limbs.rows([low, high])
         self._carriers = [self._limbs.rows(hand.joints.tolist()) for hand in self.hands]
@@ -66,7 +66,7 @@ class Walk:
         joints that move it, at the n of these frames that ``chosen`` (F,) selects.
         """
         at = np.flatnonzero(chosen[first:last]) + first
-        # In memory (N, 3, J, 4), as depths are computed.
+        # In memory the axes are (N, 3, J, 4), the order in which depths are computed.
         found = [np.empty((len(at), 3, len(rows), 4), np.float32) for rows in self._carriers]
         room = self._limbs.room(_CHUNK)
         for begin in range(first, last, _CHUNK):

@@ -85,7 +85,7 @@ def humanoid_target(character: Character, place: NodePlace | None = None) -> Tar
     offsets_m.append(quaternion.rotate(turns[joints[head]], np.asarray(eyes_m, np.float64)))
     still = np.tile(quaternion.IDENTITY, (len(joints) + 1, 1))
     away = np.concatenate([quaternion.conjugate(turns[joints]), still[:1]])
-    # Of a trunk with fewer bones our uppermost joint has the last of them; VRM knows no upper chest without a chest.
+    # In a trunk with fewer bones our uppermost joint uses the last bone; VRM has no upper chest without a chest.
     trunk = iter(_TRUNK)
     names = [next(trunk) if skeleton.names[joint] in _TRUNK else skeleton.names[joint] for joint in joints]
     return TargetSkeleton(
@@ -125,7 +125,7 @@ def humanoid_scene(character: Character, motion: Motion, name: str, creator: str
     rotations = np.array(clip.rotations_xyzw)
     rotations[:, -1] = gaze(character, motion)
     translations_cm = {target.hips: clip.translations_cm[target.hips]}
-    # The gaze turns the eyes, and a face of ARKit's expressions would turn them again.
+    # The gaze turns the eye bones; ARKit's eye expressions would turn the eyes twice.
     weights = {name: weight for name, weight in clip.morph_weights.items() if name not in EYE_SHAPES}
     clip = replace(clip, rotations_xyzw=rotations, translations_cm=translations_cm, morph_weights=weights)
     return replace(scene, clip=clip)

@@ -194,7 +194,7 @@ class _Skinned:
         (least squares). ``carried`` has each vertex as moved by each bone alone.
         """
         first, *others = chosen
-        # The weights' sum is 1: those of the others say that of the first.
+        # The weights sum to 1, so the first weight follows from the others.
         ways = carried[:, :, others] - carried[:, :, [first]]
         asked = np.einsum("vk,fvka->fva", self._weights, carried) - carried[:, :, first]
         squares = np.einsum("fvia,fvja->vij", ways, ways)

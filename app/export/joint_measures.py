@@ -47,7 +47,7 @@ def measure_joints(
     axes = np.array([msgspec.structs.astuple(profile.joint_axes(joints.names[bone])) for bone in limits])
     furthest, fastest = np.full((len(_AXES), len(limits)), -math.inf), np.zeros(len(limits))
     outside = too_fast = 0
-    # A chunk at a time, and two frames more for the accelerations: what a chunk needs stays in a core's cache.
+    # In chunks that fit a core's cache, with two additional frames for the accelerations.
     for first in range(0, frames if limits else 0, _CHUNK):
         turns = joints.rotations(first, min(first + _CHUNK + 2, frames)).transpose(2, 1, 0)[:, [*limits]]
         moves = (turns != turns[..., :1]).any(axis=(0, 2))

@@ -100,13 +100,13 @@ def anatomical_angles(turns: FloatArray, axes: FloatArray) -> FloatArray:
     across, twist = axes[:, :2], axes[:, 2:]
     sums = np.concatenate([across, np.cross(twist, across), twist], axis=1) @ turns[:3].transpose(1, 0, 2)
     along, w = sums[:, 4], turns[3]
-    # The twist has the part of the rotation that is about its axis, and the swing what is left.
+    # The twist is the part of the rotation about the axis, the swing the remainder.
     length = np.sqrt(along * along + w * w)
     half_turn = length < 1e-12
     length[half_turn] = 1.0
     cosine, sine = w / length, along / length
     cosine[half_turn] = 1.0
-    # What the swing's quaternion has along the two other axes, and its scalar part.
+    # Components of the swing's quaternion along the two other axes, and its scalar part.
     swing_w = cosine * w + sine * along
     scale = _angle_per_sine(np.sqrt(np.maximum(1.0 - swing_w * swing_w, 0.0)), swing_w)
     result = np.empty((3, *w.shape))
@@ -132,7 +132,7 @@ def angular_accelerations(turns: FloatArray, fps: float) -> FloatArray:
         Acceleration in rad/s2 at frames 1 .. F - 2.
     """
     (ax, ay, az, aw), (bx, by, bz, bw) = turns[..., :-1], turns[..., 1:]
-    # From each frame to the next: the first one's inverse, times the second.
+    # From each frame to the next: the inverse of the first rotation times the second.
     steps = np.stack(
         [
             aw * bx - ax * bw - ay * bz + az * by,

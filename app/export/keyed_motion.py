@@ -86,7 +86,7 @@ class KeyedMotion:
         """True for each mark (K,) that hangs on a moving bone (N,)."""
         self.reach_m = self._reach_m()
 
-    # How much each bone may be off
+    # Tolerances of bones
 
     def _reach_m(self) -> AnyFloatArray:
         """Return for each moving bone (N,) the distance in metres of the farthest point that it moves."""
@@ -130,7 +130,7 @@ class KeyedMotion:
                 result.append((rows, numbers))
         return result
 
-    # What a program shows
+    # Motion as a program plays it
 
     def places_of_marks(
         self, turned: AnyFloatArray, places_m: Mapping[int, AnyFloatArray], weights: AnyFloatArray

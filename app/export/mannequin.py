@@ -99,7 +99,7 @@ def mannequin_axes(asset: Figure) -> MannequinAxes:
     names = {name: bone for bone, name in enumerate(asset.bone_names) if name in MANNEQUIN}
     bones = {bone.joint: names[bone.name] for bone in _BONES if bone.joint and bone.name in names}
     if any(joint not in bones for joint in REQUIRED_JOINTS):
-        return MannequinAxes({}, {})  # it is no mannequin, as comparing the bones will say
+        return MannequinAxes({}, {})  # not a mannequin; comparing the bones reports it
     asset = upright(asset, bones)
     rest = rest_of(asset)
     turns = turns_to_t_pose(asset, rest, bones)
@@ -200,7 +200,7 @@ def _places(skeleton: Skeleton, joint_of_bone: tuple[int, ...], tied: Mapping[in
     for index, bone in enumerate(_BONES):
         if joint_of_bone[index] >= 0:
             places[index] = joints[joint_of_bone[index]]
-        elif bone.joint:  # toes: the only joint of ours here that a body may lack
+        elif bone.joint:  # toes: the only one of these joints that a body may lack
             ankle = joints[skeleton.index(bone.joint.replace("Toes", "Foot"))]
             places[index] = ankle + ankle[1] * np.array([0.0, -0.8, 1.5])
         elif bone.along:
@@ -213,7 +213,7 @@ def _places(skeleton: Skeleton, joint_of_bone: tuple[int, ...], tied: Mapping[in
 
 def _axes_of(bone: _Bone) -> tuple[FloatArray, FloatArray]:
     """Return the conventional X and Z axis (3,) of a bone of Unreal's mannequin in this program's world axes."""
-    x, z = np.array(_TABLE.axes[bone.axes])[:, [0, 2, 1]]  # Unreal's Y is our Z.
+    x, z = np.array(_TABLE.axes[bone.axes])[:, [0, 2, 1]]  # Y in Unreal is Z here
     return x, z
 
 

@@ -206,7 +206,7 @@ class PlayerJudge:
         return fields of `PlayerMeasures` by name. Lips that the file does not move are not measured.
         """
         instrument, breaths = self.performer.instrument, self.plan.breaths
-        # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
+        # A catch breath shortens a note: the note still sounds in the score, but the lips have left.
         blowing = notes.sounding & ~notes.within((event.start_s, event.end_s) for event in breaths)
         inhaling = notes.within((event.start_s, event.end_s) for event in breaths if event.draws_air)
         inhaling &= ~notes.within(self.changing)

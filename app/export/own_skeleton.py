@@ -138,7 +138,7 @@ def limb_twist(skeleton: Skeleton, base: int, end: int, axis: FloatArray, along:
 def _without_armature(target: TargetSkeleton, figure: Figure) -> TargetSkeleton:
     if target.joint_of_bone[0] >= 0:
         return target
-    # The bone below becomes the root: it stands where it stood in the world.
+    # The bone below becomes the root and keeps its position in the world.
     offsets, rest, t_pose = target.offsets_m[1:].copy(), target.rest[1:].copy(), target.t_pose[1:].copy()
     offsets[0] = target.offsets_m[0] + quaternion.rotate(target.rest[0], offsets[0])
     rest[0] = quaternion.multiply(target.rest[0], rest[0])

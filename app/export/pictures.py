@@ -105,7 +105,7 @@ def require_no_other_frames(folder: Path, first: int, count: int) -> None:
     try:
         there = {path.name for path in folder.iterdir() if _FRAME.fullmatch(path.name)}
     except OSError:
-        return  # nothing is there, or writing will say why not
+        return  # nothing is there, or writing reports the error
     if there - coming:
         raise FileError("picture.other_frames", file=os.fspath(folder))
 

@@ -113,7 +113,7 @@ class Surface:
             vertices,
             np.asarray(mesh.vertices_cm, np.float64) * METRES,
             mesh.joint_indices[vertices],
-            # As a reader normalises them.
+            # Normalised as readers do.
             weights / weights.sum(axis=1, keepdims=True),
             bone_from_mesh,
             ((one.name, one.vertex_indices, np.asarray(one.position_deltas_cm) * METRES) for one in shown),

@@ -167,7 +167,7 @@ def _write(
         if scene is not None:
             row.write(path, (scene,), options)
         if (row, held) in reads and row.read is not None:
-            # Read back at once, while other files are written.
+            # Read back at once, in parallel with writing other files.
             known = figure if scene is None else scene
             assert known is not None
             read[held] = read_again(row, path, known, options.meshes)

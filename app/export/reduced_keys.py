@@ -61,7 +61,7 @@ def reduced(scene: Scene, marks: SkinnedMarks, most_mm: float, pose: bool = Fals
     clip = scene.clip
     assert clip is not None
     weights, face = _weight_keys(clip, marks, most_mm / 1000.0)
-    # Of the curves as they are written with few keys.
+    # Measured on the curves as written with few keys.
     clip = replace(clip, keys=Keys(tuple(np.zeros(1, np.intp) for _ in scene.bones), weights, face))
     motion = KeyedMotion(scene, clip, marks, most_mm / 1000.0, curved)
     bones = [np.zeros(1, np.intp) for _ in scene.bones]
@@ -138,7 +138,7 @@ def _settle(motion: KeyedMotion, kept: BoolArray, shared: bool) -> None:
             beyond[some] = _add_keys(motion, kept, added, spans, some, shared, rounds > _ROUNDS)
         if shared:
             added[:] = added.any(axis=0)
-        # Whatever is between the keys around a new one has another line now.
+        # The interpolation between the keys around a new one has changed.
         new = added & ~kept
         if not new.any():
             return
@@ -201,7 +201,7 @@ def _add_keys(
         beyond |= (excess > 1.0).any(axis=0)
         for row in np.flatnonzero((excess > 1.0).any(axis=1)).tolist():
             added[row, frames[_worst(excess[row], all_frames)]] = True
-        # What each bone may have to do with a mark that is off.
+        # Share of each bone in the error of a mark.
         off_m = _lengths(one_m - meant_m)
         effect_m = np.where(kept[:, frames], 0.0, off * motion.reach_m[:, None] + placed_m)
         marks_off = off_m.max(axis=0, initial=0.0) / motion.most_m

@@ -353,7 +353,7 @@ def failures(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
     failed = [
         name for name, spread in spreads.items() if spread.max_mm > allowed_mm(name, spread.bound_mm, player.missed)
     ]
-    # What closes a hole is the finger itself: where the hold misses it, that is reported already.
+    # A finger closes a hole itself: if the hold misses it, that is reported already.
     unmet = {part for touch in player.missed for part in touch.rpartition(" on ")[2].split("+")}
     controls = {name: control for name, control in measures.controls.items() if name not in unmet}
     failed += [

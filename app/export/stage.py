@@ -101,7 +101,7 @@ def _figures(
 
     def placed(target: TargetSkeleton, stage: StagePosition, scene: Scene) -> Scene:
         assert scene.clip is not None
-        # A root bone that stands at the place has a node at the origin.
+        # A root bone at the player's place is below a node at the origin.
         place = floor_place(stage) if target.place is None else ORIGIN
         return replace(scene, place=place, clip=replace(scene.clip, name=take))
 

@@ -83,7 +83,7 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
     noted = contextlib.ExitStack()
     try:
         recover(root, scratch)
-        with contextlib.suppress(OSError, FileError):  # without it the next one that writes here cleans up
+        with contextlib.suppress(OSError, FileError):  # otherwise the next export into this folder cleans up
             note = noted.enter_context(scratch_folder()) / _NOTE
             note.write_bytes(b"\0".join(os.fsencode(path.absolute()) for path in (root, scratch)))
         try:
@@ -92,17 +92,17 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
         except OSError as error:
             raise cannot_write(scratch, error) from error
         with stream:
-            with contextlib.suppress(OSError):  # a file system without locks
+            with contextlib.suppress(OSError):  # the file system has no locks
                 lock(stream)
             change = TreeChange(partial / _NEW)
             yield change
             _commit(root, partial, change)
     finally:
-        # What could not be given back stays, for the next one to try.
+        # Files that could not be restored are kept, for the next export to try.
         if not os.path.exists(partial / _LIST):
             shutil.rmtree(partial, ignore_errors=True)
         if not had_scratch:
-            with contextlib.suppress(OSError):  # it is in use now
+            with contextlib.suppress(OSError):  # it is in use again
                 scratch.rmdir()
         noted.close()
 
@@ -110,7 +110,7 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
 def clean_up() -> None:
     """Delete temporary files of killed processes everywhere, and restore the files they had removed from trees."""
     for folder in abandoned_folders():
-        # What cannot be done now is left to the next one that writes there.
+        # Left to the next export into this folder if it fails.
         with contextlib.suppress(OSError, ValueError, FileError):
             root, scratch = (Path(os.fsdecode(path)) for path in read_file(folder / _NOTE, _MOST_NOTE).split(b"\0"))
             recover(root, scratch)
@@ -132,7 +132,7 @@ def recover(root: Path, scratch: Path) -> None:
     for partial in sorted(path for path in scratch.iterdir() if _SCRATCH.fullmatch(path.name)):
         if os.path.islink(partial) or not os.path.isdir(partial):
             continue
-        # Between making the folder and locking it, it has nothing to give back.
+        # No file has been replaced yet between creating the folder and locking it.
         if is_locked(partial / _LOCK):
             raise FileError("tree.busy", file=os.fspath(root))
         _give_back(root, partial)
@@ -170,7 +170,7 @@ def _commit(root: Path, partial: Path, change: TreeChange) -> None:
             if os.path.isdir(at):
                 raise IsADirectoryError(f"{path.name} is a folder")
             if os.path.exists(at):
-                # A second name rather than a move: at every moment each file is there, old or new.
+                # A hard link instead of a move: at every moment each file exists, old or new.
                 _second_name(at, partial / _OLD / path)
         _write_list(partial, coming)
         for path in coming:
@@ -187,7 +187,7 @@ def _commit(root: Path, partial: Path, change: TreeChange) -> None:
     except BaseException:
         _give_back(root, partial)
         raise
-    # From here on there is nothing to give back.
+    # From here on nothing needs to be restored.
     (partial / _LIST).unlink(missing_ok=True)
 
 
@@ -205,7 +205,7 @@ def _give_back(root: Path, partial: Path) -> None:
     if not os.path.isfile(partial / _LIST):
         return
     lines = read_file(partial / _LIST, MOST_BYTES).decode("utf-8", "replace").splitlines()
-    # A project comes from anywhere, with whatever list in it.
+    # The list may come from elsewhere, so its paths are checked.
     coming = [Path(line) for line in lines if stays_inside(line)]
     refuse_links_out(root, [*coming, partial.relative_to(root) / _OLD / _LIST])
     old = files_below(partial / _OLD) if os.path.isdir(partial / _OLD) else []
@@ -213,7 +213,7 @@ def _give_back(root: Path, partial: Path) -> None:
     at = root
     try:
         for path in coming:
-            # What has not moved yet is still among the new ones.
+            # A file that has not been moved yet is still among the new ones.
             if path not in old and not os.path.exists(partial / _NEW / path):
                 at = root / path
                 at.unlink(missing_ok=True)
@@ -241,7 +241,7 @@ def _prune(folder: Path, root: Path) -> None:
         try:
             folder.rmdir()
         except FileNotFoundError:
-            pass  # it was never made; what is above it may have been
+            pass  # the folder was never created, though its parents may have been
         except OSError:
             return
         folder = folder.parent

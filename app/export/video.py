@@ -90,7 +90,7 @@ def video_into(
         raise ValueError(f"a film's width and height are even: {size}")
     if not os.path.isdir(path.parent):
         raise FileError("file.cannot_write", file=os.fspath(path), reason=os.strerror(errno.ENOENT))
-    # In a folder of the film's own: others may write beside it meanwhile.
+    # In a folder of its own, because other films may be written here at the same time.
     making = path.with_name(f".{hashlib.sha256(os.fsencode(path.name)).hexdigest()[:16]}.making")
     with tree_into(path.parent, making) as change:
         partial = change.new / path.name
@@ -189,5 +189,5 @@ def _coded(crf: int) -> list[str]:
 
 
 def _into(path: Path) -> list[str]:
-    # The index at the front: a browser plays it while it loads.
+    # The index comes first, so that a browser can play the file while loading it.
     return ["-movflags", "+faststart", "-f", "mp4", f"file:{path}"]

@@ -148,7 +148,7 @@ def serve(
         Channel to the parent process.
     """
     known = {musician.player.id: musician for musician in musicians}
-    # The process that was copied does again what fails, and reports what is wrong.
+    # On failure the parent process repeats the work and reports the error.
     with contextlib.suppress(BrokenPipeError, AppError):
         while True:
             _export(request, known[channel.receive()], folder, channel)

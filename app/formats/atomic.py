@@ -86,12 +86,12 @@ def sweep(folder: Path) -> None:
     try:
         found = [path for path in folder.iterdir() if _PARTIAL.fullmatch(path.name)]
     except OSError:
-        # Nothing can be read here: nothing is to be swept.
+        # The folder cannot be listed, so nothing is cleaned up.
         return
     for path in found:
         with contextlib.suppress(OSError):
             if not stat.S_ISREG(path.lstat().st_mode):
-                continue  # none of ours: a link, a pipe or a device is not even opened
+                continue  # not one of our files: a link, pipe or device is not even opened
             fresh = sys.platform == "win32" and time.time() - path.stat().st_mtime < _FRESH_S
             if not fresh and not is_locked(path):
                 path.unlink()
@@ -101,10 +101,10 @@ def _new_partial(folder: Path) -> tuple[Path, BinaryIO]:
     """Create a new temporary file, locked if the file system supports locks."""
     while True:
         partial = folder / f".{secrets.token_hex(8)}.partial"
-        # "x": never write into another program's file; the mode follows the umask, as for any new file.
+        # "x" never overwrites another program's file; the mode follows the umask, as for any new file.
         stream = partial.open("xb")
         try:
-            # Another process that cleans up may have removed it between the two steps.
+            # Another process that cleans up may have removed it before it was locked.
             if lock(stream) and is_same_file(partial, stream):
                 return partial, stream
         except OSError:
@@ -126,7 +126,7 @@ def _keep(file: Path, backup: Path) -> None:
     try:
         with file.open("rb") as content:
             if sys.platform != "win32":
-                # The file itself is locked with its second name, which is not to be swept either.
+                # The second name of the locked file must not be cleaned up either.
                 with contextlib.suppress(OSError):
                     lock(content)
             try:

@@ -13,15 +13,15 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, FloatArray
 
-# Below this cosine of the middle angle the first angle is not determined by the rotation. The others are computed from
-# the first one, so that any choice gives the exact rotation; the middle angle is then wrong by less than this (rad).
+# If the cosine of the middle angle is below this, the first angle is not determined by the rotation. Any choice of it
+# gives the exact rotation, since the others are computed from it; the error of the middle angle is below this (rad).
 _GIMBAL_COSINE = 1e-8
 
-# Triples of which no angle changes by more are the nearest: the first and the third angle of another triple are half a
+# If no angle changes by more than this, the triple is the nearest: the first and third angles of the other are half a
 # turn away.
 _SMOOTH_TURNS = 1 / 8
 
-# Frames times joints worked on at once: about fifteen arrays of this many doubles stay in a core's cache.
+# Frames times joints per block: about fifteen arrays of as many doubles fit a core's cache.
 _BLOCK = 8192
 _JOINTS = 8
 """Number of joints copied from the clip at a time, since the values of one joint are not adjacent there."""
@@ -76,13 +76,13 @@ def quaternions(angles_degrees: AnyFloatArray, order: str) -> FloatArray:
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
     quarter = np.moveaxis(np.asarray(angles_degrees, dtype=np.float64), -1, 0) * (math.pi / 720.0)
     result = np.empty((4, *quarter.shape[1:]))
-    # Sine and cosine of half an angle from the tangent of a quarter, which is cheaper than both.
+    # Computing sine and cosine of the half angle from the tangent of the quarter angle is faster than computing both.
     tangent = np.tan(quarter, out=quarter)
     square = tangent * tangent
     sine, cosine = 2.0 * tangent, 1.0 - square
     square += 1.0
     scale = 1.0 / (square[0] * square[1] * square[2])
-    # The Hamilton product of the first two turns, and then with the third.
+    # Hamilton product of the first two rotations, then with the third.
     of_i, of_j = sine[0] * cosine[1] * scale, cosine[0] * sine[1] * scale
     of_k, w = sign * sine[0] * sine[1] * scale, cosine[0] * cosine[1] * scale
     result[i] = of_i * cosine[2] + sign * of_j * sine[2]
@@ -132,7 +132,7 @@ def _part_angles(q: FloatArray, order: str, before: FloatArray | None = None) ->
     ii, jj, kk = sqi * q[i], sqj * q[j], sqk * q[k]
     w = sign * w
     iw, jw, kw = sqi * w, sqj * w, sqk * w
-    # The needed entries m[row, column] of the rotation matrix, named by the axes.
+    # Entries m[row, column] of the rotation matrix that are needed, named by their axes.
     m_ik, m_jk, m_kk = ik + jw, jk - iw, 1 - (ii + jj)
     m_ji, m_jj, m_ki, m_kj = ij + kw, 1 - (ii + kk), ik - jw, jk + iw
 
@@ -150,7 +150,7 @@ def _part_angles(q: FloatArray, order: str, before: FloatArray | None = None) ->
     else:
         cosine, sine = m_kk / middle_cosine, sine / middle_cosine
     middle = np.arctan2(sign * m_ik, middle_cosine)
-    # What is left when the first turn is undone is Rj Rk, whose row j holds the third angle alone.
+    # Without the first rotation, Rj Rk remains, whose row j contains the third angle only.
     third = np.arctan2(sign * cosine * m_ji + sine * m_ki, cosine * m_jj + sign * sine * m_kj)
     return np.stack([first, middle, third])
 
@@ -173,8 +173,8 @@ def _without_jumps(turns: FloatArray, step: FloatArray) -> FloatArray:
     frames. Overwrites both arrays.
     """
     same = np.abs(step - np.rint(step)).sum(axis=0)
-    # The other triple of a rotation is (first + half a turn, half a turn - middle, third + half a turn). The distance
-    # between two triples is the same if both are exchanged, so only the places where to change over matter.
+    # The other triple is (first + half a turn, half a turn - middle, third + half a turn). Exchanging both triples does
+    # not change their distance, so only the frames at which to change over matter.
     step[0] += 0.5
     step[1] = 0.5 - turns[1, :, 1:] - turns[1, :, :-1]
     step[2] += 0.5

@@ -33,7 +33,7 @@ def open_file(path: str | os.PathLike[str]) -> BufferedReader:
             stream = open(os.open(path, _FLAGS), "rb")  # noqa: PTH123, SIM115 - a descriptor; the caller closes it
             if stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
                 return stream
-            stream.close()  # It was replaced between the two.
+            stream.close()  # it was replaced in between
     except (OSError, ValueError) as error:  # ValueError: a NUL in the path
         raise cannot_read(path, error) from error
     raise FileError("file.not_regular", file=os.fspath(path))
@@ -56,7 +56,7 @@ def read_file(path: str | os.PathLike[str], most_bytes: int) -> bytes:
         try:
             size = os.fstat(stream.fileno()).st_size
             content = b"" if size > most_bytes else stream.read(size + 1)
-            if len(content) > size:  # It grows while it is read, or is one of the system's that have no size.
+            if len(content) > size:  # the file grows while it is read, or is a system file without a size
                 content += stream.read(most_bytes + 1 - len(content)) or b""
                 size = len(content)
         except OSError as error:

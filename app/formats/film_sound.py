@@ -76,7 +76,7 @@ class _Timing:
         try:
             begin_s = float(at)
         except ValueError:
-            begin_s = self.reached_s  # NOPTS: it goes on
+            begin_s = self.reached_s  # no time stamp: the packet continues the last one
         if not np.isfinite(begin_s):
             begin_s = self.reached_s
         if not self.stretches or abs(begin_s - self.reached_s) > _JUMP_S:
@@ -143,7 +143,7 @@ def _decoded(
     """Decode the sound of a film with ffmpeg. Return samples (16 bits, stereo), their timing, and ffmpeg's
     exit status.
     """
-    # ffmpeg would take a gap of more than thirty hours for a mistake and leave it out.
+    # ffmpeg would treat a gap of more than thirty hours as an error and remove it.
     exact = ("-dts_error_threshold", "1e12")
     heard = ("-map", "0:a:0", "-af", "ashowinfo", "-ac", "2", "-ar", str(rate_hz))
     made = bytearray()
@@ -151,7 +151,7 @@ def _decoded(
         assert process.stdout is not None
         assert process.stderr is not None
         timing = _Timing(process.stderr)
-        # Even while it reads without decoding.
+        # Also while ffmpeg reads without decoding.
         with ended_on_request(process, stop_requested, process.kill):
             try:
                 while block := process.stdout.read(_BLOCK):
@@ -159,7 +159,7 @@ def _decoded(
                     check(max(len(made) / (4 * rate_hz), timing.reached_s))
                 status = process.wait()
             finally:
-                # The threads end with the process, and before its streams are closed.
+                # The reading threads end with the process, and before its streams are closed.
                 process.kill()
                 timing.thread.join()
     raise_if_stopped(stop_requested)

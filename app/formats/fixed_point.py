@@ -23,7 +23,7 @@ def _words(form: str) -> npt.NDArray[np.uint32]:
 
 _FIRST_DIGITS, _DIGITS, _AFTER_POINT, _LAST_DIGITS = map(_words, ("%4d", " %03d", ".%03d", "%03d "))
 
-# Numbers worked on at once: their digits stay in a core's cache.
+# Numbers per block: their digits fit a core's cache.
 _BLOCK = 16384
 
 
@@ -59,7 +59,7 @@ def _block_text(values: FloatArray) -> bytearray:
     scaled = np.rint(values * _SCALE).astype(np.int64)
     negative = scaled < 0
     np.abs(scaled, out=scaled)
-    # 32-bit division is several times faster; it holds for what is below 2147.
+    # 32-bit division is several times faster and suffices for values below 2147.
     digits = scaled.astype(np.int32) if largest < 2147.0 else scaled
     thousandths, low = _divided(digits)
     whole, high = _divided(thousandths)

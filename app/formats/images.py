@@ -60,7 +60,7 @@ class ImageReader:
     def texture(self, name: str, content: bytes) -> Texture | None:
         """Return the texture for an image's bytes; None if the image is invalid, incomplete or too large."""
         if id(content) not in self._seen:
-            # The content is kept, so that its id is no other's.
+            # A reference to the content is kept, so that its id is not reused.
             self._seen[id(content)] = content, self._read(name, content)
         return self._seen[id(content)][1]
 
@@ -143,7 +143,7 @@ def _smaller(content: bytes, most_px: int) -> Image | None:
         return image
     if image.mode != "RGBA":
         return image.resize(size, Image.Resampling.BOX)
-    # Colours of what is cut out stay: they are seen at its edges when the image is made smaller again.
+    # Colours of transparent pixels are kept: they show at edges when the image is scaled down.
     color, alpha = image.convert("RGB"), image.getchannel("A")
     fitted = color.resize(size, Image.Resampling.BOX)
     fitted.putalpha(alpha.resize(size, Image.Resampling.BOX))

@@ -160,7 +160,7 @@ def straight_keys(values: AnyFloatArray) -> BoolArray:
         return kept
     chunk = max(_LEAST_CHUNK, min(_MOST_CHUNK, len(moves) * frames * width // _AT_ONCE))
     borders = np.unique([*range(0, frames - 1, chunk), frames - 1])
-    # Row by row of numbers, each of all curves one after the other.
+    # One row for each component, containing all curves in succession.
     rows = np.ascontiguousarray(values[moves].transpose(2, 0, 1).reshape(width, -1))
     found = _walked(rows, len(moves), borders)
     kept[moves] = _without_needless(rows, found, borders[1:-1])

@@ -72,7 +72,7 @@ def is_locked(path: Path) -> bool:
     except FileNotFoundError:
         return False
     except OSError:
-        # Not ours to open: its owner, if any, is left alone.
+        # The file belongs to another user and is left alone.
         return True
 
 

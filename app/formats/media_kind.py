@@ -70,7 +70,8 @@ def kind_of(head: bytes) -> MediaKind:
         return MediaKind.FILM
     if any(_is_transport(head, length, mark) for length, mark in _PACKETS):
         return MediaKind.TRANSPORT
-    # Twelve bits of synchronisation and a layer of 00, which MPEG audio has not. Source: ISO/IEC 13818-7, 6.2.
+    # ADTS begins with twelve bits of synchronisation and layer 00, which MPEG audio does not use. Source: ISO/IEC
+    # 13818-7, 6.2.
     if len(head) > 1 and head[0] == 0xFF and head[1] & 0xF6 == 0xF0:
         return MediaKind.ADTS
     return MediaKind.SOUND

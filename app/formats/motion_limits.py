@@ -52,7 +52,7 @@ def require_frames(file: str, seconds: float, fps: float, nodes: int, size_bytes
         The motion is too long.
     """
     most_s = longest_motion_s(fps, nodes, size_bytes)
-    # A comparison that a NaN fails.
+    # Written so that NaN fails the comparison.
     if not seconds <= most_s:
         said = {"seconds": round(float(seconds), 1), "most": round(most_s, 1)}
         raise FileError("motion.too_long", file=file, nodes=nodes, **said)

@@ -29,7 +29,7 @@ def host_of(path: str | os.PathLike[str]) -> str:
     text = os.fspath(path).replace("\\", "/")
     if url := _URL.match(text):
         scheme, rest = url[1].lower(), url[2]
-        # file:///C:/take.wav is a file of this computer; file:////host/... is not.
+        # file:///C:/take.wav is a file on this computer, file:////host/... is not.
         if scheme == "file" and rest.startswith("/") and not rest.startswith("//"):
             return ""
         authority = rest.lstrip("/").split("/")[0].rpartition("@")[2]
@@ -44,7 +44,7 @@ def host_of(path: str | os.PathLike[str]) -> str:
         if _LOCAL_DEVICE.match(inner):
             return ""
         parts = parts[2:] if inner.lower().startswith("unc/") else parts[1:]
-    # A port or SSL of WebDAV follows the name: \\host@SSL@8443\share.
+    # WebDAV appends port and SSL to the host name: \\host@SSL@8443\share.
     return parts[0].split("@")[0].casefold() if parts else ""
 
 

@@ -20,7 +20,7 @@ def influences(mesh: SkinnedMesh) -> tuple[IntArray, FloatArray]:
     by_joint = np.argsort(joints, axis=1, kind="stable")
     joints, weights = np.take_along_axis(joints, by_joint, axis=1), np.take_along_axis(weights, by_joint, axis=1)
     for slot in range(width - 1, 0, -1):
-        # A bone named twice stands in neighbouring slots now: all it has goes to the first of them.
+        # A bone that occurs twice is now in neighbouring slots: its weights are added in the first one.
         twice = joints[:, slot] == joints[:, slot - 1]
         weights[:, slot - 1] += np.where(twice, weights[:, slot], 0.0)
         weights[twice, slot] = 0.0

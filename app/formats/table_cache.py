@@ -43,7 +43,7 @@ def kept(kind: str, name: str, folder: Path, decoder: msgspec.msgpack.Decoder[T]
         return decoder.decode(read_file(path, MOST_BYTES))
     except (FileError, *UNREADABLE):
         value = make()
-    # A cache that cannot be written costs the next start some tenths of a second and nothing else.
+    # If the cache cannot be written, only the next start takes some tenths of a second longer.
     with contextlib.suppress(OSError, FileError):
         path.parent.mkdir(parents=True, exist_ok=True)
         for older in path.parent.glob(f"{name}-*.msgpack"):

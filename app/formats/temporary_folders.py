@@ -42,7 +42,7 @@ def scratch_folder() -> Iterator[Path]:
     try:
         yield folder
     finally:
-        # On Windows an open file cannot be removed.
+        # Windows does not remove an open file.
         stream.close()
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -55,7 +55,7 @@ def abandoned_folders() -> Iterator[Path]:
         try:
             found = [path for path in place.iterdir() if _NAME.fullmatch(path.name)] if _is_ours(place) else []
         except OSError:
-            # There is none yet.
+            # No such folder exists yet.
             continue
         for folder in found:
             try:
@@ -63,11 +63,11 @@ def abandoned_folders() -> Iterator[Path]:
                     if is_abandoned:
                         yield folder
             except FileNotFoundError:
-                # Killed between making the folder and its lock.
+                # The process was killed between creating the folder and its lock.
                 with contextlib.suppress(OSError):
                     folder.rmdir()
             except OSError:
-                # No locks here: its owner, if any, is left alone.
+                # Without locks its owner is unknown, so it is left alone.
                 continue
             else:
                 if is_abandoned:
@@ -99,12 +99,12 @@ def _new_folder_in(place: Path) -> tuple[Path, BinaryIO]:
         try:
             stream = (folder / _LOCK).open("xb")
         except FileNotFoundError:
-            # Another process has taken it for an abandoned one.
+            # Another process considered it abandoned and removed it.
             continue
         try:
             if lock(stream) and is_same_file(folder / _LOCK, stream):
                 return folder, stream
         except OSError:
-            # No locks here: it is never taken for an abandoned one either.
+            # Without locks no process considers it abandoned.
             return folder, stream
         stream.close()

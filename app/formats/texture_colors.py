@@ -30,7 +30,7 @@ def _sampled(use: TextureUse, uvs: AnyFloatArray) -> Pixels | None:
     height, width = pixels.shape[:2]
     places = np.asarray(uvs, np.float64) * use.scale + use.offset
     if len(places) and (places.min() < 0.0 or places.max() > 1.0):
-        # The end of a picture is not its beginning.
+        # A coordinate of exactly 1 is the end of the picture and does not wrap to its beginning.
         places = np.where((places < 0.0) | (places > 1.0), places % 1.0, places)
     rows = np.minimum((places[:, 1] * height).astype(np.intp), height - 1)
     columns = np.minimum((places[:, 0] * width).astype(np.intp), width - 1)

@@ -44,7 +44,7 @@ class TextureFiles:
                 there = target.stat().st_size if os.path.isfile(target) else -1
             except OSError as error:
                 raise cannot_write(target, error) from error
-            # The name says what is in it; several processes may write the same.
+            # The name is derived from the content, so several processes may write the same file.
             if there != len(texture.content):
                 with atomic_write(target, follow_link=False) as stream:
                     stream.write(texture.content)

@@ -29,7 +29,7 @@ DEEPEST: Final = 16
 
 _LINE_PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 _KEY_PLACE = re.compile(r" - at (?:`key` in )?`\$?\.?(.*)`$", re.DOTALL)
-# tomllib takes the square of a dotted name's length. Possessive, so that the search itself takes no square.
+# tomllib needs time quadratic in the length of a dotted name. The pattern is possessive, so that the search does not.
 _LONG_NAME = re.compile(
     rf"""(?<![\w"'-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{DEEPEST}}}""", re.ASCII
 )
@@ -84,7 +84,7 @@ def parse_toml(text: str, file: str) -> dict[str, Any]:
     except RecursionError as error:
         raise _syntax(text, file, _deepest(text), "lists or tables nested too deeply") from error
     except ValueError as error:
-        # Python refuses to read a number of thousands of digits.
+        # Python refuses to convert numbers of thousands of digits.
         number = _LONG_NUMBER.search(text)
         raise _syntax(text, file, 0 if number is None else number.start(), "a number with too many digits") from error
     for place, detail in _not_allowed(table):
@@ -176,14 +176,14 @@ def _key(key: str) -> str:
 
 def _value(value: Any) -> str:
     if isinstance(value, str):
-        # A JSON text is a basic string of TOML, where DEL too must be escaped.
+        # A JSON string is a basic string of TOML, except that DEL must be escaped too.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, list | tuple):
         return f"[{', '.join(map(_value, value))}]"
     if isinstance(value, Mapping):
-        # Within a list.
+        # A table within a list.
         return f"{{{', '.join(f'{_key(key)} = {_value(item)}' for key, item in value.items())}}}"
     if isinstance(value, date | time):
         return value.isoformat()

@@ -92,11 +92,11 @@ def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: Usd
         layer = _stage_layer(scenes, sound, files)
         files.write(Path(path).parent)
         try:
-            # USD writes files of its own only.
+            # USD writes only to files.
             with scratch_folder() as folder:
                 made = folder / f"scene{Path(path).suffix}"
-                # Without a listener USD prints that a sound's time needs a version of its binary files newer than the
-                # oldest; errors are raised all the same.
+                # Without a listener USD prints a warning that time offsets of sounds need a newer version of its binary
+                # format; errors are raised anyway.
                 listener = UsdUtils.CoalescingDiagnosticDelegate()
                 layer.Export(str(made))
                 del listener
@@ -163,8 +163,8 @@ class _Writer:
             x, y, z, w = (float(value) for value in scene.place.rotation_xyzw)
             root.AddTranslateOp().Set(Gf.Vec3d(*(float(value) for value in scene.place.translation_cm)))
             root.AddOrientOp().Set(Gf.Quatf(w, x, y, z))
-        # The names of our own prims come first, so that a mesh cannot have one of them. Programs call the armature
-        # and its animation as these.
+        # Names of our own prims are reserved first, so that no mesh gets one. Programs name the armature and its
+        # animation after them.
         name = prim.GetName()
         skeleton_name, motion_name = f"{name}_skeleton", f"{name}_motion"
         taken = {skeleton_name, motion_name, "Materials", "Sound"}
@@ -202,7 +202,7 @@ class _Writer:
             bind = rest.copy()
             for index, bone in enumerate(bones):
                 bind[index] = bind[index] if bone.parent < 0 else bind[bone.parent] @ rest[index]
-        # USD's matrices act on row vectors.
+        # Matrices of USD act on row vectors.
         skeleton.CreateRestTransformsAttr(Vt.Matrix4dArray.FromNumpy(_rows(rest)))
         skeleton.CreateBindTransformsAttr(Vt.Matrix4dArray.FromNumpy(_rows(bind)))
         return skeleton
@@ -214,7 +214,7 @@ class _Writer:
         found = {path: (mesh, *mesh.levels) for path, mesh in meshes.items() if mesh.levels}
         if not found:
             return
-        # What a variant has lies below its prim; materials do not.
+        # The content of a variant is below its prim; materials are not.
         for levels in found.values():
             for material in (material for level in levels for material in level.materials):
                 self._materials[material]
@@ -236,7 +236,7 @@ class _Writer:
         made.CreateExtentAttr(Vt.Vec3fArray.FromNumpy(np.stack([points.min(axis=0), points.max(axis=0)])))
         made.CreateFaceVertexCountsAttr(_integers(np.full(len(mesh.faces), mesh.faces.shape[1])))
         made.CreateFaceVertexIndicesAttr(_integers(mesh.faces.ravel()))
-        # Polygons as they are, not the cage of a smooth surface.
+        # Polygons are exact, not the control cage of a subdivision surface.
         made.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
         made.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(mesh.normals, dtype=np.float32)))
         made.SetNormalsInterpolation(_interpolation(mesh, mesh.normals))
@@ -302,7 +302,7 @@ class _Writer:
         motion.CreateJointsAttr(joints)
         motion.CreateScalesAttr(Vt.Vec3hArray.FromNumpy(np.ones((len(joints), 3), dtype=np.float16)))
 
-        # All bones share their samples, and all morphs.
+        # All bones share their time samples, and so do all morphs.
         keys = clip.keys
         every = np.arange(clip.frames)
         poses = (every if keys is None or keys.pose is None else keys.pose).tolist()

@@ -37,7 +37,7 @@ def open_libraries() -> None:
     found = importlib.util.find_spec("pxr")
     if sys.platform != "linux" or found is None:
         return
-    # What cannot be opened is reported by the import that follows.
+    # A library that cannot be opened is reported by the import that follows.
     system = ctypes.CDLL(None)
     system.dlopen.argtypes, system.dlopen.restype = (ctypes.c_char_p, ctypes.c_int), ctypes.c_void_p
     for folder in found.submodule_search_locations or ():

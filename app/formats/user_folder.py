@@ -223,7 +223,7 @@ class Named(Generic[V]):
         listed.
         """
         for path in files_in(folder, TABLE):
-            with contextlib.suppress(AppError):  # What is wrong with another file, `found` says.
+            with contextlib.suppress(AppError):  # `found` reports errors in other files.
                 if self._name_of(self._read(path)) == name:
                     return path
         return None
@@ -236,7 +236,7 @@ def stamp_of(paths: Iterable[Path]) -> Stamp:
         try:
             status = path.stat()
         except (OSError, ValueError):
-            # Gone between listing and looking, or a name that no file can have: as if it were not listed.
+            # Removed since it was listed, or a name that no file can have: treated as not listed.
             continue
         stamps.append((path.name, status.st_mtime_ns, status.st_size))
     return frozenset(stamps)

@@ -150,7 +150,7 @@ def video_pictures(path: str, rate: Fraction, size: tuple[int, int], first: int 
     FileError
         ffmpeg cannot be started; also the errors of `app.formats.files.open_file`.
     """
-    # A quarter of a picture early: what is sought is not missed for a rounded time, nor the one before taken for it.
+    # A quarter of a frame early: rounding neither skips the requested frame nor selects the one before it.
     sought = ("-ss", f"{float((first - Fraction(1, 4)) / rate):.6f}") if first > 0 else ()
     shown = f"fps=fps={rate}:start_time=0:round=near,scale={size[0]}:{size[1]}:flags=bilinear"
     after = ("-map", "0:V:0", "-vf", shown, "-pix_fmt", "rgb24", "-f", "rawvideo", "-")

@@ -114,7 +114,7 @@ class Doubling(PerformanceCurves):
     ) -> None:
         """Fill in the frames in which the body blends between two motions."""
         order = np.argsort(shares, axis=0)
-        # Always from the lower number to the higher one, so that the direction does not reverse half way.
+        # Always from the lower to the higher index, so that the direction does not change half way.
         pairs = np.sort(order[-2:], axis=0)
         for one, other in {tuple(pair) for pair in pairs.T.tolist()}:
             some = np.flatnonzero((pairs[0] == one) & (pairs[1] == other))

@@ -185,7 +185,7 @@ class PerformanceCurves:
             moved = replace(moved, hands=moved.hands | {STOPPING: frames.stopping})
         if frames.stowed is not None and self.player.put_aside is not None:
             moved = self.player.put_aside.watched(moved, frames.stowed)
-            # A hand that has put its instrument aside has left it already.
+            # A hand that put its instrument aside has already left it.
             there = 1.0 - frames.stowed
             moved = replace(moved, hands={name: (there * values.T).T for name, values in moved.hands.items()})
         styles = self.plan.styles

@@ -84,7 +84,8 @@ def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
     """Return the instrument adapted to a player's body in size and contacts; cached for each pair of body and
     instrument.
     """
-    # Ours and people are complete and play instruments as they are: plans are made before any character is loaded.
+    # Bundled characters and people are complete and play instruments unchanged: plans are made before any character is
+    # loaded.
     if player.character_id in our_characters() or character_of(player).hands_of is not None:
         shares = carriage_of(player.character_id, instrument.id)
         if shares is None or bundled_maps().get(instrument.id) is not instrument:
@@ -117,7 +118,7 @@ def _hold(
         if own is not None:
             return own
         fitted = hold_for(hands, model, _as_usual(instrument), load_body(), progress)
-        from app.rig.grip.fitting.same_hands import with_own_arms  # heavy, like a fit
+        from app.rig.grip.fitting.same_hands import with_own_arms  # slow to import, like a fit
 
         return with_own_arms(fitted, character, model, instrument, body)
 
@@ -152,7 +153,7 @@ def strained_on(character: Character, person: Person) -> tuple[str, ...]:
 
 
 def _strained(character: Character, hands: Character, instrument: InstrumentMap) -> bool:
-    from app.rig.grip.fitting.same_hands import are_strained  # heavy, like a fit
+    from app.rig.grip.fitting.same_hands import are_strained  # slow to import, like a fit
 
     body, usual, model = load_body(), _as_usual(instrument), model_of(instrument)
     with _worked_out(character, instrument):

@@ -57,7 +57,7 @@ def body_problems(
     """
     try:
         held, lacking = suited_to(player, instrument)
-        # Ours were tried on our instruments, and their holds meet all touches; of others it is said once it is known.
+        # Bundled holds meet all contacts of bundled instruments; for others it is reported when known.
         ours = player.character_id in our_characters() and bundled_maps().get(instrument.id) is instrument
         known = not ours and not waiting and is_held(player, instrument)
         if instrument.id in not_cast_for(player.character_id) or (known and is_strained(character_of(player), held)):
@@ -70,7 +70,7 @@ def body_problems(
         unreached = runs.begin(REACH, player.id, player=_posed(player), **given).of(_reached).problems
         return BodyProblems((*lacking, *(one for one in found if one is not None)), unreached)
     except AppError as error:
-        # A model or character that cannot be read is this player's problem; the others play on.
+        # A model or character that cannot be read is a problem of this player only; the others are shown.
         return BodyProblems((error.message,), unseen=error.message)
 
 

@@ -82,7 +82,7 @@ class Chunk:
 
     @classmethod
     def of(cls, motion: Motion) -> Chunk:
-        # One axis after the other: both at once take forty times as long.
+        # Reducing one axis after the other is forty times as fast as both at once.
         moves = (motion.rotations != motion.rotations[:1]).any(axis=0).any(axis=1)
         columns = [*motion.morphs.values(), *motion.controls.values()]
         still = motion.rotations[0].copy()

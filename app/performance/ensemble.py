@@ -83,7 +83,7 @@ class Performance:
         self.metadata: MetadataLibrary = metadata_library()
         self.unseen = dict[str, Message]()
         """By player id, once there are plans: why players cannot be seen, streamed or exported."""
-        # One that was never played knows nothing, but may know of one that was.
+        # A performance without any plans may have been made from one that has some.
         self._before: Performance | None = before if before is None or before.planned else before._before
         self._lock = RLock()
         """Held while a step is done."""
@@ -182,7 +182,7 @@ class Performance:
         first_ticks = [part.notes[0].onset_tick for part in played]
         last_ticks = [part.end_tick for part in played]
         if self.project.dancers:
-            # They move to all that sounds.
+            # Dancers move to percussion too.
             first_ticks += [hit.tick for hit in self.project.score.percussion[:1]]
             last_ticks.append(self.project.score.sounding_end_tick)
         return min(first_ticks, default=0), max(last_ticks, default=0)
@@ -270,7 +270,7 @@ class Performance:
         made = {player.id: planning.plan(player.id) for player in played if player.id in planning.player_ids}
         turns = (first_played(made), changes(made)) if len(made) > 1 else None
         for player in played:
-            # Hands are posed to find out what they reach: with many players it takes as long as planning.
+            # Finding out what hands reach takes as long as planning if there are many players.
             raise_if_stopped(stop_requested)
             plan = self._in_hands(player, made, turns)
             self._problems[player.id] = self._problems_of(player, plan)

@@ -42,7 +42,7 @@ class PerformanceExcerpt(Performance):
     """
 
     def __init__(self, whole: Performance, around_s: float) -> None:
-        # The same project, instruments, characters and metadata, and the same steps as far as they are done.
+        # Shares the project, instruments, characters, metadata and all steps done so far.
         vars(self).update(vars(whole))
         self._planning, self._before, self._runs, self.begun = RLock(), None, StepRuns(), None
         self.unseen, self._plans, self._problems = {}, {}, {}
@@ -75,7 +75,7 @@ class PerformanceExcerpt(Performance):
         return no_events(player.id, self.time_frame) if known is None else known
 
     def _problems_of(self, player: Player, plan: PlayerPlan) -> tuple[Problem, ...]:
-        # They are reported for the whole.
+        # Reported for the whole performance.
         return ()
 
 

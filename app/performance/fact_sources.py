@@ -91,7 +91,7 @@ def _dynamic(index: int, written: WrittenMarks, read: WrittenMarks) -> FactSourc
         return _marked(level == read.level[index])
     if written.swell[index]:
         return "hand"
-    # Of a score without a mark before it the velocity is made up.
+    # In a score without a preceding dynamic mark the velocity is not meaningful.
     return "guess" if written.is_score else "sound"
 
 

@@ -161,7 +161,7 @@ class LiveMotion:
             for dancer in performance.project.dancers:
                 old = before.tracks.get(dancer.id)
                 plan = no_events(dancer.id, performance.time_frame)
-                # Whether the dance is still the same is known once it is made ready.
+                # A change of the dance is noticed only when it is prepared.
                 kept = old is not None and same_frames and isinstance(old.player, Dancer)
                 tracks[dancer.id] = (
                     old.after(dancer, plan, (), same_chunks) if old and kept else LiveTrack(dancer, plan)
@@ -301,9 +301,9 @@ class LiveMotion:
             track.outdated.pop(index, None)
             self._chunk_bytes = chunk.bytes
             self._made_chunks += 1
-            # Who has it made at once shows it, too.
+            # A caller that needs a chunk at once shows it too.
             self._seen += prove and index == self._in_sight(shown.grid)[0]
-            # What was judged may have changed as long as that is not compared.
+            # Until it is compared, an earlier judgement may be out of date.
             if isinstance(track.player, Player) and (index not in track.judged or not prove):
                 self._made.append((track.player.id, index, chunk, motion))
         return True
@@ -314,7 +314,7 @@ class LiveMotion:
         """
         with self._lock:
             shown, made = self._shown, self._made
-            # What is made from an excerpt is judged once it proves to be that of the whole.
+            # Motion made from an excerpt is judged after it proved equal to that of the whole piece.
             waiting = {player_id for player_id, track in shown.tracks.items() if track.excerpt is not None}
             self._made = [row for row in made if row[0] in waiting]
         for player_id, index, chunk, motion in made:
@@ -465,7 +465,7 @@ class LiveMotion:
             track.judged -= {index for index in track.judged if index >= len(touched) or touched[index]}
             track.breaks = {index: breaks for index, breaks in track.breaks.items() if index < shown.grid.chunks}
         with self._lock:
-            # What is there already was made from the same.
+            # The chunks that exist were made from equal curves.
             track.playing, track.chunks, track.basis, track.unproven = curves, kept | track.chunks, None, {}
         if track.breaks or track.problems:
             self._name_problems(track)
@@ -477,11 +477,11 @@ class LiveMotion:
         grid, player_ids = shown.grid, self._requested[2]
         asked = [player_id for player_id in player_ids if player_id in shown.tracks]
         everyone = asked + [player_id for player_id in shown.tracks if player_id not in asked]
-        # The active player first, then all at the playhead, then what is seen next.
+        # The active player first, then all players at the playhead, then the chunks that follow.
         for index in (places := self._in_sight(grid)):
             yield from ((player_id, index) for player_id in everyone)
         if not shown.is_whole:
-            # What follows would hold up the plans of the others.
+            # Making further chunks would delay the plans of the other players.
             return
         for index in sorted(range(grid.chunks), key=lambda index: _distance(index, places[0])):
             yield from ((player_id, index) for player_id in everyone)

@@ -172,7 +172,7 @@ class LiveBreath:
         if self._mouth.target or not self._mouth.ended(now_s):
             self._mouth = self._mouth.toward(now_s, 0.0, SHUTS_S)
         if not math.isinf(self._inhaled_s):
-            # A breath that was cut short has brought as much air as there was time for.
+            # A breath that was cut short brings air in proportion to its duration.
             left = max(self._inhaled_s - now_s, 0.0) / FULL_BREATH_S
             self._spent *= min(left, 1.0)
             self._inhaled_s = math.inf

@@ -155,7 +155,7 @@ class LiveTrack:
         ``same_chunks`` on have different frames.
         """
         proven = self.playing is not None
-        # What is newest is shown: of a performance that is not compared yet, too.
+        # The newest chunks are shown, even those of a performance not compared yet.
         left = {index: chunk for index, chunk in self.unproven.items() if index not in self.chunks}
         return LiveTrack(
             player,

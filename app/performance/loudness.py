@@ -163,12 +163,12 @@ def _loudness(part: Part, curve: ControllerCurve, reading: VelocityReading | Non
     means: FloatArray = np.clip(_means(part, _steps(curve)), 0.0, 1.0)
     by_velocity = _by_velocity(part, reading)
     if curve.kind in _SCALING and len({note.velocity for note in part.notes}) == 1:
-        # Who draws the dynamics as a curve leaves the velocity as it is.
+        # If dynamics are given as a curve, velocities are ignored.
         by_velocity = np.full(len(part.notes), MEZZOFORTE)
     blown = np.minimum(means * by_velocity / MEZZOFORTE, 1.0) if curve.kind in _SCALING else means
     played = means > STOPS_AT
     if played.any() and is_level(127.0 * means[played]):
-        # It shapes the notes and has no dynamics: how loud they are the velocities say.
+        # The breath curve shapes the notes but contains no dynamics, so velocities determine the level.
         blown = np.clip(by_velocity + means - float(np.median(means[played])), 0.0, 1.0)
     return np.where(played, blown, by_velocity)
 

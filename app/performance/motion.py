@@ -48,7 +48,7 @@ def performance_curves(
     if len(played) == 1:
         return _alone(performance, performer, before, danced)
     old = before if isinstance(before, Doubling) else None
-    # Who cannot be seen is left out of what the body does.
+    # Performers that cannot be shown are ignored.
     others = performers_of(performance, (one for one in played if one.id != performer.player.id)).made
     all_of = [others.get(one.id, performer) for one in played if one.id in others or one.id == performer.player.id]
     known = {} if old is None else {one.player_id: one for one in old.played}

@@ -50,7 +50,7 @@ def made_by_copies(make: Callable[[range], Motion], parts: Sequence[range]) -> I
         return found
 
     try:
-        with contextlib.suppress(OSError):  # where no process can be started, this one does all
+        with contextlib.suppress(OSError):  # if no process can be started, this one does all the work
             for part in parts:
                 children.append(ForkedChild(_Sent, partial(_make, make, part), tuple(children)))
         yield results
@@ -60,7 +60,7 @@ def made_by_copies(make: Callable[[range], Motion], parts: Sequence[range]) -> I
 
 
 def _make(make: Callable[[range], Motion], part: range, channel: MessageChannel[None]) -> None:
-    # The process that was copied does again what fails, and reports what is wrong.
+    # On failure the parent process repeats the work and reports the error.
     with contextlib.suppress(BrokenPipeError, AppError):
         channel.send(_sent(make(part)))
 

@@ -160,7 +160,7 @@ class PlayAlong:
         elif message.type == "control_change" and message.control in SILENCING and not self._received.notes:
             self.all_off(time_s)
         else:
-            # Of a pitch that two channels sound, the first end is none yet.
+            # If two channels play the same pitch, it ends with the second note-off.
             held = {pitch for _, pitch in self._received.notes}
             for (_, pitch), _ in ended:
                 if pitch not in held:
@@ -199,7 +199,7 @@ class PlayAlong:
         self._hands.play(now_s, pitch, self._breath.loudness)
         self._breath.play(now_s, pitch, velocity, attacked)
         if self._hands.carries:
-            # Before the hand is on its way: what moves cannot be slowed down without going too far.
+            # Set before the hand moves: a moving hand cannot be slowed down without overshooting.
             self._solved(now_s)
             self._hands.carry(now_s, self._help.carries_s)
 

@@ -86,7 +86,7 @@ def _supports(
             still = player_body(parameters, instrument, character, grip, body)
             held_still = still_pose(still)
             ends = [instrument_matrices(one)[0] for one in (held_still, still_pose(still, lowered=1.0))]
-            # Clothes lie on the shoulders as arms that hold it have them.
+            # Clothes lie on the shoulders as they are while the arms hold the instrument.
             joints = joints if asked else joints_of(character, held_still)[0]
             hook_m, low_m = (matrix[:, :3] @ hook.at_m + matrix[:, 3] for matrix in ends)
             asked[support.kind] = Asked(support.kind, (hook,), hook_m, low_m)

@@ -71,7 +71,7 @@ def frame_around(
     """
     beat = beat_ticks or clock.ticks_per_quarter
     first_s = clock.seconds(float(first_tick))
-    # The start is given in the tempo that begins, whatever the one before it is.
+    # The start is computed with the first tempo, regardless of the tempo before it.
     given_s = min(preroll_beats, START_BEATS) * (clock.seconds(float(first_tick + beat)) - first_s)
     preroll_s = clock.seconds(first_tick - preroll_beats * beat)
     start_s = min(preroll_s, first_s - PREROLL_LEAST_S)

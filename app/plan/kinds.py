@@ -126,7 +126,7 @@ GESTURES: Final = (
     GestureRow("hold_still", ("Holds still", "静止"), "Hold Still", "still", row="beside"),
     GestureRow("look_up", ("Looks up", "客席を見る"), "Look Up", "audience", row="beside", moves_eyes=True),
     GestureRow("bow", ("Bow", "お辞儀"), "Bow", "bow", row="beside"),
-    # Of tables (`metadata.gestures`): each has a name of its own.
+    # Gestures from tables (`metadata.gestures`) have names of their own.
     GestureRow("named", ("Gesture", "ジェスチャー"), "", "tracks", row="beside"),
 )
 """Motions of a body besides playing, in the order of menus."""
@@ -141,7 +141,7 @@ if TYPE_CHECKING:
     GestureKind: TypeAlias = str
     BreathKind: TypeAlias = str
 else:
-    # Readers of files refuse all others.
+    # Readers of files refuse all other kinds.
     GestureKind = Literal[tuple(GESTURE_KINDS)]
     BreathKind = Literal[tuple(BREATH_KINDS)]
 BEFORE_NOTES: Final = tuple(kind.id for kind in BREATHS if not kind.within)

@@ -23,8 +23,8 @@ from metadata.gestures import Gesture
 E = TypeVar("E")
 
 
-# Events hold no cycles (`gc=False`): a hundred thousand notes have a million of them, and a collection that looked at
-# each would stop the editor for half a second.
+# Events contain no cycles (`gc=False`): a hundred thousand notes have a million events, and a garbage collection that
+# visits them all would stop the editor for half a second.
 
 
 class Vent(msgspec.Struct, frozen=True, gc=False):

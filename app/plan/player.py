@@ -214,14 +214,14 @@ PLAYER: Final = StepTable(
     contour="times.contour",
     own_seed="parameters.seed",
     seeds=_seeds,
-    # What is fingered.
+    # Fingering
     pins=_pins,
     written_fingerings="written.fingerings",
     planned_fingerings=reading(plan_fingerings, stopped="stopped", written="written_fingerings"),
     fingerings="planned_fingerings.events",
     fingering_problems="planned_fingerings.problems",
     mutes=plan_mutes,
-    # What is blown and tongued.
+    # Breath and tonguing
     envelope=_envelope,
     air="instrument.air",
     breath_parameters=partial(parameters_deciding, kind="breaths"),
@@ -250,7 +250,7 @@ PLAYER: Final = StepTable(
     recorded=_is_recorded,
     traces=reading(plan_traces, corrections="embouchure_corrections", controller="lip_input", recorded="recorded"),
     own_breathed=reading(breathed_of, line="shared_line", caught="catches", events="breaths"),
-    # How much the player shows.
+    # Expressiveness
     acting=acting_of,
     stillness="acting.stillness",
     tap="acting.tap",
@@ -262,13 +262,13 @@ PLAYER: Final = StepTable(
     styles="planned_styles.events",
     style_problems="planned_styles.problems",
     dynamics=dynamics_of,
-    # What the body does.
+    # Body
     all_cues=_joined,
     swings=reading(swings_of, times="rhythm", styles="styles"),
     phrases=reading(phrases, times="rhythm"),
     **BY_MUSIC,
     gestures_by_music=reading(in_order, kinds=tuple(BY_MUSIC)),
-    # What rules make of it.
+    # Results of rules
     own_habits="parameters.habits",
     habits=reading(names_in, text="own_habits"),
     usual_style="parameters.style",
@@ -278,7 +278,7 @@ PLAYER: Final = StepTable(
     ruled_gestures="ruled.gestures",
     ruled_expressions="ruled.expressions",
     rule_problems="ruled.problems",
-    # What the animator makes of it.
+    # Results of the animator's corrections
     made_gestures=reading(with_ruled, made="gestures_by_music", ruled="ruled_gestures"),
     gesture_corrections=partial(of_kinds, kinds=(ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)),
     corrected_gestures=reading(correct_gestures, events="made_gestures", corrections="gesture_corrections"),
@@ -294,7 +294,7 @@ PLAYER: Final = StepTable(
     defined_gestures="defined.gestures",
     definition_problems="defined.problems",
     gestures=reading(without_idle_hands, events="defined_gestures"),
-    # What eyes and face show.
+    # Eyes and face
     looking=_looking,
     looks_up=reading(looks_up, amount="gaze"),
     glances=reading(glances_of, cues="all_cues", gestures="looking", up="looks_up"),
@@ -305,7 +305,7 @@ PLAYER: Final = StepTable(
     expression_corrections=partial(of_kinds, kinds=(ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)),
     corrected_expressions=reading(correct_expressions, events="made_expressions", corrections="expression_corrections"),
     expressions=reading(without_overruled, events="corrected_expressions"),
-    # What is posed by hand.
+    # Poses set by hand
     pose_corrections=partial(of_kinds, kinds=(PoseCorrection,)),
     planned_poses=reading(plan_poses, corrections="pose_corrections", parameters="posing"),
     poses="planned_poses.events",
@@ -314,7 +314,7 @@ PLAYER: Final = StepTable(
     planned_additive=reading(plan_additive, corrections="curve_corrections", parameters="posing"),
     additive="planned_additive.events",
     additive_problems="planned_additive.problems",
-    # All of it.
+    # Collected plan
     note_ids=_note_ids,
     lost=_lost,
     problems=reading(

@@ -74,7 +74,7 @@ def problems_in_bars(
         As of `problem_lines`.
     """
     first_tick, stop_tick = score.metre_map.tick_of_bar(bars[0]), score.metre_map.tick_of_bar(bars[1] + 1)
-    # What lasts longer than the music belongs to the last bar.
+    # A problem that lasts beyond the music ends in the last bar.
     last_tick = math.inf if stop_tick >= score.end_tick else stop_tick
     clock, found = score.tempo_map, list[Problem]()
     for problem in problems:
@@ -140,7 +140,7 @@ def _line(
         place = _place(problem, score, part_id)
         if place not in ("", first, *others):
             others.append(place)
-        # Those that are only counted are not named.
+        # Further places are counted only.
         if len(others) > MOST_PLACES:
             break
     if not others:

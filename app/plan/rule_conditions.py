@@ -159,7 +159,7 @@ def growth_of(rule: Rule, facts: Facts) -> FloatArray:
     elif len(shares) > 2:
         share = share ** (1.0 / len(shares))
     grown: FloatArray = rule.do.grows_from + (1.0 - rule.do.grows_from) * share
-    # Of several, one that is just met leaves nothing.
+    # If one of several conditions is only just met, nothing remains.
     return np.where(share > 0.0, grown, rule.do.grows_from if len(shares) == 1 else 0.0)
 
 

@@ -226,7 +226,7 @@ def _gestures(
         later_s = rule.do.spread_s * seeds.chances_at(f"rule {rule.name} later", times.onset_tick[found])
         starts_s, ends_s = starts_s + later_s, ends_s + later_s
     taken = sorted((one.start_s, one.end_s) for one in others) if gesture.may_start != "anytime" else []
-    # The first that reaches beyond a time is found, not looked for.
+    # Running maxima, so that the first span that ends after a time is found by bisection.
     reach_s = list(accumulate((last_s + BETWEEN_S for _, last_s in taken), max))
     events: list[GestureEvent] = []
     free_s = -np.inf
@@ -234,7 +234,7 @@ def _gestures(
         for first_s, last_s in islice(taken, bisect_right(reach_s, start_s), None):
             if first_s >= end_s + BETWEEN_S:
                 break
-            # One thing after another, as long as the rest has room for it.
+            # One after another, as long as they fit the rest.
             if start_s < last_s + BETWEEN_S:
                 start_s, end_s = last_s + BETWEEN_S, end_s + last_s + BETWEEN_S - start_s
         if start_s < free_s or end_s <= start_s or not may_start(gesture, start_s, end_s, times, lowered):

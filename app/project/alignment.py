@@ -83,7 +83,7 @@ def align(old: AlignmentPart, new: AlignmentPart) -> IntArray:
     anchors = _anchors(old, new, distances, transposition)
     pairs = [*anchors]
     for (first, new_first), (end, new_end) in _gaps(anchors, len(old), len(new)):
-        # The distances at the notes around it; the ends of the lines have a neighbour on one side only.
+        # Distances of the neighbouring notes; the first and last note have one neighbour.
         around = [(first - 1, new_first - 1)] * (first > 0) + [(end, new_end)] * (end < len(old))
         shifts = [float(new.onsets[after] - old.onsets[before]) for before, after in around]
         shifts = shifts or distances.tolist()
@@ -121,7 +121,7 @@ def cheapest(costs: FloatArray) -> list[tuple[int, int]]:
         before, here = totals[row], totals[row + 1]
         here[0] = before[0] + GAP_COST
         np.minimum(before[:-1] + costs[row], before[1:] + GAP_COST, out=here[1:])
-        # Columns left out in a row: the least of all starts, each dearer by the columns passed.
+        # Skipping columns: the minimum over all starting columns, plus the cost of the columns skipped.
         here -= steps
         np.minimum.accumulate(here, out=here)
         here += steps
@@ -152,7 +152,7 @@ def _distances(old: AlignmentPart, new: AlignmentPart) -> tuple[FloatArray, int]
     higher = np.subtract.outer(new.pitches, old.pitches[chosen]).T
     bins = np.rint(moved * _BINS_PER_QUARTER).astype(np.int64)
     keys, votes = np.unique(higher + 128 + 256 * (bins - bins.min()), return_counts=True)
-    # Of equally many the nearest: nothing has moved unless more speaks for it.
+    # Among equally frequent distances the nearest one: notes count as unmoved unless the evidence is stronger.
     places = keys // 256 + bins.min()
     pitches = keys % 256 - 128
     order = np.lexsort((np.abs(places), np.abs(pitches), -votes))
@@ -196,7 +196,7 @@ def _anchors(
     partners, away = zip(*(_partners(old, new, distance, transposition) for distance in distances), strict=True)
     found = np.array(partners)
     costs = np.where(found >= 0, 0.2 * np.array(away) / SAME_QUARTERS, 1.0)
-    # Of two readings alike in all else, that in which less moved.
+    # Between readings that are equal otherwise, the one with less movement.
     costs += 1e-4 * np.minimum(np.abs(distances), 100.0)[:, None]
     density = len(old) / max(float(old.onsets[-1] - old.onsets[0]), 1.0)
     skipped = (distances[None, :] - distances[:, None]) * density
@@ -273,7 +273,7 @@ def _gaps(
 def _gap_pairs(
     old: AlignmentPart, new: AlignmentPart, shifts: Sequence[float], transposition: int
 ) -> Iterator[tuple[int, int]]:
-    # What is so long and has nothing in common is cut evenly: no one could say what belongs to what.
+    # Long stretches without common notes are divided evenly, since nothing relates their notes.
     blocks = -(-len(old) * len(new) // _MOST_CELLS)
     cuts = [(len(old) * block // blocks, len(new) * block // blocks) for block in range(blocks + 1)]
     for (first, new_first), (end, new_end) in pairwise(cuts):

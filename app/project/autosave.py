@@ -124,7 +124,7 @@ class Writing:
         try:
             return None if self.document is None else load(self.document)
         except FileError:
-            # Not there or damaged: there is nothing to take the place of what cannot be saved.
+            # Missing or damaged, so there is no replacement for content that cannot be saved.
             return None
 
     def _run(self) -> AutosaveResult:
@@ -161,11 +161,11 @@ class Writing:
         if document is None or not self.asks_usual or is_open_elsewhere(document, presence.folder, presence.token):
             return None
         beside = autosave_path(document)
-        # What a crash left there stays until the user has decided about it.
+        # Files left by a crash stay until the user decides about them.
         return beside if beside in self.held or not os.path.lexists(beside) else None
 
     def _write(self, path: Path) -> None:
-        # Where it lies, whatever a link there leads to: a folder may come from anywhere.
+        # The actual folder, resolving links, since the project may come from elsewhere.
         place = Path(os.path.realpath(path.parent)) / path.name
         content = encode_autosave(self.project, place, self.facts)
         with atomic_write(place, follow_link=False) as stream:
@@ -233,7 +233,7 @@ class Autosave:
         """Return the time in seconds at which the next autosave is due; None if everything is saved or being saved."""
         if self._changed_s is None or len(self._pending) >= MOST_PENDING:
             return None
-        # One that does not come back is not waited for.
+        # A request that is not answered is not waited for.
         return max([self._changed_s + self.delay_s, *(taken_s + PATIENCE_S for taken_s in self._pending.values())])
 
     def has(self, project: Project) -> bool:
@@ -280,7 +280,7 @@ class Autosave:
         """Report a change of the project that is not in its file."""
         self._project = project
         if project is self._written:
-            # Undone to what is written down already.
+            # Undo led back to the saved state.
             self._changed_s = None
         elif self._changed_s is None:
             self._changed_s = now_s
@@ -321,10 +321,10 @@ class Autosave:
         if path is None:
             return
         if not self.is_current(writing) or writing.facts.generation < self._newest:
-            # Meanwhile the project was saved or closed, or a newer one was written elsewhere.
+            # The project was saved or closed meanwhile, or a newer copy was written elsewhere.
             remove(path)
             if path in self._held and self._project is not None:
-                # It has replaced what belongs there.
+                # The new file replaced the recovered one.
                 self._held -= {path}
                 self._written, self._changed_s = None, 0.0
             return

@@ -148,7 +148,7 @@ def stage_arc(count: int, spacing_m: float = SPACING_M) -> tuple[StagePosition, 
     """
     if count < 2:
         return (StagePosition(0.0, 0.0, 0.0),) * count
-    # The arc grows with its players: first in angle at the least radius, then in radius.
+    # The arc grows with the number of players: first in angle at the least radius, then in radius.
     step = min(ARC_RAD / (count - 1), 2.0 * math.asin(min(1.0, spacing_m / 2.0 / LEAST_RADIUS_M)))
     return _row(count, step, max(LEAST_RADIUS_M, spacing_m / (2.0 * math.sin(step / 2.0))))
 
@@ -194,7 +194,7 @@ def choose_characters(
     long = [character for character, arm_m in arms_m.items() if arm_m >= LONG_ARMS * longest_m]
     counts: Counter[str] = Counter()
     result = dict.fromkeys(range(len(travels_m)), "")
-    # Those who ask for long arms choose first, so that the others are who is left.
+    # Instruments that need long arms choose first from the cast.
     for place in sorted(result, key=lambda place: travels_m[place] <= FAR_REACH_M):
         possible = long if travels_m[place] > FAR_REACH_M else list(arms_m)
         small = left_out[place] if left_out else ()

@@ -34,7 +34,7 @@ def score_faults(score: Score, before: Score | None) -> Iterator[Fault]:
     if before is None or score.percussion is not before.percussion:
         yield from _percussion_faults(score.percussion)
     if not score.metres or score.metres[0].tick != 0 or not score.tempo_map.changes or score.ticks_per_quarter < 1:
-        # How long anything is cannot be said.
+        # Without a valid resolution no duration can be computed.
         return
     yield from faults_of_bounds("pickup_ticks", score.pickup_ticks, (0, limits.LAST_TICK))
     if score.pickup_ticks and (len(score.metres) < 2 or score.metres[1].tick != score.pickup_ticks):
@@ -70,7 +70,7 @@ def _note_id_faults(parts: Sequence[Part], before: Sequence[Part]) -> Iterator[F
         for part in parts
         if part is not old.get(part.id)
     ):
-        # No part has an id that it did not have.
+        # No part has a note id that it did not have before.
         return
     seen: set[str] = set()
     for index, part in enumerate(parts):
@@ -111,7 +111,7 @@ def _marker_faults(markers: Sequence[Marker]) -> Iterator[Fault]:
 def _percussion_faults(hits: Sequence[PercussionHit]) -> Iterator[Fault]:
     for index, hit in enumerate(hits):
         before = hits[index - 1] if index else hit
-        # One comparison for the many hits that are sound.
+        # One comparison for the many valid hits.
         if (
             0 <= hit.tick <= limits.LAST_TICK
             and 0 <= hit.pitch <= 127
@@ -167,7 +167,7 @@ def _mark_faults(mark: Mark) -> Iterator[Fault]:
 
 def note_faults(notes: Sequence[Note], place: str) -> Iterator[Fault]:
     for index, note in enumerate(notes):
-        # One comparison for the many notes that are sound.
+        # One comparison for the many valid notes.
         if (
             0 <= note.onset_tick < note.end_tick <= limits.LAST_TICK
             and 0 <= note.pitch <= 127

@@ -153,7 +153,7 @@ def _hints(kind: type) -> dict[str, Any]:
     return get_type_hints(kind)
 
 
-# Made here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+# Created while the import lock is held: msgspec crashes if two threads use a type for the first time at once.
 for _type in (
     Part,
     Player,

@@ -112,7 +112,7 @@ def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: P
             for index in own
             for onset, pitch in zip(contents.channels[index].onset_ticks, contents.channels[index].pitches, strict=True)
         }
-        # One of several merged tracks that stayed where it was does not tell where the others are.
+        # If one of several merged tracks is unchanged, that does not show where the others are.
         if len(whole[place] & there) < _COVERED * len(whole[place]):
             del result[place]
         own.sort(key=lambda index: contents.channels[index].place != place)
@@ -213,7 +213,7 @@ def _left_out(project: Project, channels: Sequence[TrackChannel], silent: Sequen
     unplayed = list(project.score.unplayed)
     for index in silent:
         name, count = stream_name(channels[index]), len(channels[index].pitches)
-        # Its name or its notes may have changed.
+        # The name or the notes may have changed.
         like = [part for part in unplayed if part.name == name] or [
             part for part in unplayed if part.note_count == count
         ]

@@ -61,7 +61,7 @@ def merged_timing(project: Project, file: Score, place: Placing, scale: Fraction
     ours, new = timing_of(project.score), timing_of(file)
     read = project.read_timing
     if read is None:
-        # An older program did not keep it. Where the notes are as they were, tempo and metres are taken to be, too.
+        # An older version did not store it. If the notes are unchanged, tempo and metres are assumed unchanged too.
         return MergedTiming(ours if unchanged else new)
     result = new
     replaced: list[TimingKind] = []

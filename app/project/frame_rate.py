@@ -49,7 +49,7 @@ def exact_number(text: str) -> Fraction:
     """Convert a text such as ``1.5`` or ``3/2`` to an exact number. Raises ValueError, ZeroDivisionError."""
     plain = _plain(text)
     if "e" in plain.casefold():
-        raise ValueError(text)  # 1e999999999 would take hours
+        raise ValueError(text)  # 1e999999999 would take hours to convert
     return Fraction(plain)
 
 
@@ -63,7 +63,7 @@ def pulled_down(rate: Fraction) -> Fraction:
     """Return the exact rate for a decimal short form (23.98, 23.976, 29.97 or 59.94), others unchanged."""
     for nominal in PULLED_DOWN:
         exact = Fraction(nominal * 1000, 1001)
-        # The usual short forms keep two or three decimals.
+        # Common short forms have two or three decimals.
         if abs(rate - exact) < Fraction(1, 200):
             return exact
     return rate

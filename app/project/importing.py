@@ -203,7 +203,7 @@ def _instruments(
     stop_requested: StopRequested,
 ) -> tuple[str, ...]:
     """Return the ids of the instruments that would play the tracks of an assignment, one for each resulting part."""
-    # As if the file had no others.
+    # As if the file contained no other parts.
     own = msgspec.structs.replace(
         contents, channels=tuple(contents.channels[channel] for channel in assignment.channels)
     )
@@ -258,7 +258,7 @@ def import_project(
             characters[first.place] = row.character_id
     players = []
     for player in project.players:
-        # A musician with several instruments is the character chosen for the first of them that has one.
+        # A musician with several instruments is the character chosen for the first instrument that has one.
         places = [project.part(one).place for one in project.played_by(player)]
         character = next((characters[place] for place in places if place in characters), player.character_id)
         players.append(msgspec.structs.replace(player, character_id=character))

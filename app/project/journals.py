@@ -105,5 +105,5 @@ def _is_left(path: Path) -> bool:
 
 
 def _is_of_another_user(path: Path) -> bool:
-    # On Windows every user has a folder for temporary files.
+    # On Windows each user has a temporary folder of their own.
     return sys.platform != "win32" and path.lstat().st_uid != os.getuid()

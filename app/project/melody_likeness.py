@@ -33,7 +33,7 @@ def turns(onset_ticks: Sequence[int], pitches: Sequence[int], quarter: int) -> F
     onsets = np.asarray(onset_ticks, np.float64) / quarter
     heights = np.asarray(pitches, np.float64)
     if len(heights) <= _GRAM:
-        # Too short for turns: the notes themselves, from the first one on.
+        # Too short for sequences of intervals: the notes themselves are used, relative to the first.
         return np.sort(heights * 1e6 + np.minimum(np.rint((onsets - onsets[:1]) * 12.0), 999.0))
     steps = np.diff(heights) + 200.0
     times = np.minimum(np.rint(np.diff(onsets) * 12.0), 999.0)

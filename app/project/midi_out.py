@@ -39,10 +39,10 @@ def _keep_source(project: Project, path: Path) -> None:
     if not project.score.unplayed or not project.source:
         return
     if not may_touch(project.source):
-        return  # The user writes elsewhere: choosing a file on that computer would have been to agree.
+        return  # The file's computer is not accessed without consent, which choosing that file would have given.
     try:
         same = path.samefile(project.source)
     except OSError:
-        return  # one of the two is not there
+        return  # one of the two files does not exist
     if same:
         raise FileError("midi.onto_source", file=str(path), count=len(project.score.unplayed))

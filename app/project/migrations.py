@@ -105,22 +105,22 @@ def _with_outfits(raw: Raw) -> Raw:
 
 
 STRUCTURE: Final[Mapping[int, Migration]] = {
-    # What the MIDI file held is kept; of an older file it is unknown.
+    # Original notes of the MIDI file are stored since version 3; in an older project they are unknown.
     2: lambda raw: {**raw, "edited_notes": {}},
     3: _with_transpositions,
     4: lambda raw: {**raw, "takes": {}},
-    # The markers of the MIDI file are kept; a piece that was read before has them when it is read again.
+    # Markers of the MIDI file are stored; an older project gets them when the file is read again.
     5: lambda raw: {**raw, "score": {**raw["score"], "markers": []}},
     6: _with_unplayed_sounding,
     7: _with_dancers,
-    # A player may share the body of another; before, each player had one.
+    # A player may share the body of another; before, each player had its own.
     9: lambda raw: {**raw, "players": [{**player, "doubles": ""} for player in raw["players"]]},
-    # There may be curves of the animator's among the corrections; an older file has none.
+    # Corrections may contain curves drawn by the animator; an older project has none.
     10: _with_section_intensity,
     11: _with_takers,
     12: _with_video_and_pins,
-    # What was decided at the import is kept, and controllers and timing of the MIDI file; of an older file they are
-    # derived from its parts when it is read again.
+    # Decisions of the import, controllers and timing of the MIDI file are stored; for an older project they are derived
+    # from its parts when the file is read again.
     14: lambda raw: {**raw, "imported": None, "edited_curves": {}, "read_timing": None},
     15: _with_stopped,
     17: _with_outfits,

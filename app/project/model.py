@@ -383,7 +383,7 @@ def characters_for(instruments: Sequence[InstrumentMap], students: bool = False)
     ``students``.
     """
     travels_m = [_hand_travel_m(instrument) for instrument in instruments]
-    # To find out how long an arm is takes a moment, and few instruments ask for it.
+    # Measuring arms takes a moment, and few instruments need it.
     asked = any(travel_m > FAR_REACH_M for travel_m in travels_m)
     youngest, oldest = STUDENT_YEARS
     people = [id for id in our_characters() if not students or youngest <= our_years(id) <= oldest]

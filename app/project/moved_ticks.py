@@ -21,7 +21,7 @@ def place_map(pairs: Iterable[tuple[int, int]], scale: Fraction) -> Callable[[in
     for before, after in sorted(pairs):
         by_tick[before] = max(by_tick.get(before, after), after)
     olds = list(by_tick)
-    # What one player's notes say may contradict another's by a little: time does not run backwards.
+    # Notes of different players may contradict each other slightly, but time must not run backwards.
     news = np.maximum.accumulate(np.array(list(by_tick.values()), np.int64)).tolist() if olds else []
 
     def place(tick: int) -> int:

@@ -11,7 +11,7 @@ import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-# Device names of Windows, reserved with any extension too ("Naming Files, Paths, and Namespaces", Microsoft Learn).
+# Device names of Windows, reserved with any extension ("Naming Files, Paths, and Namespaces", Microsoft Learn).
 _DEVICES = frozenset(
     ["con", "prn", "aux", "nul", "conin$", "conout$"]
     + [f"{device}{digit}" for device in ("com", "lpt") for digit in "0123456789¹²³"]
@@ -61,7 +61,7 @@ def file_stem(name: str) -> str:
     text = "".join(
         character
         for character in clean_name(name)
-        # Format characters (zero width, direction marks) may hide an ending; a family emoji loses its joiners only.
+        # Format characters (zero width, direction marks) may hide an extension; a family emoji loses only its joiners.
         if unicodedata.category(character) != "Cf"
     )
     text = _FORBIDDEN.sub("_", text).strip(" .")

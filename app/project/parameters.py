@@ -103,7 +103,7 @@ def is_possible(parameter: str, value: object) -> bool:
     if parameter == _DANCED and isinstance(value, str) and value:
         return is_choreography(value) and len(value) <= limits.MOST_TEXT
     if parameter in (_STYLE, _HABITS):
-        # What is not installed here may be elsewhere.
+        # A value not installed here may be installed on another computer.
         return isinstance(value, str) and value.isprintable() and len(value) <= limits.MOST_NAME
     return PARAMETERS[parameter].allows(value)
 

@@ -92,7 +92,7 @@ def _only(notes: dict[str, Note], others: dict[str, Note]) -> Iterator[Note]:
 
 
 def _scaled(ticks: int, scale: Fraction) -> int:
-    # Fractions are slow, and most files count as before.
+    # Fractions are slow, and most files keep their resolution.
     return ticks if scale == 1 else round(ticks * scale)
 
 

@@ -35,10 +35,10 @@ def matched_parts(old: Score, new: Score, hints: Sequence[Place | None]) -> list
             for one, hint in zip(old.parts, hints, strict=True)
         ]
     )
-    from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
+    from scipy.optimize import linear_sum_assignment  # slow to import and rarely needed
 
     pairs = zip(*linear_sum_assignment(-(content + named)), strict=True)
-    # A part rewritten from end to end is still the same player's where everything else says so.
+    # A completely rewritten part still belongs to the same player if all other evidence agrees.
     return [
         (int(one), int(other)) for one, other in pairs if content[one, other] >= ALIKE or named[one, other] >= _NAMED
     ]

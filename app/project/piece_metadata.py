@@ -172,7 +172,7 @@ def _flat(value: Any, place: str) -> Iterator[tuple[str, str]]:
             yield from _flat(item, f"{place}.{key}" if place else str(key))
     elif isinstance(value, list | tuple):
         for item in value:
-            # What was added is called by its name, whatever stands before it.
+            # An added entry is identified by its name, regardless of its position.
             if isinstance(item, Mapping):
                 named = (str(item[key]) for key in ("correction", "name", "event_id") if key in item)
                 yield from _flat(item, f"{place}[{' '.join(named)}]")

@@ -183,12 +183,12 @@ def _described(
                 continue
             item = _item(path, document, token, facts, decode(content, Path(os.path.realpath(path))))
         except (FileError, OSError):
-            # It stays: another version of the program may know what to do with it.
+            # The file is kept: another version of the program may be able to read it.
             continue
         if item is None:
             remove(path)
             continue
-        # What an older version wrote is a work of its own.
+        # A file of an older version is a work of its own.
         work = str(path) if facts is None else facts.work
         older, newer = sorted((newest.get(work, item), item), key=_generation)
         newest[work] = newer
@@ -204,7 +204,7 @@ def _generation(item: Recoverable) -> int:
 def _document(path: Path, folder: Path, token: str, facts: Autosaved | None) -> Path | None:
     """Return the project file that an autosave belongs to; None if it has none."""
     if path.name.endswith(AUTOSAVE):
-        # Both may have been moved since.
+        # Both files may have been moved since.
         return path.with_name(path.name.removesuffix(AUTOSAVE))
     text = note_of(folder, token).document if facts is None else facts.document
     return Path(text) if text else None
@@ -222,7 +222,7 @@ def _item(
             if decode(saved, Path(os.path.realpath(document))) == project:
                 return None
         except (FileError, OSError):
-            # Gone or damaged: the autosave is all there is.
+            # Missing or damaged, so only the autosave remains.
             missing = not os.path.lexists(document)
     score = project.score
     return Recoverable(

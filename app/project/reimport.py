@@ -206,7 +206,7 @@ def _says_nothing_new(project: Project, result: Project) -> bool:
     fields = ("imported", "read_curves", "read_timing", *(("read_notes",) if not project.read_notes else ()))
     known: dict[str, Any] = {field: getattr(project, field) for field in fields}
     if project.imported is None:
-        # Derived decisions may make the reader warn of other things.
+        # Derived decisions may lead to other warnings.
         known["score"] = msgspec.structs.replace(result.score, warnings=project.score.warnings)
     return result == project or replace(result, **known) == project
 
@@ -238,7 +238,8 @@ def _with_curves(
             continue
         read = project.read_curves.get(part.id, before.curves)
         if project.read_timing is None and found.is_unchanged:
-            # An older program did not keep what the file had; where its notes are as they were, it is what it has now.
+            # An older version did not store the file's curves; if the notes are unchanged, the file's current curves
+            # are assumed.
             read = part.curves
         place = everywhere if found.still else place_map(found.places[part.id], scale)
         merged = merged_curves(before.curves, read, part.curves, place)

@@ -147,7 +147,7 @@ def recognised_streams(
         return result
     content = sketched_shares([mark.melody for mark in marks], melodies)
     kin = np.array([[_kinship(mark, channel) for channel in channels] for mark in marks])
-    from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
+    from scipy.optimize import linear_sum_assignment  # slow to import and rarely needed
 
     for one, other in zip(*linear_sum_assignment(-(content + kin)), strict=True):
         if content[one, other] >= ALIKE or kin[one, other] >= _NAMED:
@@ -173,7 +173,7 @@ def _says_who(channel: TrackChannel, mark: TrackMark, choices: Sequence[MapChoic
     found = candidates([channel], choices)
     if found.how is not How.SAID or not found.maps or found.unknown:
         return False
-    # A name says more than a program: how many players there are, for one.
+    # A name contains more information than a program number, such as the number of players.
     return _understood(channel) >= _understood(mark)
 
 
@@ -225,10 +225,10 @@ def _row(
     if map_id is None and decision.requested and before is not None:
         found = candidates(own, choices)
         if found.how is How.SAID and before in installed and _says_the_same(own[0], decision.tracks):
-            # It was chosen by the same words, in an earlier version by other rules.
+            # Chosen by the same words under the rules of an earlier version.
             map_id = None if any(choice.map_id == before for choice in found.maps) else before
         elif found.unknown or not found.maps:
-            # Its player stays, and has an instrument of its own; any map reads the notes.
+            # The player remains and has an instrument of its own, so any map can be used to read the notes.
             pitches = [pitch for channel in own for pitch in channel.pitches]
             map_id = (
                 before if before in installed else MapCandidates(How.RANGE, None, tuple(choices)).best(pitches).map_id

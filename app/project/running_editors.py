@@ -107,7 +107,7 @@ class Presence:
         if stream is None or stream.closed:
             return
         remove(self.folder / f"{self.token}{NOTE}")
-        # On Windows an open file cannot be removed.
+        # Windows does not remove an open file.
         if sys.platform == "win32":
             stream.close()
             remove(self._lock_path)
@@ -183,7 +183,7 @@ def is_open_elsewhere(document: Path, folder: Path, own_token: str = "") -> bool
 def _new_lock(path: Path) -> IO[bytes]:
     while True:
         stream = path.open("xb")
-        # Another editor that looks for dead ones may have removed it between the two steps.
+        # Another editor that removes files of ended editors may have removed it before it was locked.
         if lock(stream) and is_same_file(path, stream):
             return stream
         stream.close()
@@ -195,5 +195,5 @@ def remove(path: Path) -> None:
         path.unlink(missing_ok=True)
 
 
-# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+# Created while the import lock is held: msgspec crashes if two threads use a type for the first time at once.
 msgspec.json.Decoder(PresenceNote)

@@ -114,7 +114,7 @@ def file_hash(path: Path) -> str:
         with open_file(path) as stream:
             return hashlib.file_digest(stream, "sha256").hexdigest()
     except (OSError, FileError):
-        # The next read or write of the file raises the reason.
+        # The next access to the file raises the error.
         return ""
 
 
@@ -316,7 +316,7 @@ def _is_nested(value: Any) -> bool:
     return isinstance(value, dict | list | tuple) and len(value) > 0
 
 
-# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+# Created while the import lock is held: msgspec crashes if two threads use a type for the first time at once.
 for _type in (Content, tuple[Correction, ...], tuple[DanceCorrection, ...]):
     msgspec.json.Decoder(_type)
 _ANY: Final[msgspec.json.Decoder[Any]] = msgspec.json.Decoder()

@@ -137,7 +137,7 @@ def project_of(raw: Raw, folder: Path, file: str) -> Project:
         for dancer, items in content.dance_corrections.items()
         if items
     }
-    # What a struct does not forbid it passes over: nothing in a file may be lost by saving it again.
+    # Decoding ignores unknown keys, which saving would lose, so they are refused.
     for key in _CHECKED:
         for place in _unknown(raw[key], msgspec.to_builtins(getattr(content, key)), key):
             raise FileError("project.invalid", file=file, place=place, detail="unknown key")

@@ -30,7 +30,7 @@ def stored_path(path: str, folder: Path) -> str:
     if path and Path(path).is_absolute():
         try:
             shared = Path(os.path.commonpath([path, folder]))
-        except ValueError:  # two drives
+        except ValueError:  # on different drives
             return stored(path)
         if shared != Path(shared.anchor):
             path = Path(os.path.relpath(path, folder)).as_posix()

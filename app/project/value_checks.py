@@ -47,7 +47,7 @@ def faults_at_key(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:
 
 def faults_of_bounds(place: str, value: float, bounds: Bounds) -> Iterator[Fault]:
     """Yield a fault at the key path ``place`` if a number is outside its bounds."""
-    # Also not where it is no number at all, or a whole one that no float can hold.
+    # Also false for NaN, and for integers too large for a float.
     if not bounds[0] <= value <= bounds[1]:
         yield place, f"must be from {bounds[0]:.15g} to {bounds[1]:.15g}"
 

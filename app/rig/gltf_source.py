@@ -65,7 +65,7 @@ def build_mesh(source: GltfSource, index: int, name: str) -> tuple[Mesh, bool]:
     primitives = source.gltf.meshes[index].primitives
     blocks: list[tuple[int, GltfPrimitive]] = []
     starts: list[int] = []
-    # Those that share their positions share the joints too.
+    # Primitives with the same positions share their joints.
     alone = len({id(primitive.positions) for primitive in primitives}) == 1
     known: dict[bytes, int] = {}
     digests: dict[int, bytes] = {}

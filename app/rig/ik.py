@@ -131,12 +131,12 @@ def solve_limb(
     distance = _soft_limit(requested, a + b, abs(a - b))
     off = pole - direction * quaternion.dot(pole, direction)[:, None]
     off /= np.maximum(np.sqrt(quaternion.dot(off, off)), 1e-9)[:, None]
-    # Law of cosines: the middle joint lies `along` the line and `aside` of it.
+    # Law of cosines: the middle joint is `along` the line and `aside` of it.
     along = (a * a - b * b + distance * distance) / (2.0 * distance)
     aside = np.sqrt(np.maximum(a * a - along * along, 0.0))
     middle = direction * along[:, None] + off * aside[:, None]
     end = direction * distance[:, None]
-    # Bending turns the upper bone's direction towards the end: about middle x (end - middle).
+    # Bending rotates the upper bone towards the end, about middle x (end - middle).
     hinge = quaternion.cross(off, direction)
     upper_rest, lower_rest = limb.rest_frames
     upper_world = quaternion.multiply(quaternion.from_frames(middle / a, hinge), upper_rest)

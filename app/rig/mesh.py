@@ -70,7 +70,7 @@ def plain_materials(mesh: Mesh) -> tuple[Material, ...]:
     made = []
     for number, material in enumerate(mesh.materials):
         corners = mesh.uvs[mesh.triangles[mesh.triangle_materials == number]]
-        # Of a card of hair the corners alone are cut out.
+        # Only the corners of a hair card are cut out.
         made.append(plain_material(material, np.concatenate([corners.reshape(-1, 2), corners.mean(axis=1)])))
     return tuple(made)
 

@@ -34,7 +34,7 @@ def read_motion_file(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
     kind = _kind(head) or Path(path).suffix.lower()
     if kind == ".bvh":
         return read_bvh(path, figure)
-    # Their libraries take long to import.
+    # Their libraries are slow to import.
     from app.rig.node_motion import read_fbx_motion, read_gltf_motion
 
     if kind == ".fbx":

@@ -142,7 +142,7 @@ def _length_s(animation: GltfAnimation) -> float:
 def _usual_fps(animation: GltfAnimation) -> Fraction:
     """Return the frame rate of the densest keys, if these are baked, since glTF stores no rate."""
     keys = max((channel.times_s for channel in animation.channels), key=len)
-    # Times are float32 seconds: steps of long animations are coarse.
+    # Times are float32 seconds, whose steps are coarse in long animations.
     fps = float((len(keys) - 1) / (keys[-1] - keys[0]))
     return exact_rate(fps, 1e-4) if LEAST_BAKED_FPS <= fps <= MOST_FPS else OTHERWISE_FPS
 
@@ -160,7 +160,7 @@ def _sampled(gltf: GltfModel, animation: GltfAnimation, times_s: FloatArray) -> 
     for path, (attribute, width) in kept.items():
         still = np.array([getattr(node, attribute) for node in gltf.nodes]).reshape(-1, width)
         values[path] = np.tile(still, (len(times_s), 1, 1))
-    # A file may name one target many times; the last one holds.
+    # A file may animate one target several times; the last channel applies.
     targets = {(channel.node, channel.path): channel for channel in animation.channels}
     for channel in targets.values():
         values[channel.path][:, channel.node] = sampled(channel, times_s)
@@ -187,7 +187,7 @@ def _clip(nodes: _Nodes) -> BvhClip:
         rest_of_carrier = rest_turns[parent] if parent >= 0 else quaternion.IDENTITY
         size = scale[parent] if parent >= 0 else np.ones(3)
         world[node] = quaternion.multiply(carrier, nodes.rotations[:, node])
-        # A scale that changes is a squash that bones of bodies do not have.
+        # An animated scale is a squash, which bones of bodies do not have.
         scale[node] = size * nodes.scales[0, node]
         turned_carrier = quaternion.multiply(carrier, quaternion.conjugate(rest_of_carrier))
         turned = quaternion.multiply(world[node], quaternion.conjugate(rest_turns[node]))

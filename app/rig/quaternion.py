@@ -22,17 +22,19 @@ IDENTITY.setflags(write=False)
 
 _FEW = 48
 """Number of quaternions up to which calls of NumPy dominate, so that rows are multiplied instead of components."""
-# What component 3, 0, 1, 2 of the left factor meets in the right one, and with which sign: the same sums to the bit.
+# Components of the right factor that meet components 3, 0, 1, 2 of the left one, and their signs; the order of
+# summation is fixed, so results are equal to the bit.
 _LEFT = np.array([[3], [0], [1], [2]])
 _RIGHT = np.array([[0, 1, 2, 3], [3, 2, 1, 0], [2, 3, 0, 1], [1, 0, 3, 2]])
 _SIGN = np.array([[1.0, 1.0, 1.0, 1.0], [1.0, -1.0, 1.0, -1.0], [1.0, 1.0, -1.0, -1.0], [-1.0, 1.0, 1.0, -1.0]])
-# Both halves of a cross product.
+# Indices of both halves of a cross product.
 _NEXT = np.array([[1, 2, 0], [2, 0, 1]])
 _PREVIOUS = np.array([[2, 0, 1], [1, 2, 0]])
 
 
 _CONJUGATE = np.array([-1.0, -1.0, -1.0, 1.0])
-# Component 3, 0, 1, 2 of the left factor meet these of the right one, added or subtracted, in each component.
+# Components of the right factor that meet components 3, 0, 1, 2 of the left one, added or subtracted, for each
+# component of the product.
 _PRODUCT = (
     ((0, 3, 2, 1), (np.add, np.add, np.subtract)),
     ((1, 2, 3, 0), (np.subtract, np.add, np.add)),
@@ -363,7 +365,7 @@ def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -
         return np.broadcast_to(rotations[0], (len(value), *rotations.shape[1:]))
     starts = np.flatnonzero(np.concatenate(([True], value[1:] != value[:-1]))) if len(value) > MANY else value
     if 2 * len(starts) < len(value):
-        # It rests most of the time.
+        # Most of the time the value rests.
         resting = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(value)))
         few = np.ascontiguousarray(interpolated(values, rotations, value[starts]).transpose(1, 2, 0))
         return few.take(resting, axis=2).transpose(2, 0, 1)

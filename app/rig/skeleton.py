@@ -89,7 +89,7 @@ def forward(
     place = {joint: index for index, joint in enumerate(requested)}
     frames = len(rotations)
     hips = _hips(skeleton) if hips_m is not None else -1
-    # One contiguous plane per joint while walking down; frames come first only in the result.
+    # Computed with one contiguous plane for each joint; only the result has frames first.
     turned = np.empty((len(requested), frames, 4))
     placed = np.empty((len(requested), frames, 3))
     for index, joint in enumerate(requested):

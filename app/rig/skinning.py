@@ -237,7 +237,7 @@ def landmark_positions(
     result = np.tensordot(matrices, marks.points, axes=([1, 3], [0, 1]))  # (F, 3, L)
     for name, deltas in marks.morphs.items():
         if morphs is not None and name in morphs and np.any(morphs[name]):
-            # A morph moves few landmarks, which few joints carry.
+            # A morph moves few landmarks, which are weighted to few joints.
             carrying, moving = np.flatnonzero(deltas.any(axis=(1, 2))), np.flatnonzero(deltas.any(axis=(0, 1)))
             rows = matrices[:, carrying, :, :3].transpose(0, 2, 1, 3).reshape(-1, 3 * len(carrying))
             moved = (rows @ deltas[carrying][..., moving].reshape(-1, len(moving))).reshape(-1, 3, len(moving))

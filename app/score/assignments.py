@@ -107,5 +107,5 @@ def suggestions(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> 
 
 
 def fits_as_written(choice: MapChoice, pitches: Sequence[int]) -> bool:
-    # A wrong note or two says nothing.
+    # One or two wrong notes prove nothing.
     return choice.outside(pitches) >= LEAST_OUTSIDE * len(pitches) and not choice.outside(pitches, written=True)

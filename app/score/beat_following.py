@@ -125,7 +125,7 @@ class Following:
         there = self._there()
         bars = metre_map.bar_of_tick(self.ticks)
         if len(bars) > 1 and bars[-1] != bars[-2]:
-            there[-1] = False  # The bar line after the last bar: no bar begins there.
+            there[-1] = False  # the bar line after the last bar begins no bar
         bars = bars[there]
         numbers, places = np.unique(bars, return_inverse=True)
         means = np.bincount(places, self.confidence[there]) / np.maximum(np.bincount(places), 1)

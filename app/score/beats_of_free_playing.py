@@ -68,7 +68,7 @@ def _tracked(envelope: FloatArray, period: float) -> IndexArray:
     reach = round(period)
     kernel = np.exp(-0.5 * (np.arange(-(reach // 4), reach // 4 + 1) * _SMOOTHED / period) ** 2)
     strength = np.convolve(envelope / envelope.std(), kernel, "same")
-    # No beat is nearer than half a period: so many frames have all their predecessors before them.
+    # Beats are at least half a period apart, so a block of that many frames has all its predecessors before it.
     least, most = max(reach // 2, 1), 2 * reach
     lags = np.arange(most, least - 1, -1)
     cost = TIGHTNESS * np.log(lags / period) ** 2
@@ -79,7 +79,7 @@ def _tracked(envelope: FloatArray, period: float) -> IndexArray:
         ways = np.lib.stride_tricks.sliding_window_view(score[first - most : last - least], len(lags)) - cost
         best = ways.argmax(axis=1)
         gain = ways[np.arange(last - first), best]
-        # A beat whose predecessors are worth nothing is the first one.
+        # If no predecessor has a positive score, the beat is the first one.
         score[first:last] += np.maximum(gain, 0.0)
         before[first:last] = np.where(gain > 0.0, np.arange(first, last) - lags[best], -1)
     beats = [len(score) - 2 * reach + int(score[-2 * reach :].argmax())]
@@ -92,7 +92,7 @@ def _likely_bpm(envelope: FloatArray, start_bpm: float) -> float:
     """Tempo with the highest autocorrelation of the envelope; a log-normal prior around ``start_bpm`` has a standard
     deviation of an octave.
     """
-    import scipy.fft  # heavy, and only here
+    import scipy.fft  # slow to import and used only here
 
     size = scipy.fft.next_fast_len(2 * len(envelope), real=True)
     alike = scipy.fft.irfft(np.abs(scipy.fft.rfft(envelope, size)) ** 2, size)

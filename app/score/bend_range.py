@@ -110,7 +110,7 @@ class BendRanges:
 
     def _set_range(self, channel: int, state: _Channel, control: int, value: int) -> Collection[int]:
         if control == _DATA:
-            # Semitones alone mean no cents; both may come in either order.
+            # Semitones alone imply 0 cents; both messages may come in either order.
             state.semitones, state.cents = value, state.cents if state.fine_first else 0
             state.coarse, state.fine_first = True, False
         elif control == _DATA_FINE:

@@ -93,7 +93,7 @@ def end_where_struck_again(notes: ChannelNotes) -> None:
         offs = sorted(ends[index] for index in places)
         for index, again in pairwise(places):
             if onsets[index] == onsets[again]:
-                # A unison of two players.
+                # Two players in unison.
                 return
         for index, again in pairwise([*places, -1]):
             if ends[index] > onsets[index]:
@@ -141,7 +141,7 @@ def covered(notes: ChannelNotes, ends: Sequence[int]) -> tuple[int, int]:
     note overlaps an earlier note of another pitch.
     """
     swallowed = together = 0
-    # The latest ends so far of the two pitches that end last: of the pitch whose last one that is, and of any other.
+    # Latest end of the pitch that ends last, and of any other pitch.
     last, last_end, other_end = -1, -1, -1
     for onset, end, pitch in zip(notes.onset_ticks, ends, notes.pitches, strict=True):
         until = other_end if pitch == last else last_end

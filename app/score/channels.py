@@ -56,7 +56,7 @@ def settle_bends(tracks: Sequence[TrackEvents]) -> list[dict[int, frozenset[int]
     ports = [events.port or FIRST_PORT for events in tracks]
     rows: dict[Port, list[tuple[int, int, int, int]]] = {port: [] for port in ports}
     for port, events in zip(ports, tracks, strict=True):
-        # A conductor's track speaks to every port.
+        # A conductor's track applies to every port.
         for heard in rows if events.port is None and not events.channels else (port,):
             rows[heard] += events.parameters
     modules = module_ranges([events.said_of_sounds for events in tracks], rows)

@@ -109,7 +109,7 @@ def clean_notes(notes: Played, cleaning: Cleaning) -> Cleaned:
     loudness = np.where(sent, loudest(notes), notes.velocities / 127.0)
     trills = _trills(notes)
     faults: list[Fault] = [""] * len(notes)
-    # What cannot be heard stands between nothing: the other faults are those of the notes that are left.
+    # Inaudible notes are removed first; the other faults are those of the remaining notes.
     audible = []
     for index in range(len(notes)):
         if cleaning.ghost_s and sent[index] and loudness[index] < SILENT_SHARE * cleaning.ghost_loudness:
@@ -132,13 +132,13 @@ def clean_notes(notes: Played, cleaning: Cleaning) -> Cleaned:
         ):
             faults[index] = "slip"
             if notes.pitches[following] != notes.pitches[held]:
-                # The fingers were there: the note that was meant began with the slip.
+                # The fingers were in place: the intended note began with the slip.
                 onsets[following] = onsets[index]
                 ends[held] = max(ends[held], onsets[index])
             else:
                 ends[held] = max(ends[held], onsets[following])
         elif ends[index] - onsets[index] < cleaning.ghost_s and _touches(held, index, following, onsets, ends):
-            # The note before goes on until the one that was meant.
+            # The previous note is extended to the intended one.
             faults[index] = "slip"
             ends[held] = max(ends[held], onsets[following])
         else:
@@ -170,7 +170,7 @@ def _trills(notes: Played) -> BoolArray:
         return found
     pitches, lasts_s = notes.pitches, np.diff(notes.onsets_s)
     steps = np.abs(np.diff(pitches))
-    # From each note to the next but one.
+    # From each note to the one after the next.
     turns = (pitches[2:] == pitches[:-2]) & (steps[:-1] > 0) & (steps[:-1] <= _TRILL_SEMITONES)
     turns &= lasts_s[1:] <= _TRILL_S
     first = 0
@@ -195,7 +195,7 @@ def highest(curve: Controlled, starts_s: FloatArray, ends_s: FloatArray) -> Floa
     values = np.concatenate(([0.0], curve.values, [0.0]))
     first = np.searchsorted(curve.times_s, starts_s, side="right")
     last = np.maximum(np.searchsorted(curve.times_s, ends_s, side="right"), first) + 1
-    # Pairs of bounds: what lies between a pair's end and the next one's beginning is passed over.
+    # Pairs of bounds: reduceat's results between the end of a pair and the next beginning are dropped.
     bounds = np.stack([first, last], axis=1).ravel()
     peaks: FloatArray = np.maximum.reduceat(values, bounds)[::2] if len(bounds) else np.empty(0)
     return peaks
@@ -215,7 +215,7 @@ def _is_double(
     if silence_s <= _RESTRUCK_S and _goes_on(notes, ends[held], onsets[index]):
         return True
     again_s = min(onsets[index] - onsets[held], silence_s)
-    # Two strokes of the tongue leave longer notes than a key that springs back.
+    # Two tongue strokes leave longer notes than a key that bounces.
     bounced = (
         ends[index] - onsets[index] < 2 * cleaning.double_s or onsets[index] - onsets[held] < 2 * cleaning.double_s
     )
@@ -236,7 +236,7 @@ def _goes_on(notes: Played, end_s: float, onset_s: float) -> bool:
         float(breath.at(np.linspace(start_s, stop_s, 8)).max())
         for start_s, stop_s in ((first_s - _AROUND_S[0], first_s), (last_s, last_s + _AROUND_S[0]))
     )
-    # A breath that only rises or falls slowly goes on too.
+    # Breath that only rises or falls slowly continues too.
     return bool(least > 0.0 and least >= _GOES_ON * min(before, after))
 
 
@@ -302,7 +302,7 @@ def _struck_again(audible: list[int], notes: Played) -> BoolArray:
         return struck
     again = goes_on & same & (gaps_s > 0.0)
     steps_s = np.array([notes.onsets_s[after] - notes.onsets_s[before] for before, after in pairs])
-    # When each note sounds at its level.
+    # Time at which each note reaches its level.
     begun = breath.at(notes.onsets_s + 2 * _AROUND_S[1])
     edges = np.flatnonzero(np.diff(np.concatenate(([False], again, [False])).astype(np.int8)))
     for first, last in edges.reshape(-1, 2).tolist():

@@ -44,7 +44,7 @@ def doubled_instruments(
         return [""] * len(onset_ticks)
     named = vocabulary().by_name(name)
     programs = sorted({row for channel in channels for row in events.programs.get(channel, [])})
-    # A program knows no keys and few sizes: that of a clarinet is the clarinet in A's too.
+    # A program number contains no key and hardly any size: that of a clarinet also fits a clarinet in A.
     changes = [
         (tick, 0, named if named is not None and vocabulary().is_kind(named, found) else found)
         for tick, program in sounds_of(programs, named)
@@ -54,8 +54,8 @@ def doubled_instruments(
     changes.sort(key=lambda row: row[:2])
     if not changes:
         return [""] * len(onset_ticks)
-    # What the track begins with is what it is for, whatever its name calls that ("Cornet" with a trumpet's program),
-    # unless it names that as the second ("Flute / Piccolo") or changes to what it names later.
+    # The first program determines the instrument, whatever the track's name is ("Cornet" with a trumpet's program),
+    # unless the name gives that instrument second ("Flute / Piccolo") or the track changes later to the named one.
     begun = [found for tick, _, found in changes if tick <= onset_ticks[0]]
     first = begun[-1] if begun else named
     mine = {found.id for found in (first, named) if found is not None}

@@ -76,7 +76,7 @@ class MapChoice(msgspec.Struct, frozen=True):
         low, high = low + shift, high + shift
         if low <= min(pitches) and max(pitches) <= high:
             return 0
-        # Of thousands of notes few are different.
+        # Thousands of notes have few different pitches.
         return sum(count for pitch, count in Counter(pitches).items() if not low <= pitch <= high)
 
 
@@ -134,7 +134,7 @@ class MapCandidates(msgspec.Struct, frozen=True):
         most = max(shares.values())
 
         def rank(choice: MapChoice) -> tuple[bool, float, int, int]:
-            # Who is asked for by name plays pedal tones too; nobody is chosen for them.
+            # An instrument that is named plays pedal tones too; they are no reason to choose an instrument.
             share = shares[choice.map_id]
             shift = choice.transposition_semitones if written else 0
             low, high = choice.usual_range
@@ -144,7 +144,7 @@ class MapCandidates(msgspec.Struct, frozen=True):
                 return (whole - share) * len(pitches) < _FEW + 0.5 and share >= _FEW_SHARE * whole and not reached
 
             few = nearly(1.0)
-            # What no map reaches is no reason for another one.
+            # Notes that no map reaches are no argument for another map.
             return (
                 choice.map_id in self.exact and (nearly(most) or share >= most * (1.0 if reached else _OWN_SHARE)),
                 1.0 if few else share,
@@ -179,7 +179,7 @@ def candidates(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> M
         found = _of_instrument(How.SAID, said, maps)
         numbered, general = by_program_alone(lead), said_plainly(lead)
         if general is not None and general != said and not any(plays(choice, said) for choice in found.maps):
-            # A size of its family that no map plays.
+            # A size of the family that no map plays.
             found = _of_instrument(How.SAID, general, maps)
         return found if numbered is None else _instead(numbered, found, pitches, maps) or found
     reported = dict.fromkeys(id for channel in channels for id in channel.reported) if said is None else {}

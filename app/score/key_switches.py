@@ -48,7 +48,7 @@ def without_key_switches(
     pitches = np.array(channel.pitches)
     for away in _far(pitches):
         rest = _kept(channel, ~away)
-        # Where nothing but the range chose them, what was found fits the switches too.
+        # If only the range chose the instrument, the maps found fit the key switches too.
         own = found if found.how is not How.RANGE else candidates([rest], maps)
         choice = own.best(rest.pitches)
         low, high = choice.usual_range

@@ -55,7 +55,7 @@ def too_long(score: Score, end_tick: int | None = None) -> dict[str, Argument] |
     if end <= LAST_TICK and hours <= MOST_HOURS and quarters <= MOST_QUARTERS and bars <= MOST_BARS:
         return None
     return {
-        # Rounded up: 12.001 hours are more than 12.
+        # Rounded up: 12.001 hours exceed 12.
         "hours": math.ceil(10.0 * hours - 1e-6) / 10.0,
         "quarters": quarters,
         "bars": bars,

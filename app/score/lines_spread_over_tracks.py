@@ -96,7 +96,7 @@ def _together(own: Sequence[TrackEvents], managing: Sequence[TrackEvents], manag
                 events.controls[key] = {**points, **events.controls.get(key, {})}
         if manager is not None and manager in one.programs:
             events.programs.setdefault(manager, one.programs[manager])
-    # Numbers count the notes of each track: of the line they count by onset.
+    # Note numbers count within a track; within the line they follow the onsets.
     numbers = sorted((onset, channel) for channel, notes in events.channels.items() for onset in notes.onset_ticks)
     events.channels = {
         channel: msgspec.structs.replace(

@@ -81,7 +81,7 @@ WRITABLE_DYNAMICS: Final = ("ppp", "pp", "p", "mp", "mf", "f", "ff", "fff", "sfz
 if TYPE_CHECKING:
     MarkKind: TypeAlias = str
 else:
-    # Readers of files refuse all others.
+    # Readers of files refuse all other kinds.
     MarkKind = Literal[tuple(MARK_KINDS)]
 
 

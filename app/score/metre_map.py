@@ -121,7 +121,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
     def tick_of_bar(self, bars: IntArray) -> IntArray: ...
     def tick_of_bar(self, bars: int | IntArray) -> int | IntArray:
         """Tick at which each bar begins, by bar number; accepts a number or an array of them."""
-        # The bar line after a pickup does not come a whole bar later: it is the second metre's own tick.
+        # The first bar line after a pickup is the tick of the second metre, not one bar after the start.
         if not isinstance(bars, np.ndarray):
             index = max(bisect_right(self._first_bars, bars) - 1, 0)
             metre = self.metres[index]
@@ -169,7 +169,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         metre = self.metre_at(tick)
         return max(4 * self.ticks_per_quarter * metre.numerator // metre.denominator, 1)
 
-    # Beats as they are written
+    # Written beats
 
     def beat_length(self, tick: int) -> float:
         """Length in ticks of the metre's unit (its denominator) at a tick; may be fractional."""
@@ -225,7 +225,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
             return None
         return self.tick_of_place(bar, beat, rest)
 
-    # Beats as they are felt
+    # Felt beats
 
     @property
     def felt_beats(self) -> FeltBeats:

@@ -59,7 +59,7 @@ def instrument_warnings(
     warnings = []
     if found.how is not How.RANGE:
         warnings += _written_warnings(parts, maps, piece)
-    # An instrument that the user chose is no guess.
+    # An instrument chosen by the user is not reported as a guess.
     own = assignment.voice_maps
     parts = [part for voice, part in enumerate(parts) if voice >= len(own) or own[voice] is None]
     if assignment.map_id is not None or not parts:

@@ -256,7 +256,7 @@ def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[Ma
     if map_id is not None:
         return MapCandidates(How.SAID, found.instrument, (_map(map_id, maps),))
     if not found.maps:
-        # The user requests a player though no map fits, and must select the instrument.
+        # The user wants a player although no map fits, and must choose the instrument.
         return MapCandidates(How.RANGE, None, tuple(maps), unknown=True)
     return found
 

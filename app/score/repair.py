@@ -19,14 +19,14 @@ import msgspec
 from app.errors import FileError, Message
 from app.score.chunks import TrackChunk
 
-# What mido raises on bytes it does not understand, found by reading it and by fuzzing.
+# Exceptions that mido raises for invalid bytes, found by reading its code and by fuzzing.
 _MIDO_ERRORS = (OSError, EOFError, ValueError, LookupError, TypeError, AttributeError, mido.KeySignatureError)
 
-# Bytes of data after each status; 0xF1..0xFE have no place in a file, but sequencers have written them.
+# Number of data bytes for each status; 0xF1..0xFE are illegal in files, but some sequencers write them.
 _CHANNEL_DATA = {0x8: 2, 0x9: 2, 0xA: 2, 0xB: 2, 0xC: 1, 0xD: 1, 0xE: 2}
 _SYSTEM_DATA = {0xF1: 1, 0xF2: 2, 0xF3: 1}
 
-# Meta events the score reads, and the lengths they may have.
+# Meta events used by the score, and their valid lengths.
 _PORT, _END_OF_TRACK, _SET_TEMPO, _TIME_SIGNATURE = 0x21, 0x2F, 0x51, 0x58
 _LENGTHS = {_PORT: 1, _SET_TEMPO: 3, _TIME_SIGNATURE: 4}
 _TEXTS = frozenset((1, 2, 3, 4, 6, 7, 9))
@@ -169,7 +169,7 @@ class _TrackCopy:
         if byte >= 0x80:
             self._status, at = byte, at + 1
         size = _CHANNEL_DATA.get(self._status >> 4, 0)
-        if size == 0:  # running status without a status before it
+        if size == 0:  # running status without a preceding status
             self._skip(at, 1)
             return at + 1
         message = self._data[at : at + size]
@@ -208,7 +208,7 @@ class _TrackCopy:
             self._exclusive.clear()
         if len(self._exclusive) <= _LONGEST_EXCLUSIVE:
             self._exclusive += self._data[begin : min(end, begin + _LONGEST_EXCLUSIVE)]
-        # An unfinished message goes on in an F7 event that follows; many have no F7 at all.
+        # An unfinished message may continue in a following F7 event; many have no F7 at all.
         if self._data[end - 1] == 0xF7 or not _goes_on(self._data, end):
             whole = bytes(value for value in self._exclusive if value < 0x80)
             self._exclusive.clear()

@@ -107,7 +107,7 @@ def _sustained(spans: VoiceSpans, depths: IndexArray, more: int, several: int) -
     within = _within(spans, depths, more)
     runs = np.cumsum(~within)
     first = np.flatnonzero(struck & np.append(True, spans.onsets[1:] > spans.onsets[:-1]))
-    # A note struck while others sound does so until the first of them is released or the next one is struck.
+    # In a chord each note lasts until the first of them is released or the next one is struck.
     following = np.append(spans.onsets[first[1:]], np.inf)
     lengths_s = np.minimum(spans.releases[first], following) - spans.onsets[first]
     notes = np.bincount(runs[first])

@@ -25,7 +25,7 @@ from app.score.track_instrument import is_no_name
 from app.score.tracks import TrackEvents
 from instrument_maps.instrument_names import vocabulary
 
-# LilyPond names a track "staff:voice"; "\\new" is a staff without a name.
+# LilyPond names tracks "staff:voice"; "\\new" is a staff without a name.
 _LILYPOND_NAME = re.compile(r"^([^:]*):([^:]*)$")
 _Programs: TypeAlias = Mapping[tuple[Port, int], Set[int]]
 

@@ -251,7 +251,7 @@ def curve_values(
         yield "bite", abs(value)
     if source == mapping.breath:
         yield "breath", value
-    # Who bites to bend does both.
+    # A player who bends by biting uses one control for both.
     elif source in _USUAL and (source != mapping.bite or source == "pitch_bend"):
         share = ranges.semitones(message.channel) / USUAL_SEMITONES if source == "pitch_bend" else 1.0
         yield _USUAL[source], share * value

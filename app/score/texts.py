@@ -109,7 +109,7 @@ def _unicode(data: bytes) -> str | None:
         if data.startswith(mark):
             return data.decode(encoding, errors="replace")
     if len(data) % 2 == 0 and len(data) > 2:
-        # UTF-16 of Latin letters without a mark: every other byte is 0.
+        # In UTF-16 every other byte of unaccented Latin text is 0.
         for first, encoding in ((0, "utf-16-be"), (1, "utf-16-le")):
             if not any(data[first::2]) and all(data[1 - first :: 2]):
                 return data.decode(encoding)
@@ -117,7 +117,7 @@ def _unicode(data: bytes) -> str | None:
         text = data.decode()
     except UnicodeDecodeError:
         return None
-    # Two Chinese characters may look like UTF-8, of letters that no language has together.
+    # Two Chinese characters may be valid UTF-8 of letters that never occur together in a language.
     return None if len(data) <= _SHORT and _NO_LETTERS.search(text) else text
 
 
@@ -321,7 +321,7 @@ def _greek_cost(text: str) -> float:
         total += _BESIDE_LATIN if before.isascii() and before.isalpha() else 0.0
         after = text[place + 1 : place + 2]
         total += 0.0 if before in GREEK or after in GREEK else _NO_WORD
-        # Sigma has a form of its own at the end of words, and there alone.
+        # Sigma has a special form at the end of words only.
         total += _NO_WORD * ((c == "ς") == (after in GREEK) and c in "ςσ")
     return total
 

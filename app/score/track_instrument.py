@@ -202,7 +202,7 @@ def said_plainly(channel: TrackChannel) -> Instrument | None:
     numbered = None if channel.program is None else words.by_program(channel.program)
     if telling is not None:
         return numbered if numbered is not None and _is_after_a_drum(channel, telling, numbered) else telling
-    # Many programs write 0, the piano, for no program at all: a name that is not understood is not a piano's for that.
+    # Many programs write 0, the piano, if no program is chosen: an unknown name is not taken as a piano's.
     if channel.program == _NO_PROGRAM and vague is None and is_named(channel):
         return None
     if vague is None or numbered is None:

@@ -11,11 +11,11 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-# In semitones of movement: for a voice that comes in while another could have gone on, and for one that crosses a held
-# one.
+# In semitones of movement: costs of a voice that enters while another could have continued, and of one that crosses a
+# held voice.
 _ENTRY_COST = 12.0
 _CROSSING_COST = 12.0
-# After a rest of more than half a quarter, the distance to the last note counts half.
+# After a rest of more than half a quarter the distance to the last note counts half.
 REST_QUARTERS = 0.5
 _AFTER_REST_WEIGHT = 0.5
 # Hypotheses kept at each onset (two are all there are for a line between two players), and how much dearer than the
@@ -55,7 +55,7 @@ def assigned_voices(
     everyone = tuple(range(count))
     beam = [_Hypothesis(0.0, (LastPlayed(-1, -1.0, -1.0),) * count, None)]
     for onset, sounding, rest_s in zip(onsets, groups, rests_s, strict=True):
-        if len(sounding) == count and len(beam) == 1:  # no choice, no rival: nothing to weigh
+        if len(sounding) == count and len(beam) == 1:  # no choice and no rival, so nothing to compare
             beam = [_Hypothesis(0.0, tuple(sounding), (beam[0].history, everyone))]
             continue
         candidates: list[tuple[float, int, tuple[int, ...]]] = []
@@ -107,7 +107,7 @@ def _choices(free: int, costs: list[list[float]]) -> tuple[tuple[int, ...], ...]
     """
     if comb(free, len(costs)) <= _CHOICES:
         return _in_order(free, len(costs))
-    from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
+    from scipy.optimize import linear_sum_assignment  # slow to import and rarely needed
 
     _, columns = linear_sum_assignment(np.array(costs))
     return (tuple(sorted(columns.tolist())),)
@@ -117,7 +117,7 @@ def _costs(
     voices: tuple[LastPlayed, ...], free: list[int], sounding: list[LastPlayed], onset: float, rest_s: float
 ) -> list[list[float]]:
     """Cost of giving each note of a group (rows) to each free voice (columns)."""
-    lines: list[tuple[float, float, int]] = []  # per voice: cost = constant + weight * distance
+    lines: list[tuple[float, float, int]] = []  # for each voice: cost = constant + weight * distance
     for voice in free:
         pitch, _, end_s = voices[voice]
         if pitch < 0:

@@ -167,7 +167,7 @@ def _unisons(notes: Sequence[Note], spans: VoiceSpans) -> set[int]:
     onsets, ends = spans.onsets.tolist(), spans.ends.tolist()
     for place, note in enumerate(notes):
         other = last.setdefault(note.pitch, place)
-        # One that begins when the other has ended is struck again.
+        # A note that begins after the other has ended is struck again.
         if other != place and onsets[place] < min(onsets[other] + CHORD_S, ends[other]):
             shorter = place if ends[place] <= ends[other] else other
             found.add(shorter)
@@ -232,7 +232,7 @@ def _voices(spans: VoiceSpans, pitches: IntArray, kept: list[int], count: int, t
     onset."""
     onsets, ends, releases = (column[kept] for column in spans)
     struck = _chords(onsets, releases)
-    # A voice that is free before the last note of a chord begins is free for the first one.
+    # A voice that becomes free before the last note of a chord may take the first one.
     following = np.minimum(np.searchsorted(onsets, releases), len(onsets) - 1)
     releases = np.where(onsets[following] >= releases, np.minimum(releases, struck[following]), releases)
     order = np.lexsort((-pitches[kept], struck))

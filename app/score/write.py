@@ -58,7 +58,7 @@ _CHANNELS: Final = tuple(channel for channel in range(16) if channel != DRUM_CHA
 _KIT: Final = "drums"
 """Id of drums in the vocabulary."""
 
-# What comes first at one tick: what ends a note comes before what begins the next, controllers before both begin.
+# Order at one tick: note-offs, programs, controllers, note-ons.
 _OFF, _PROGRAM, _CONTROL, _ON = range(4)
 
 _Event: TypeAlias = tuple[int, int, mido.Message | mido.MetaMessage]
@@ -115,7 +115,7 @@ def midi_file(score: Score, performers: Mapping[str, PartPlayer] | None = None) 
     """Convert a score to the bytes of a MIDI file; parameters and errors as of `write_midi`."""
     performing = performers or {}
     warnings: list[Message] = []
-    # The charset of the texts: mido's usual one is Latin 1.
+    # Encoding of texts; Latin-1 is mido's default.
     file = mido.MidiFile(type=1, ticks_per_beat=score.ticks_per_quarter, charset="utf-8")
     file.tracks.append(_track(_conductor(score)))
     names = [performing[part.id].name if part.id in performing else part.name for part in score.parts]
@@ -230,7 +230,7 @@ def _part(part: Part, name: str, instrument: Instrument | None, channel: int) ->
         events.append((0, _PROGRAM, mido.Message("program_change", channel=channel, program=program)))
     for curve in part.curves:
         events += _steps(curve, channel)
-    # Of notes that begin together on one pitch the shortest comes first: a note-off ends the oldest.
+    # Of notes that begin together at one pitch the shortest comes first, because a note-off ends the oldest.
     for note in sorted(part.notes, key=lambda note: (note.onset_tick, note.pitch, note.duration_tick)):
         on = mido.Message("note_on", channel=channel, note=note.pitch, velocity=note.velocity)
         off = mido.Message("note_off", channel=channel, note=note.pitch)

@@ -106,7 +106,7 @@ def from_zero(played: Sequence[tuple[int, mido.Message]]) -> list[tuple[int, mid
         elif message.type in ("note_on", "note_off"):
             begin_us, note = begun.pop((message.channel, message.note), (time_us, None))
             if note is not None and begin_us >= -_PLAYED_EARLY_S * 1e6:
-                # Over before it should have begun.
+                # The note ended before its shifted beginning.
                 early += [note, message]
         else:
             state[_kind(message)] = message

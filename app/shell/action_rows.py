@@ -67,6 +67,6 @@ def rows() -> tuple[ActionRow[Any], ...]:
         *(*characters.ACTIONS, *piece_metadata.ACTIONS, *help.ACTIONS, *application.ACTIONS),
     )
     found = extended(own, "actions", lambda row: row.id)
-    # Those of features stand before the last two, which close.
+    # Rows of optional features come before the last two, which close the piece and the program.
     others = {"file": place["file.close"] - 0.5}
     return tuple(sorted(found, key=lambda row: place.get(row.id, others.get(row.menu, len(place)))))

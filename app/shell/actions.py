@@ -113,7 +113,7 @@ class RowAction(QAction):
         if self.row.icon:
             self.setIcon(icon(self.row.icon, self._table.session.tokens))
 
-    # Qt
+    # Qt overrides
 
     def event(self, event: QEvent) -> bool:
         """Ignore shortcuts while a menu or list is open.
@@ -241,7 +241,7 @@ class ActionTable(QObject):
     def _focus_moved(self, before: QWidget | None, now: QWidget | None) -> None:
         context, widget = "window", now
         while widget is not None:
-            # A panel's tools may stand in the title of its dock.
+            # Tools of a panel may be in the title of its dock.
             name = widget.objectName().removeprefix("dock_")
             if name in CONTEXTS:
                 context = name

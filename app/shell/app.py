@@ -89,7 +89,7 @@ class LaunchOptions:
 
 def make_application() -> QApplication:
     """Return a new Qt application, made after setting the attributes that must precede it."""
-    # Docking and floating keep the viewport's context only if contexts are shared.
+    # The viewport keeps its context when it is docked or floated only if contexts are shared.
     QCoreApplication.setAttribute(Qt.ApplicationAttribute.AA_ShareOpenGLContexts)
     QGuiApplication.setHighDpiScaleFactorRoundingPolicy(Qt.HighDpiScaleFactorRoundingPolicy.PassThrough)
     QCoreApplication.setApplicationName("suisou")
@@ -123,7 +123,7 @@ class Program(QObject):
         recorder: Callable[[Session, Files, Settings, EditorSound], Recorder] | None = None,
     ) -> None:
         super().__init__()
-        # The user's own are read in the background, which may take as long as it likes.
+        # The user's own characters are read in the background, however long that takes.
         begin()
         begin_characters()
         begin_metadata()
@@ -144,7 +144,7 @@ class Program(QObject):
         self.session.theme_changed.connect(self._apply_theme)
         self._apply_theme()
         self.generator = Generator(self.session, self.tasks)
-        # Children of the session: they stay.
+        # Kept alive as children of the session.
         sound = EditorSound(self.session, playback, audible)
         video = ReferenceVideo(self.session)
         follow_selection(self.session)
@@ -186,7 +186,7 @@ class Program(QObject):
 
 def _clean_up() -> None:
     """Delete the temporary files left by editors that were killed."""
-    # What exports is not needed for the first picture.
+    # Exporting is not needed for the first picture.
     from app.export.tree import clean_up
 
     clean_up()
@@ -223,7 +223,7 @@ def run(start: LaunchOptions) -> int:
         program.editor.files.open(start.file, ask=False, at_start=True)
     try:
         status = application.exec()
-        # Nothing where the window was closed; a signal ends the program with what is open.
+        # Does nothing after the window was closed; a signal ends the program with unsaved work.
         program.editor.files.write_now()
         return status
     finally:
@@ -247,7 +247,7 @@ def _end_on_signal(application: QApplication) -> None:
 
     for name in (signal.SIGINT, signal.SIGTERM):
         signal.signal(name, stop)
-    # Python looks at signals only when Qt gives it a turn.
+    # Python handles signals only while it runs, so a timer wakes it regularly.
     timer = QTimer(application)
     timer.timeout.connect(lambda: None)
     timer.start(250)
@@ -303,7 +303,7 @@ def picture(start: LaunchOptions, target: Path) -> int:
                 wait(lambda: _moves(program, start.time_s) and not _working(program))
                 wait(lambda: program.generator.ready_share >= 1.0, READY_S)
                 window.reset_workspace()
-            # Flights of the camera and late layouts.
+            # Camera movements and late layouts need this time.
             wait(lambda: False, 1.2)
             wait(lambda: not _working(program), READY_S)
             image = window.grab().toImage()

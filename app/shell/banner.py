@@ -71,12 +71,12 @@ class Banner(Retranslated, QFrame):
         self._mark.setPixmap(pixmap("warning", 18, tokens.warning, self.devicePixelRatioF()))
         if self._texts is not None:
             text, answers = self._texts()
-            # Names of files may break where the user would break them.
+            # File names may be broken after separators.
             self._text.setText(_BREAKS.sub("\\1\u200b", text))
             for button, answer in zip(self._buttons, answers, strict=True):
                 button.setText(answer)
 
-    # Qt's own names
+    # Qt overrides
 
     def minimumSizeHint(self) -> QSize:
         """Return a narrow minimum size, so that neighbouring panels keep their width."""

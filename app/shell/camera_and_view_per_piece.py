@@ -94,7 +94,7 @@ class PieceViews(QObject):
         view = _view(self._settings.piece_view(self._piece()))
         session = self._session
         if view is None:
-            # Players of the piece before may have the same ids.
+            # Players of the previous piece may have the same ids.
             session.set_players(tuple(player.id for player in session.project.players[:1]))
             return
         known = {player.id for player in session.project.players}
@@ -113,5 +113,5 @@ def _view(text: str) -> PieceView | None:
     try:
         return decode_json(text.encode("utf-8", "replace"), PieceView, "") if text else None
     except FileError:
-        # A view by another version is no loss: the piece opens framed.
+        # The view was stored by another version: the piece opens framed.
         return None

@@ -144,7 +144,7 @@ def remove(editor: Editor, id: str) -> None:
 
 def _read(session: Session, path: Path, done: Callable[[Figure], None]) -> None:
     def work(progress: Progress, stop_requested: StopRequested) -> Figure:
-        # Turned to face ahead, as it will play.
+        # Turned to face forward, as when playing.
         return read_character(path).figure
 
     def failed(error: AppError) -> None:

@@ -74,7 +74,7 @@ class CrashHandler:
         text = "".join(traceback.format_exception(error))
         sys.stderr.write(text)
         if self._telling:
-            # A fault of reporting: once is enough.
+            # Reporting failed; a second attempt would fail as well.
             return
         self._telling = True
         try:
@@ -105,7 +105,7 @@ class CrashHandler:
         try:
             self._log.parent.mkdir(parents=True, exist_ok=True)
             if os.path.exists(self._log) and not os.path.isfile(self._log):
-                raise OSError(f"{self._log} is no file")  # A pipe would wait for a reader.
+                raise OSError(f"{self._log} is no file")  # opening a pipe would wait for a reader
             is_long = os.path.exists(self._log) and self._log.stat().st_size > MOST_BYTES
             with self._log.open("w" if is_long else "a", encoding="utf-8", errors="backslashreplace") as stream:
                 stream.write(f"{head}\n{text}\n")
@@ -119,6 +119,6 @@ class CrashHandler:
         self.report(error)
 
     def _uncaught_in_thread(self, arguments: threading.ExceptHookArgs) -> None:
-        # Widgets live in the window's thread: it is reported there.
+        # Reported in the window's thread, to which widgets belong.
         if arguments.exc_value is not None:
             self._ask(partial(self.report, arguments.exc_value))

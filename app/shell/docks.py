@@ -92,7 +92,7 @@ class Dock(QDockWidget):
         middle = (self._title, 1) if tools is None else self._title
         rest = () if tools is None else ((tools, 1),)
         if tools is not None:
-            # The bar's ground shows through.
+            # The background of the bar shows through.
             tools.setAutoFillBackground(False)
         in_row(middle, *rest, *buttons, of=self._bar, margins=(10, 1, 3, 1), spacing=1)
         self.setTitleBarWidget(self._bar)
@@ -104,7 +104,7 @@ class Dock(QDockWidget):
             application.screenRemoved.connect(self._frame_soon)
         self._apply_theme()
 
-    # Floating
+    # Float and dock
 
     def _toggle_floating(self) -> None:
         if self.isFloating():
@@ -128,7 +128,7 @@ class Dock(QDockWidget):
             return
         self._has_floated = True
         if self.windowFlags() & Qt.WindowType.FramelessWindowHint:
-            # Qt draws no frame around a panel with a title bar of its own.
+            # Qt draws no frame around a panel with a custom title bar.
             place = self.geometry()
             self.setWindowFlags(FRAME)
             self.setGeometry(place)
@@ -141,7 +141,7 @@ class Dock(QDockWidget):
             right, bottom = frame.right() - inner.right(), frame.bottom() - inner.bottom()
             self.setGeometry(seen.marginsRemoved(QMargins(left, top, right, bottom)))
 
-    # Looks
+    # Appearance
 
     def set_tip(self, tip: str) -> None:
         """Set the tool tip of the title."""
@@ -164,7 +164,7 @@ class Dock(QDockWidget):
                 event.accept()
                 return True
             self._held = kind == QEvent.Type.MouseButtonPress
-            # With Ctrl, Qt would not let the panel dock anywhere.
+            # While Ctrl is held Qt would not dock the panel anywhere.
             return super().event(_without_modifiers(event))
         done = super().event(event)
         if kind == QEvent.Type.MouseButtonRelease:
@@ -178,7 +178,7 @@ class Dock(QDockWidget):
             self._frame_soon()
 
     def _is_on_title(self, event: QMouseEvent) -> bool:
-        # A menu is asked for with the right button.
+        # The right button opens a menu.
         return event.button() == Qt.MouseButton.LeftButton and self._bar.geometry().contains(event.position().toPoint())
 
 

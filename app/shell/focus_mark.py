@@ -39,7 +39,7 @@ class FocusMark(QWidget):
     def mark(self, context: str) -> None:
         """Move the line to the panel of a shortcut context, if there is one."""
         if not (isValid(self) and isValid(self._window)):
-            # The window goes, and the keyboard with it.
+            # The window closes and loses the keyboard focus.
             return
         panel = self._panels.get(context)
         if self._marked is not None and isValid(self._marked):
@@ -55,7 +55,7 @@ class FocusMark(QWidget):
         self.setGeometry(0, 0, panel.width(), LINE_PX)
         self.raise_()
 
-    # Qt
+    # Qt overrides
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Keep the line as wide as the panel."""

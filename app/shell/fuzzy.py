@@ -46,7 +46,7 @@ def _word(word: str, text: str) -> float | None:
             if at < 0:
                 return None
         total, place = total + value, at
-    # Letters strewn about are chance.
+    # Scattered letters match by chance.
     return total if total >= 0.5 * len(word) else None
 
 

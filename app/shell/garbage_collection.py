@@ -28,7 +28,7 @@ class Garbage(QObject):
     def __init__(self) -> None:
         super().__init__()
         gc.disable()
-        # Modules and what they made.
+        # Modules and their objects.
         gc.freeze()
         self._lasting = gc.get_freeze_count()
         self._timer = QTimer(self, interval=PERIOD_MS)

@@ -29,7 +29,7 @@ class KeyboardButtons(QObject):
         self._reason = None
         if self._watched is not None and isValid(self._watched):
             self._watched.removeEventFilter(self)
-        # Where nothing has the keyboard, its keys go to the window.
+        # If no widget has the focus, keys go to the window.
         self._watched = now if now is not None else QApplication.activeWindow()
         if self._watched is not None:
             self._watched.installEventFilter(self)

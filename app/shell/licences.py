@@ -106,7 +106,7 @@ def distributions() -> dict[str, Distribution]:
             try:
                 found[name] = distribution(name)
             except PackageNotFoundError:
-                continue  # An extra that was not asked for.
+                continue  # an optional package that is not installed
             waiting.append(found[name])
     return found
 

@@ -37,7 +37,7 @@ class LicencesDialog(Retranslated, QDialog):
         self._list.setTextElideMode(Qt.TextElideMode.ElideRight)
         try:
             packages = installed()
-        except PackageNotFoundError:  # Run from its sources, beside packages installed otherwise.
+        except PackageNotFoundError:  # run from source, with packages installed in another way
             packages = ()
         for package in packages:
             item = _row(package.name, package.version, package.licence, package.source)

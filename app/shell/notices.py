@@ -63,7 +63,7 @@ class NoticeList(QFrame):
         show = small(
             IconButton(self._session, "folder", "working_dialog.show_in_folder", partial(self._show, folder), "folder")
         )
-        # The texts of all rows are below one another.
+        # Texts of all rows are aligned.
         policy = show.sizePolicy()
         policy.setRetainSizeWhenHidden(True)
         show.setSizePolicy(policy)
@@ -86,7 +86,7 @@ def folder_of(message: Message) -> Path | None:
     for value in message.arguments.values():
         path = Path(value) if isinstance(value, str) else Path()
         if path.is_absolute() and may_touch(path):
-            # Unlike `Path.is_dir`, it is no error where the name cannot be any file's.
+            # Unlike `Path.is_dir`, this returns False for names that no file can have.
             folder = path if os.path.isdir(path) else path.parent
             if os.path.isdir(folder):
                 return folder

@@ -39,7 +39,7 @@ class DialogQuestions:
             if chosen is None:
                 return None
             path = with_suffix(chosen, suffixes)
-            # The system's dialog has asked about the name as it was typed.
+            # The system's dialog asked about the name as typed, before the suffix was added.
             if path == chosen or not os.path.exists(path) or _may_replace(title, path):
                 return path
             proposal = str(path)

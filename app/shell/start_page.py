@@ -134,7 +134,7 @@ class StartPage(Retranslated, QScrollArea):
 
     def _recent_row(self, path: Path) -> QWidget:
         tokens = self._session.tokens
-        # Another computer is asked no sooner than the file is opened.
+        # Another computer is not accessed until the file is opened.
         there = is_file(path) or not may_touch(path)
         button = _row_button("recent_file")
         metrics = QFontMetrics(button.font())

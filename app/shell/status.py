@@ -61,7 +61,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._ready = 1.0
         self._reported_device: tuple[object, ...] = ()
 
-        # Beside one another at the left, however much room there is.
+        # Side by side at the left, however much room there is.
         self._work_line = in_row(STRETCH, margins=(4, 0, 0, 0), spacing=10)
         self._work = panel(self._work_line)
         self._notice = _flat("notice", self._unfold)
@@ -83,7 +83,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._motion, self._motion_bar = named(Label(), "motion"), named(QProgressBar(), "motion_ready")
         self._motion_bar.setTextVisible(False)
         self._motion_bar.setFixedWidth(BAR_PX)
-        # A step for a point: every other value would be drawn at once, and with it the whole window composed again.
+        # One step for each pixel: more steps would redraw the whole window at each value.
         self._motion_bar.setRange(0, BAR_PX)
         self._about_piece = (self._saved, self._problems, self._rate, self._motion, self._motion_bar)
         for widget in (self._risk, self._instruments, self._device, self._stream, *self._about_piece):
@@ -160,7 +160,7 @@ class StatusLine(Retranslated, QStatusBar):
 
     def report(self, message: Message, severity: Severity) -> None:
         """Show a message in the status line for a while, and add it to the log."""
-        # A drag to where nothing can go says so with every move of the mouse.
+        # Dragging to a place that accepts nothing would repeat the notice at each movement of the mouse.
         if not self._log or self._log[-1] != (message, severity):
             self._log.append((message, severity))
         self._show_notice()
@@ -173,7 +173,7 @@ class StatusLine(Retranslated, QStatusBar):
 
     def _fade_away(self) -> None:
         if self._details.isVisible():
-            # The list is being read.
+            # The list is open, so notices are being read.
             self._begin_fade()
         else:
             self.dismiss()
@@ -224,7 +224,7 @@ class StatusLine(Retranslated, QStatusBar):
             return
         device = message.arguments.get("device", message.arguments.get("port"))
         if message.id in NO_DEVICE or (message.id.startswith("record.") and device is not None):
-            # What the whole MIDI system lacks names no device.
+            # A problem of the whole MIDI system names no device.
             is_wanted = bool(port) and device in (None, port)
             if is_open or not is_wanted:
                 self.dismiss()
@@ -232,11 +232,11 @@ class StatusLine(Retranslated, QStatusBar):
     def _unfold(self) -> None:
         self._details.open_over(self._notice, tuple(self._log))
 
-    # The right side
+    # Right side
 
     def _opened(self) -> None:
         if self._had_piece:
-            # What was said of another piece says nothing of this one.
+            # Notices of the previous piece do not apply to this one.
             self.dismiss()
         self._had_piece = self._files.is_open
         self._report_piece()

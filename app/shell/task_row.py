@@ -34,7 +34,7 @@ class TaskRow(Retranslated, QWidget):
     def __init__(self, session: Session, task: Task, stop: Callable[[], object]) -> None:
         super().__init__()
         self._task, self._name, self._bar = task, Label(), QProgressBar()
-        # What stands at the right has room before the names of work.
+        # The column at the right leaves room for the names of work.
         self._name.setMinimumWidth(NAME_PX)
         self._bar.setTextVisible(False)
         self._bar.setFixedWidth(BAR_PX)

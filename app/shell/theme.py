@@ -31,7 +31,7 @@ def apply_theme(application: QApplication, tokens: Tokens) -> None:
         return
     if not application.styleSheet():
         application.setStyle(QStyleFactory.create("Fusion"))
-    # With no rules in between, Qt takes a quarter of the time that it takes to go from some rules to others.
+    # Removing the rules first makes Qt four times as fast as replacing them.
     application.setStyleSheet("")
     application.setPalette(palette(tokens))
     application.setStyleSheet(rules)

@@ -159,9 +159,9 @@ class Window(Retranslated, QMainWindow):
             place = self.docks.get(name) or self.panels.get(name) or self.findChild(QWidget, name)
             if place is not None:
                 self._table.attach(name, place)
-        # Window-wide shortcuts work also where their menu is hidden, as in full screen.
+        # Shortcuts of the window also work while the menu is hidden, as in full screen.
         self._table.attach("window", self)
-        # Below Open, where it is looked for.
+        # Below Open, as in other programs.
         menu, recent = self.menus.menu("file"), self.menus.menu("file/open_recent")
         menu.removeAction(recent.menuAction())
         menu.insertMenu(self._table.actions["file.open_example"], recent)
@@ -239,7 +239,7 @@ class Window(Retranslated, QMainWindow):
             widget.setVisible(is_open)
         self._fit_corner()
         if is_open and not shown:
-            # Keys belong to the notes, not to whichever button Qt finds first.
+            # Keys go to the notes and not to the first button that Qt finds.
             self.timeline.setFocus(Qt.FocusReason.OtherFocusReason)
         self._table.refresh_soon()
         self._report_title()
@@ -278,7 +278,7 @@ class Window(Retranslated, QMainWindow):
             self.restoreState(before, LAYOUT_VERSION)
         self._table.refresh_soon()
 
-    # What commands ask
+    # Requests of commands
 
     def show_palette(self) -> None:
         """Open the command palette at the top right of the window."""
@@ -304,7 +304,7 @@ class Window(Retranslated, QMainWindow):
         if menu.isEmpty():
             menu.addAction(self.tr("window.nothing_yet")).setEnabled(False)
 
-    # Looks
+    # Appearance
 
     def _report_title(self) -> None:
         if self._files.is_open:
@@ -327,7 +327,7 @@ class Window(Retranslated, QMainWindow):
         for name, dock in self.docks.items():
             dock.setWindowTitle(self.tr(f"window.{name}"))
             dock.set_tip(self.tr("dock.drag_with_ctrl"))
-        # Qt names it after the window, which is to have room for what it says now.
+        # Qt names the button after the window, which must have room for the current text.
         self.workspace_switch.word()
         self._fit_corner()
         self._report_title()
@@ -338,10 +338,10 @@ class Window(Retranslated, QMainWindow):
         keys = self._table.actions["application.palette"].shortcut().toString(QKeySequence.SequenceFormat.NativeText)
         self.palette_field.setText(self.tr("window.search").format(keys="" if self._narrow else keys).strip())
         self._corner.adjustSize()
-        # The bar asks for the width only here.
+        # The menu bar computes its width only when its corner widget is set.
         self.menuBar().setCornerWidget(self._corner, Qt.Corner.TopRightCorner)
 
-    # Qt
+    # Qt overrides
 
     def keyPressEvent(self, event: QEvent) -> None:
         """Leave full screen when Escape is pressed."""
@@ -379,7 +379,7 @@ class Window(Retranslated, QMainWindow):
             return
         if not self._closing and not self._files.is_saved:
             event.ignore()
-            # Qt does not close a window that is just being closed.
+            # Qt does not close a window while it handles another close event.
             self._files.let_go(lambda: QTimer.singleShot(0, self._close_now))
             return
         self.remember()

@@ -237,7 +237,7 @@ class Workspaces(QObject):
             self._settings.forget_workspace(self.current)
 
     def _show(self) -> None:
-        # What the state does not say is as at first.
+        # Panels that the stored state does not mention are arranged as initially.
         self._arrange(_BY_ID[self.current])
         state = self._settings.workspace_state(self.current)
         self._setting = True
@@ -252,11 +252,11 @@ class Workspaces(QObject):
         self._setting = False
 
     def _lanes_arranged(self) -> None:
-        # Not at the end alone: lanes are folded often, and a program may be killed.
+        # Saved not only at the end: lanes are folded often, and the program may be killed.
         if self._shown and not self._setting:
             self._settings.set_workspace_state(self.current, timeline=self._timeline.save_state())
 
-    # As at first
+    # Initial arrangement
 
     def _arrange(self, workspace: Workspace) -> None:
         self._setting = True
@@ -326,7 +326,7 @@ class WorkspaceSwitch(Retranslated, QWidget):
         for workspace in WORKSPACES:
             button = named(QToolButton(), f"workspace_{workspace.id}")
             button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
-            # A command's own name says what kind of thing it is.
+            # The full name of a command includes its kind.
             action = self.texted(table.actions[f"workspace.{workspace.id}"], short=workspace.text_id)
             button.setDefaultAction(action)
             button.setMinimumHeight(LEAST_TARGET_PX)

@@ -24,7 +24,7 @@ VRM_PRESETS: Final[Mapping[str, Mapping[str, float]]] = {
     "Blink_L": {"eyeBlinkLeft": 1.0},
     "Blink_R": {"eyeBlinkRight": 1.0},
     "Joy": {"mouthSmileLeft": 0.5, "mouthSmileRight": 0.5},
-    # The whole face changes with it: half of it says as much as two brows.
+    # Weights of half: the whole face changes, so less suffices than for the brows alone.
     "Angry": {"browDownLeft": 0.25, "browDownRight": 0.25},
 }
 """Weights of ARKit's shapes in each preset of VRM 0; sums are limited to 1."""

@@ -82,13 +82,13 @@ def find_address(host: str, port: int) -> Address:
     """
     requested = host.strip()
     if not requested:
-        # The system would take it for any computer.
+        # The system would interpret an empty name as any computer.
         raise StreamError("stream.host_unknown", host=requested)
     try:
         found = socket.getaddrinfo(requested, checked_port(port), type=socket.SOCK_DGRAM)
     except (socket.gaierror, UnicodeError) as error:
         raise StreamError("stream.host_unknown", host=requested) from error
-    # A name that has both is reached by the older one: receivers listen on that.
+    # A host with both kinds of address is reached by IPv4, on which receivers listen.
     family, _, _, _, at = sorted(found, key=lambda row: row[0] != socket.AF_INET)[0]
     return Address(requested, family, at)  # type: ignore[arg-type]
 
@@ -100,13 +100,13 @@ def reaches_many(address: Address) -> bool:
         return True
     with socket.socket(address.family, socket.SOCK_DGRAM) as probe:
         try:
-            # Which address is a network's broadcast address only the system knows; it refuses unless it was asked
-            # for with SO_BROADCAST. Nothing is sent by this.
+            # Only the system can recognise a network's broadcast address: it refuses to connect unless SO_BROADCAST is
+            # set. This sends no data.
             probe.connect(address.at)
         except PermissionError:
             return True
         except OSError:
-            return False  # no way there, which a sender says
+            return False  # there is no route, which the sender reports
     return False
 
 
@@ -132,7 +132,7 @@ class Sender:
         self._socket.setblocking(False)
         try:
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, int(broadcast))
-            # Informed where it goes, the system says when no one listens there.
+            # On a connected socket the system reports that no program listens.
             self._socket.connect(address.at)
         except OSError as error:
             self._socket.close()
@@ -147,7 +147,7 @@ class Sender:
             except BlockingIOError:
                 return SendOutcome.DROPPED
             except (ConnectionRefusedError, ConnectionResetError):
-                # Of a packet before this one; a later receiver gets the next.
+                # The error is about an earlier packet; a receiver that starts later gets the next one.
                 outcome = SendOutcome.NO_RECEIVER
             except OSError as error:
                 raise self._not_sent(error) from error

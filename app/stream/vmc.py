@@ -49,8 +49,8 @@ class Sent:
         skeleton, own = character.skeleton, character.own
         self._hips = skeleton.index("hips")
         self._holds = instrument is not None
-        # A joint that the character's own file lacks is not there for the receiver either: what it turns by goes to
-        # the ones below it.
+        # Joints that the character's file lacks do not exist in the receiver: their rotation is passed to the joints
+        # below.
         has = [joint > 0 and (own is None or own.bone_of_joint[joint] >= 0) for joint in range(len(skeleton.names))]
         self._joints = np.flatnonzero(has)
         self._offsets_m = skeleton.offsets_m[self._joints].copy()
@@ -64,7 +64,7 @@ class Sent:
                 self._between[place] = tuple(reversed(above))
         self._skeleton_offsets_m = skeleton.offsets_m
         self._hips_place = int(np.flatnonzero(self._joints == self._hips)[0])
-        # Eyes are turned by their bones, and receivers would add what shapes say of it.
+        # Bones turn the eyes, and receivers would add the rotation of eye shapes.
         morphs = {morph.name for mesh in character.meshes for morph in mesh.morphs} - set(EYE_SHAPES)
         self._face = face_layout(faces, sorted(morphs))
         names = [unity_bone(skeleton.names[joint]) for joint in self._joints]
@@ -128,10 +128,10 @@ def _transforms(positions_m: AnyFloatArray, rotations: AnyFloatArray) -> AnyFloa
     return np.concatenate([unity_positions(positions_m), unity_rotations(rotations)], axis=1).ravel()
 
 
-# Our world as Unity sees it: left-handed, Y up, +X to the right when facing +Z; bones by `HumanBodyBones`.
+# Conversion to Unity's frame: left-handed, Y up, +X to the right when facing +Z; bones as in `HumanBodyBones`.
 _UNITY_POSITION = np.array([-1.0, 1.0, 1.0])
 _UNITY_ROTATION = np.array([1.0, -1.0, -1.0, 1.0])
-# The thumb's first bone is a metacarpal in VRM 1.0, and already the proximal one in Unity.
+# The first thumb bone is a metacarpal in VRM 1.0 and the proximal one in Unity.
 _THUMB = {"ThumbMetacarpal": "ThumbProximal", "ThumbProximal": "ThumbIntermediate"}
 
 

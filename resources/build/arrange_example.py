@@ -93,7 +93,7 @@ class Sound(NamedTuple):
     length: float
 
 
-# Where the sopranos meet on one pitch the source has one note; the other player's is put back.
+# Where both sopranos meet at one pitch, the source has a single note; the other player's is restored.
 FIRST_TRUMPET_UNISONS = [Sound(218.0, 69, 0.5)]
 SECOND_TRUMPET_UNISONS = [Sound(156.0, 64, 6.0), Sound(204.0, 67, 6.0)]
 

@@ -15,7 +15,7 @@ import os
 import sys
 import time
 
-# One thread: a fit has many small sums, for which several threads only wait for each other.
+# One thread: with many small sums several threads only wait for each other.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 from app.rig.characters.character_library import character_named

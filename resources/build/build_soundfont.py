@@ -285,7 +285,7 @@ def _file(
     for tone in tones:
         data = np.clip(np.round(tone.audio * 32768.0), -32768, 32767).astype("<i2")
         rate_hz = round(tone.rate_hz)
-        # What rounding the rate does to the pitch (under a tenth of a cent) is left.
+        # The error in pitch from rounding the rate (under a tenth of a cent) is not corrected.
         shdr += struct.pack(
             "<20sIIIIIBbHH", tone.name.encode()[:19], at, at + len(data), at + tone.loop[0], at + tone.loop[1],
             rate_hz, tone.pitch, tone.cents, 0, 1,

@@ -10,7 +10,7 @@ import os
 import struct
 from pathlib import Path
 
-# One thread: sums in one order, so that a second build is the same to the bit.
+# One thread keeps the order of summation, so that a second build is identical to the bit.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np

@@ -102,7 +102,7 @@ def _with_measured_eye(source: Source, letter: str, blink: str) -> Source:
 
 def _eye(ball: np.ndarray, centre: np.ndarray) -> Eye:
     axes = np.array([np.ptp(ball[:, 0]) / 2, np.ptp(ball[:, 1]) / 2, ball[:, 2].max() - centre[2]])
-    # Its corners lie on the ball; the coarse ball's sides do not reach as far.
+    # Only the corners lie on the ball; the faces of a coarse ball are inside it.
     axes[:2] *= np.linalg.norm((ball - centre) / axes, axis=1).mean()
     radius = BALL_SHARE * float(axes[:2].mean())
     return Eye(centre, axes, centre + np.array([0.0, 0.0, axes[2] - radius]), radius)

@@ -225,7 +225,7 @@ def band(profile: Profile, suit: Cloth, rows: list[tuple[float, float]]) -> Clot
             for height, radius in ((h, profile.radius_at(np.full(columns, h), angles) + out) for h, out in rows)
         ]
     )
-    # One weight for the whole height of a column: a belt does not shear.
+    # All points of a column have the same weights: a belt does not shear.
     column = weights_from(suit, np.stack([points[:columns, 0], np.full(columns, level), points[:columns, 2]], axis=1))
     return to_triangles(
         Cloth(points, np.tile(column, (len(rows), 1)), grid_faces(len(rows), columns, closed=True)[:, ::-1])
@@ -248,7 +248,7 @@ def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
     drape = smoothed(hang(tailoring.trunk, 0.4), 2.0, 1.5)
     angle, radius, _ = drape.polar(points[:, 1], points[:, [0, 2]])
     target = drape.radius_at(points[:, 1], angle) + 0.007
-    # Only the outside of the seat: what lies between the legs stays there.
+    # Only the outside of the seat: cloth between the legs is not moved.
     share = smoothstep(points[:, 1], tailoring.crotch_m - 0.04, tailoring.crotch_m + 0.04) * (tailoring.arm < 0.3)
     moved = move_out(points, drape, (1, 0, 2), target, share * smoothstep(radius / target, 0.45, 0.8))
     joint = fit.positions_t[fit.index("leftUpperLeg")]

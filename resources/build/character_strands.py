@@ -153,7 +153,7 @@ def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Te
     # Shine and shade painted over whole locks are mostly taken out; light does that.
     grey = spread(grey, solid) / (smooth + 1e-3) ** 0.75
     along, clear = directions(grey / grey[solid].mean(), 4.0)
-    # Where no direction is clear, strands would curl like the grain of wood.
+    # Without a clear direction strands would curl like wood grain.
     fine = strands(along, 31) * np.minimum(1.0, 0.25 + 1.25 * clear)
     grey = grey / grey[solid].mean() * (1 + 0.34 * fine)
     grey = np.clip(grey / grey[solid].mean() * STRANDS_MEAN_LINEAR, 0.02, 0.95)

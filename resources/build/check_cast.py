@@ -20,7 +20,7 @@ from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-# One thread: several only wait for each other in so many small sums.
+# One thread: with many small sums several threads only wait for each other.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import mido

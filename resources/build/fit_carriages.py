@@ -15,7 +15,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-# One thread: several only wait for each other in so many small sums.
+# One thread: with many small sums several threads only wait for each other.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 from app.rig.characters.character_library import character_named

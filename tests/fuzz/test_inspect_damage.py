@@ -37,7 +37,7 @@ def midi(*tracks: bytes, format_: int = 1, division: int = 480, count: int | Non
 
 ONE = note(60) + END
 
-# What each is, its bytes, and where its notes sound.
+# Name of each input, its bytes, and the times of its notes.
 READABLE = {
     "a track without its end": (midi(note(60)), [0.0]),
     "a gap of a million ticks": (midi(note(60, 480, 0) + note(62, 480, 1_000_000 - 480) + END), [0.0, 1041.6666667]),

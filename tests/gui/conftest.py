@@ -136,14 +136,14 @@ def session(qt_app: QApplication, tasks: ImmediateTasks) -> Iterator[Session]:
 def _widgets_die_here(qapp: QApplication) -> Iterator[None]:
     """Delete the widgets that a test leaves behind before the next test begins, so that a fault shows in the test that
     made it."""
-    # What is there by now is there to stay, as the characters that the test before loaded: it is searched for garbage
-    # this once, and not again after each of the others.
+    # Objects that exist now will stay, such as characters loaded by the previous test: they are collected once here and
+    # then exempted.
     gc.collect()
     gc.freeze()
     yield
     held = QGuiApplication.mouseButtons()
     if held != Qt.MouseButton.NoButton:
-        # As after a double click of `QTest`, which ends with its second press.
+        # Needed after a double click of `QTest`, which ends with a press.
         QTest.mouseRelease(QWidget(), held)
     for widget in QApplication.topLevelWidgets():
         widget.close()

@@ -40,7 +40,7 @@ def test_nothing_done_by_hand_is_lost(
     assert found.kills == kills
 
 
-# What is judged by: the log of a killed session, and what there is after it.
+# Data to judge: the log of a killed session and the files after it.
 
 
 def log(*rows: tuple[float, str]) -> list[dict[str, Any]]:

@@ -73,7 +73,7 @@ class Canary:
         while place < len(events):
             *_, length = _EVENT.unpack_from(events, place)
             place += _EVENT.size + length
-            # Without a name it is the folder itself.
+            # An empty name means the folder itself.
             if length:
                 names.append(events[place - length : place].rstrip(b"\0").decode())
         return names

@@ -855,7 +855,8 @@ def answer(reader, a):
 
 
 def worker(reader):
-    # One file after another: a line with the request in, a line with the answer out; what a library prints is no answer.
+    # One file after another: a request per line of input, an answer per line of output; other output of libraries is
+    # separated.
     answers = os.fdopen(os.dup(1), 'w')
     os.dup2(2, 1)
     for line in sys.stdin:

@@ -131,7 +131,7 @@ def popup() -> QMenu | None:
 
 def menu_under(widget: QWidget, place: QPoint) -> QMenu | None:
     """Right-click at a position; None if no context menu opens or the widget is hidden."""
-    # What was clicked before may have moved it out of sight.
+    # The previous click may have scrolled it out of view.
     mouse.bring_into_view(widget)
     QApplication.processEvents()
     if not widget.visibleRegion().contains(place):
@@ -295,7 +295,7 @@ class Clicker:
             if other.isCheckable() and not other.isChecked() and name_of(other).startswith(subject)
         ]
         close_menus()
-        # Another language gives menus other places and names.
+        # Another language changes the position and names of menus.
         return others[0] if others and subject != "language" else None
 
     def bar(self, every: bool = True) -> None:
@@ -316,7 +316,7 @@ class Clicker:
     def menus_of_buttons(self) -> None:
         """Click every entry of the menus that buttons open."""
         for name, control in controls(self._window).items():
-            # What a click changes may be made again: chips of marks are.
+            # A click may replace its control, as with chips of marks.
             if not isValid(control) or not control.isEnabled():
                 continue
 

@@ -206,7 +206,7 @@ def quieten(desk: Desk, looks: bool = True) -> None:
             widget.close()
     field = QApplication.focusWidget()
     if isinstance(field, QLineEdit):
-        # What is being typed is not meant.
+        # Cancel any text being typed.
         QTest.keyClick(field, Qt.Key.Key_Escape)
     if looks:
         program.editor.speak("en")

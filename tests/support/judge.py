@@ -195,7 +195,7 @@ def _cues(
         if abs(cue["end_s"] - first_s) < 1e-6
     ]
     if found["unplayed"]:
-        # What no one plays may have begun, and says when they come in.
+        # Parts without players may have begun earlier, and lead the entry.
         return [] if len(leaders) <= 1 else [f"{len(leaders)} players give the start"]
     if len(leaders) != 1:
         return [f"{len(leaders)} players give the start"]
@@ -221,7 +221,7 @@ def _cues(
             rest_s = slow_seconds(onset, changes, quarter) - slow_seconds(reach, changes, quarter)
             entry_s = slow_seconds(onset, changes, quarter)
             given = any(abs(end_s - entry_s) < 1e-5 for end_s in ends)
-            # No one nods twice at once: a cue takes a beat and a half, and before a pickup up to a beat more.
+            # Cues of a player do not overlap: one takes a beat and a half, and before a pickup up to a beat more.
             lead_s = 2.5 * (slow_seconds(onset + felt_beat * quarter, changes, quarter) - entry_s)
             busy = any(entry_s - lead_s < end_s < entry_s for end_s in ends)
             if rest_s >= 1.5 + 1e-6 and not given and not busy:
@@ -386,7 +386,7 @@ def _breaths(
 
     beat = felt_beat * quarter
     notes = player["notes"]
-    # Who holds one note with others may breathe within it, and says so.
+    # A player who holds a note together with others may breathe within it, with that reason.
     held = [event for event in player["breaths"] if event["reason"].startswith("staggered breath within a note")]
     for event in held:
         if not any(n["onset_s"] < event["start_s"] < event["end_s"] < n["onset_s"] + n["duration_s"] for n in notes):
@@ -431,8 +431,8 @@ def _breaths(
         if rest < 1.0 and detached[index]:
             reach = max(reach, onset + note["duration_tick"])
             continue
-        # Who plays releases a note early, the more where it began early: a fifth of the time to the next is no rest;
-        # nor is what the next one is late, where a breath has no room.
+        # Players release a note early, more so if it began early: a fifth of the time to the next note is not a rest,
+        # and neither is the delay of a late note, if a breath does not fit.
         step_s, silence_s = seconds(onset) - seconds(onset_ticks[index - 1]), seconds(onset) - seconds(reach)
         early = silence_s <= RELEASED * step_s + (2.0 if silence_s < CATCH_BREATH_S else 1.0) * OFF_S
         if is_played and breath is None and rest < 1.0 and early:

@@ -83,14 +83,14 @@ def footprint() -> Footprint:
     for _ in range(3):
         QCoreApplication.processEvents()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
-        # What the editor has set aside as lasting counts too.
+        # Objects exempted by the editor count too.
         gc.unfreeze()
         gc.collect()
     ctypes.CDLL(None).malloc_trim(0)
     application = QApplication.instance()
     assert isinstance(application, QApplication)
     found: dict[int, QObject] = {}
-    # What has parents is found below the topmost of them.
+    # Objects with parents are found below their topmost parent.
     for top in (application, *(widget for widget in QApplication.allWidgets() if widget.parent() is None)):
         for each in (top, *top.findChildren(QObject)):
             found[id(each)] = each
@@ -152,7 +152,7 @@ class LongDay:
             self.read_again()
             self.program.editor.files.close()
             self.until(lambda: not self.program.editor.files.is_open)
-        # Without a piece the plans are of nothing, and the motion of what was open is let go of.
+        # Without a piece the plans are empty, and motion of the former piece is released.
         self.until(lambda: self.program.generator.ready_share >= 1.0 and self.program.generator.up_to_date)
         tasks = self.program.tasks
         assert isinstance(tasks, ThreadTasks)

@@ -210,7 +210,7 @@ class Look:
         self.room = QSize(size[0], size[1] - FRAME.height())
         """For a dialog, below its title bar."""
         patch("widgets.common.layouts.room_for", lambda dialog: self.room).start()
-        # Where things are does not depend on the players' motion.
+        # The layout does not depend on the motion of players.
         live = self.program.generator.live
         live.work = live.judge = lambda stop_requested: False
         # Composing the window with a picture by OpenGL takes most of the time where the processor does its work.
@@ -248,7 +248,7 @@ class Look:
                 self.found[f"{dialog.objectName()} needs {least.width()} x {least.height()} and has {where}"] = name
         for _ in range(_TRIES):
             if found:
-                # What was said only just now may not have its room yet, on a busy machine for some turns.
+                # A notice reported a moment ago may need several turns of the event loop on a busy machine.
                 self.settle()
                 found &= set(faults(self.application))
         for fault in sorted(found):
@@ -396,7 +396,7 @@ class Look:
         if not path.exists():
             soundfile.write(path, 0.1 * np.sin(np.arange(22_050) * 0.1), 22_050)
         self.session.attempt(Message("edit.set_audio"), lambda project: set_audio(project, path))
-        # It is read beside the window.
+        # The dialog is shown beside the window.
         self.settle()
         self.do("play.follow_recording")
 

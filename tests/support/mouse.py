@@ -98,7 +98,7 @@ def open_submenu(menu: QMenu, entry: QAction, inner: QMenu) -> None:
         It does not open.
     """
     choose(menu, entry)
-    # It comes after a moment.
+    # The submenu appears after a moment.
     wait_until(lambda: inner.isVisible() or not menu.isVisible())
     assert inner.isVisible(), f"{entry.text()} does not open"
 

@@ -103,7 +103,7 @@ def others(reader: str, paths: Sequence[Path]) -> Iterator[Read]:
     assert [row["file"] for row in rows] == [str(path) for path in paths], found.stderr[-2000:]
     for row in rows:
         yield Read(
-            # Where there are quarter tones, ours is the nearest semitone.
+            # Quarter tones are played at the nearest semitone.
             sorted((onset, math.floor(pitch + 0.5), end) for onset, end, pitch in row.get("notes", ())),
             sorted({tuple(slur) for slur in row.get("slurs", ())}),
             row.get("order", []),

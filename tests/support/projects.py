@@ -287,7 +287,7 @@ expressions = st.builds(
 
 @st.composite
 def projects(draw: st.DrawFn, folder: str = "/music") -> Project:
-    # What is longer cannot be saved.
+    # Longer scores cannot be saved.
     score = draw(scores().filter(lambda score: too_long(score) is None))
     part_ids = [part.id for part in score.parts]
     performer_ids = draw(st.lists(ids, max_size=5, unique=True))

@@ -263,7 +263,7 @@ class RandomUser(Restless):
                 widget.accept() if self.random.random() < 0.7 else widget.reject()
 
 
-# One session
+# Session
 
 
 class SessionRun:
@@ -505,7 +505,7 @@ def lost_work(events: Sequence[dict[str, Any]], found: Sequence[str]) -> str:
             discarded = False
         elif event["event"] == "discarded":
             discarded = True
-    # Whoever has only opened something, or given it up, has nothing to lose.
+    # A session without edits, or with discarded ones, has nothing to lose.
     if discarded or len(states) < 2:
         return ""
     late = [place for place in range(1, len(states)) if states[place][0] >= end_s - MOST_LOST_S]

@@ -306,7 +306,7 @@ def work_until_killed(folder: Path) -> None:
     work.answers.path = folder / "work.suisou"
     work.do("file.save")
     work.until(lambda: work.session.document.is_saved, "saving")
-    # One more edit, which is in no file.
+    # One more edit, which is not saved.
     first = work.plan.fingerings[0].note_id
     work.click_note(first)
     work.key(work.timeline.roll.plot, Qt.Key.Key_Up)

@@ -143,7 +143,7 @@ class Restless:
         menu.close()
         entry.trigger()
 
-    # Where
+    # Targets
 
     def _widget(self) -> QWidget | None:
         """Choose any visible widget of any window."""
@@ -186,7 +186,7 @@ class Restless:
     def _reported(self, what: str, widget: QWidget, place: QPoint) -> None:
         self.deeds.append(f"{what} {type(widget).__name__} {widget.objectName()} {place.x()},{place.y()}")
 
-    # What
+    # Actions
 
     def click(self) -> None:
         """Click or double-click something."""
@@ -323,7 +323,7 @@ class Restless:
             take_id = self.session.project.takes[player.id].takes[-1].id
             self.session.attempt(name, lambda project: comp_whole(project, player.id, take_id))
 
-    # What must be true
+    # Invariants
 
     def calm_down(self) -> None:
         """Close everything that is open, stop playback and leave full screen."""

@@ -44,7 +44,7 @@ class Studio:
         """Play a note when the performance reaches it."""
         playback = self.session.playback
         assert playback is not None
-        # Not by the playhead, which follows when the machine has time for it: after a loop's turn it may be an old one.
+        # Not the playhead, which is updated when the machine has time: after a loop it may be out of date.
         self.wait(lambda: playback.position_s() >= at_s)
         self.link.play(bytes((0xB0, 2, 100)))
         self.link.play(bytes((0x90, pitch, 90)))

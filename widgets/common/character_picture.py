@@ -123,7 +123,7 @@ def picture(
     points[:, 2] = positions[:, 2]
     normals = shown.normals
     if positions is not shown.positions_m:
-        # A morph turns the surface; what the file's normals smooth or sharpen stays.
+        # A morph rotates the surface; the smoothing of the file's normals is kept.
         before, after = (_facing(shown.triangles, places) for places in (shown.positions_m, positions))
         normals = _unit(normals + after - before)
     front = _in_front(points, shown.triangles, width, height)
@@ -196,7 +196,7 @@ def _in_front(points: FloatArray, triangles: IndexArray, width: int, height: int
     inside = (placed[:, :, 0].max(1) > 0.0) & (placed[:, :, 0].min(1) < width)
     inside &= (placed[:, :, 1].max(1) > 0.0) & (placed[:, :, 1].min(1) < height)
     placed, steps = _by_edges(placed)
-    # Depth above, triangle below: the greatest of a pixel is in front.
+    # High bits depth, low bits triangle: the greatest value of a pixel is in front.
     depth = placed[:, :, 2]
     ranks = (depth - depth.min()) * (_DEPTHS / max(float(np.ptp(depth)), 1e-9))
     placed = np.concatenate([placed[:, :, :2], ranks[:, :, None]], axis=2).astype(np.float32)
@@ -227,7 +227,7 @@ def _painted(
     owners = front[hit]
     corners = shown.triangles[owners]
     shading = np.einsum("pk,pki->pi", _shares(points[corners][:, :, :2], hit, width), normals[corners])
-    # A surface that is seen from behind is lit as from in front, whichever way its triangles are wound.
+    # Surfaces seen from behind are lit as from the front, whatever the winding of their triangles.
     across = _across(shown.triangles, positions)
     outward = np.einsum("ti,tki->t", across, normals[shown.triangles]) * across[:, 2]
     shading = _unit(shading) * np.where(outward[owners] < 0.0, -1.0, 1.0)[:, None]
@@ -248,7 +248,7 @@ def _shares(corners: FloatArray, pixels: IndexArray, width: int) -> FloatArray:
     area = np.where(np.abs(area) < 1e-9, 1e-9, area)
     second = (at[:, 0] * two[:, 1] - at[:, 1] * two[:, 0]) / area
     third = (one[:, 0] * at[:, 1] - one[:, 1] * at[:, 0]) / area
-    # A pixel at the edge has its middle outside.
+    # At an edge the centre of the pixel may be outside the triangle.
     shares = np.clip(np.stack([1.0 - second - third, second, third], axis=1), 0.0, 1.0)
     result: FloatArray = shares / shares.sum(axis=1, keepdims=True)
     return result
@@ -260,7 +260,7 @@ def _by_edges(placed: FloatArray) -> tuple[FloatArray, IndexArray]:
     Dividing the two shorter edges into these powers of two gives points so close that no pixel is missed.
     """
     edges = np.linalg.norm((placed - np.roll(placed, -1, axis=1))[:, :, :2], axis=2)
-    # Opposite the longest edge, from corner k to k + 1, lies k + 2.
+    # The corner opposite the longest edge, which runs from corner k to k + 1, is k + 2.
     first = (edges.argmax(axis=1) + 2) % 3
     turned = placed[np.arange(len(placed))[:, None], (first[:, None] + np.arange(3)) % 3]
     lengths = np.linalg.norm((turned[:, 1:] - turned[:, :1])[:, :, :2], axis=2)

@@ -21,7 +21,7 @@ class Chip(QAbstractButton):
         self._session = session
         self._note, self._by_hand, self._outlined = note, False, False
         self.setText(text)
-        # It is drawn as it is written: an `&` names no key.
+        # The text is drawn literally: an `&` defines no mnemonic.
         self.setShortcut(QKeySequence())
         self.setCheckable(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -73,7 +73,7 @@ class Chip(QAbstractButton):
         """Draw the chip's text without the note into a box of the size `face_px`."""
         painter.drawText(box.adjusted(-1, -2, 1, 2), Qt.AlignmentFlag.AlignCenter, self.text())
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self) -> QSize:
         face = self.face_px()

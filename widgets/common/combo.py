@@ -40,7 +40,7 @@ class Combo(ComboBox):
         self._options: tuple[Option, ...] = ()
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        # As wide as there is room, not as the longest name.
+        # As wide as the available room, not as the longest name.
         self.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.setMinimumContentsLength(6)
         self.setMinimumHeight(LEAST_TARGET_PX + 1)
@@ -87,7 +87,7 @@ class Combo(ComboBox):
         if 0 <= index < len(self._options):
             self.chosen.emit(self._options[index].id)
 
-    # Qt's own names
+    # Qt overrides
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         if self.hasFocus():

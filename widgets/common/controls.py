@@ -164,7 +164,7 @@ class Retranslated(_Mixin):
         if event.type() == QEvent.Type.LanguageChange:
             self.word()
             if isinstance(self, QDialog) and self.isVisible():
-                # Its parts get the event after it.
+                # The child widgets receive the event after this one.
                 QTimer.singleShot(0, self, partial(_fit, self))
         super().changeEvent(event)
 

@@ -326,7 +326,7 @@ class FingeringDiagram(QWidget):
             painter.setBrush(QColor(tokens.accent))
             painter.drawRoundedRect(QRectF(bar.left(), bar.top(), max(bar.width() * value, 6.0), bar.height()), 3, 3)
 
-    # Qt's own names
+    # Qt overrides
 
     def moveEvent(self, event: QMoveEvent) -> None:
         super().moveEvent(event)

@@ -126,7 +126,7 @@ def _draw_key(
     radius = box.width() / 2.0 if key.is_round else min(box.width(), box.height()) * 0.3
     painter.drawRoundedRect(box, radius, radius)
     if half:
-        # The half of a hole that the finger leaves open is the upper one.
+        # The upper half of a half-covered hole is drawn open.
         painter.setBrush(colours.closed)
         painter.drawChord(box, 180 * 16, 180 * 16)
     if box.height() >= LEAST_SIGN_PX and key.sign and metrics.horizontalAdvance(key.sign) <= box.width() + 2.0:

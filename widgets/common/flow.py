@@ -61,7 +61,7 @@ class FlowLayout(QLayout):
             used_px += size.width() + self.spacing()
         return lines
 
-    # Qt's own names
+    # Qt overrides
 
     def addItem(self, item: QLayoutItem) -> None:
         self._items.append(item)

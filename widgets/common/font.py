@@ -32,7 +32,7 @@ def apply_font(application: QApplication) -> None:
     known = set(QFontDatabase.families())
     families = [font.family(), *(family for family in JAPANESE_FAMILIES if family in known)]
     if sys.platform.startswith("linux"):
-        # Where no desktop names a font, Qt takes a serif or whatever comes first.
+        # Where no desktop defines a font, Qt picks a serif font or any other.
         preferred = next((name for name in ("Inter", "Noto Sans", "DejaVu Sans") if name in known), None)
         if preferred and not _desktop_chose(font):
             families[0] = preferred

@@ -26,7 +26,7 @@ def ask_for_help(about: QWidget) -> None:
     while owner is not None and not isinstance(owner, ShowsHelp):
         owner = owner.parentWidget()
     if owner is None:
-        # A dialog that was opened while the program was in the background has no parent.
+        # A dialog opened while the program was in the background has no parent.
         owner = next((top for top in QApplication.topLevelWidgets() if isinstance(top, ShowsHelp)), None)
     if isinstance(owner, ShowsHelp):
         owner.show_help(about)
@@ -37,7 +37,7 @@ class HelpButton(Button):
 
     def __init__(self) -> None:
         super().__init__("help_button.help", self._ask, "help_button", "help_button.open_guide")
-        # What is being filled in keeps the keyboard.
+        # The field being edited keeps the focus.
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         QShortcut(QKeySequence(Qt.Key.Key_F1), self, self._ask_about_field)
 

@@ -12,7 +12,7 @@ from instrument_maps.model import InstrumentMap
 
 def language() -> str:
     """Return the language of the editor: ``"en"`` or ``"ja"``."""
-    # The translation of this word is the language's own tag, so that it always agrees with the texts around.
+    # The text "language.tag" is translated as the tag of its language, which therefore agrees with all other texts.
     return tr("language.tag")
 
 

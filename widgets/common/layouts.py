@@ -82,7 +82,7 @@ def room_for(dialog: QDialog) -> QSize:
 class _Shrinking(QWidget):
     """Widget whose height follows from its layout, so that wrapped texts are not cut off."""
 
-    # Qt's own names
+    # Qt overrides
 
     def heightForWidth(self, width: int) -> int:
         layout = self.layout()

@@ -71,7 +71,7 @@ class NumberDisplay(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
         session.theme_changed.connect(self.update)
 
-    # What it shows
+    # Display
 
     @property
     def value(self) -> float:
@@ -113,7 +113,7 @@ class NumberDisplay(QWidget):
             self._default = default
         self._by_hand = by_hand
         if self._dragging:
-            # What is shown follows the hand; what came of it is shown when the hand lets go.
+            # During a drag the display follows the mouse; the resulting value is shown afterwards.
             self._after_drag = (value, mixed)
         else:
             self._value, self._mixed = value, mixed
@@ -122,7 +122,7 @@ class NumberDisplay(QWidget):
 
     @property
     def _look(self) -> tuple[float, str, bool]:
-        # Words of the same value can be others: a pitch's, for another instrument.
+        # Equal values may have different texts: a pitch on another instrument, for example.
         return self._value, self.value_text(), self.by_hand
 
     def set_texts(self, label: str, unit: str = "", tool_tip: str = "") -> None:
@@ -162,7 +162,7 @@ class NumberDisplay(QWidget):
         low, high = self._ends
         return min(max((value - low) / (high - low), 0.0), 1.0) if high > low else 0.0
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self) -> QSize:
         sample = number_text(self._ends[1] if self._slides else 0.0, self._decimals) + " " + self._unit
@@ -191,7 +191,7 @@ class NumberDisplay(QWidget):
             left, right = sorted((box.left() + self._share(0.0) * box.width(), edge))
             painter.fillRect(QRectF(left, box.top(), right - left, box.height()), fill)
             mark = QColor(tokens.accent if self.isEnabled() else tokens.line_strong)
-            # The words run over it.
+            # The text is drawn over the mark.
             mark.setAlphaF(1.0 if hovered else 0.7)
             painter.fillRect(QRectF(min(edge, box.right() - 2) - 1, box.top(), 2, box.height()), mark)
         if self.by_hand and self.isEnabled():
@@ -209,7 +209,7 @@ class NumberDisplay(QWidget):
         unit = f" {self._unit}" if self._unit and not self._mixed else ""
         middle = Qt.AlignmentFlag.AlignVCenter
         unit_px, number_px = self._text_width(unit), self._text_width(number)
-        # Upon the fill a dim unit could not be read.
+        # A dim unit would be illegible on the fill.
         covered = (
             self._slides
             and not self._mixed

@@ -125,7 +125,7 @@ class NumberSlider(NumberDisplay):
         """Set the step of keys and wheel, and of a drag if the control is not a filled slider."""
         self._step = step
 
-    # Changing it
+    # Editing
 
     def copy(self) -> None:
         """Copy the number to the clipboard."""
@@ -180,7 +180,7 @@ class NumberSlider(NumberDisplay):
     def _request(self, value: float, token: object | None) -> None:
         kept = self._kept(value)
         if self._press is not None and kept == self._kept(self._press_value) and not self._press_mixed:
-            # A drag back to where it began leaves nothing, however exact the value was.
+            # A drag back to its start leaves no change, however precise the value was.
             kept = self._press_value
         if not self._mixed and kept in (self._value, self._kept(self._value)):
             return
@@ -223,7 +223,8 @@ class NumberSlider(NumberDisplay):
     def _cancel_drag(self) -> None:
         if self._dragging:
             self._dragging, self._after_drag = False, None
-            # Each of several things has its own value again, and what no one had set is not set: no value says that.
+            # Restores the value of each object, including objects without a value of their own, which no single value
+            # could express.
             if self._token is not None and self._session.document.cancel_gesture(self._token):
                 self._value, self._mixed = self._press_value, self._press_mixed
                 self.update()
@@ -244,7 +245,7 @@ class NumberSlider(NumberDisplay):
             on_click(menu.addAction(self.tr("number_slider.reset")), self.reset_value)
         return menu
 
-    # Qt's own names
+    # Qt overrides
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         if self._field is not None:
@@ -252,7 +253,7 @@ class NumberSlider(NumberDisplay):
         super().resizeEvent(event)
 
     def event(self, event: QEvent) -> bool:
-        # What is typed here must not reach the window's shortcuts (digits are fingerings there).
+        # Typed digits must not reach the window's shortcuts, which choose fingerings.
         if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and self._takes(event):
             event.accept()
             return True
@@ -314,14 +315,14 @@ class NumberSlider(NumberDisplay):
             if abs(x - self._press.x()) < DRAG_PX:
                 return
             self._dragging, self._token = True, object()
-        # Back where it was pressed, the value is what it was.
+        # At the position of the press the value is exactly the initial one.
         way = x - self._press.x()
         x = self._press.x() + math.copysign(max(abs(way) - DRAG_PX, 0.0), way)
         low, high = self._ends
         per_px = (high - low) / max(self.width(), 1) if self._slides else self._step / FREE_DRAG_PX
         if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
             per_px *= FINE
-        # Summed unrounded and held at the ends, so that no slow drag is lost and none has to come back from outside.
+        # The sum is unrounded and limited, so that slow drags accumulate and a drag beyond a limit reverses at once.
         moved = self._drag_value + (x - self._drag_x) * per_px
         self._drag_value = min(max(moved, min(low, self._press_value)), max(high, self._press_value))
         self._drag_x = x

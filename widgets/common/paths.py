@@ -117,7 +117,7 @@ class PathEdit(QLineEdit):
     def path(self) -> Path | None:
         """The path in the field; None if the field is empty."""
         if self._set is not None and self.text() == stored(self._set):
-            return self._set  # also one that ends with a blank
+            return self._set  # including a path that ends with a space
         text = self.text().strip()
         return Path(restored(text)) if text else None
 

@@ -58,7 +58,7 @@ class SectionHeader(QWidget):
         font.setBold(True)
         return font
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self) -> QSize:
         return QSize(120, max(LEAST_TARGET_PX + 2, round(QFontMetricsF(self.font()).height()) + 10))
@@ -150,7 +150,7 @@ class Section(QWidget):
         self.header.toggled.connect(self._content.setVisible)
         was_folded = session.folded.get(name, folded) if remembers else folded
         self.header.set_open(not was_folded)
-        # From now on it is the user who folds.
+        # Only folding by the user is stored from now on.
         self.header.toggled.connect(self._keep)
 
     def _keep(self, is_open: bool) -> None:

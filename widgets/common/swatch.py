@@ -80,7 +80,7 @@ class ColourSwatch(QPushButton):
         if colour.isValid():
             self.chosen.emit(colour.name())
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self) -> QSize:
         return QSize(44, LEAST_TARGET_PX + 1)

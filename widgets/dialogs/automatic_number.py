@@ -67,7 +67,7 @@ class AutomaticNumber(QWidget):
         self.number.setRange(min(least, least if shown is None else shown), max(most, most if shown is None else shown))
         if shown is not None:
             self.number.setValue(shown)
-        # What is not known is not shown as a number.
+        # An unknown value is not shown as a number.
         self.number.lineEdit().setVisible(shown is not None)
         self.number.blockSignals(False)
 

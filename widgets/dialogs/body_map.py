@@ -21,7 +21,7 @@ ASPECT: Final = 0.86
 _DOT: Final = 0.0105
 _TARGET: Final = 0.030
 _LIMBS: Final = (
-    # From, to and width in heights of the drawing; the character's left is at the right.
+    # Start, end and width in heights of the drawing; the character's left is at the right.
     ((0.0, 0.30), (0.0, 0.47), 0.135),
     ((-0.035, 0.47), (0.035, 0.47), 0.115),
     ((0.0, 0.17), (0.0, 0.24), 0.050),
@@ -53,7 +53,8 @@ _BODY: Final[Mapping[str, tuple[float, float]]] = {
 _PALM: Final = (0.305, 0.700)
 """Centre of the enlarged left palm, as shares of the picture's width and height."""
 _FINGERS: Final[Mapping[str, tuple[tuple[float, float], float, tuple[float, float, float]]]] = {
-    # First joint from the palm's middle, degrees from upright (towards the thumb), how far along the joints are.
+    # First joint relative to the centre of the palm, angle in degrees from upright (towards the thumb), positions of
+    # the joints along it.
     "Thumb": ((-0.050, 0.035), 48.0, (0.0, 0.045, 0.082)),
     "Index": ((-0.036, -0.055), 9.0, (0.0, 0.048, 0.085)),
     "Middle": ((-0.011, -0.063), 1.0, (0.0, 0.053, 0.094)),
@@ -196,7 +197,7 @@ class BodyMap(QWidget):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawEllipse(QPointF(x, y), _DOT * 1.75, _DOT * 1.75)
         painter.setPen(QPen(QColor(colour if state == "missing" else tokens.surface), 0.003))
-        # Distinguished without colours too: hollow where there is none, with a notch where it is guessed.
+        # Distinguishable without colours: hollow if no bone is mapped, notched if it is a guess.
         painter.setBrush(QColor(tokens.surface if state == "missing" else colour))
         painter.drawEllipse(QPointF(x, y), _DOT, _DOT)
         if state == "doubtful":
@@ -204,7 +205,7 @@ class BodyMap(QWidget):
             painter.setBrush(QColor(tokens.surface))
             painter.drawEllipse(QPointF(x, y), _DOT * 0.38, _DOT * 0.38)
 
-    # Qt's own names
+    # Qt overrides
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         hovered = self._at(event.position())

@@ -79,7 +79,7 @@ class BoneTree(QWidget):
         self.tree.setHeaderLabels(list(headers))
         header = self.tree.header()
         header.setStretchLastSection(False)
-        # Both are seen: which joint a bone is, and as much of its name as there is room for.
+        # Both columns are visible: the joint, and as much of the bone's name as fits.
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
 
@@ -88,7 +88,7 @@ class BoneTree(QWidget):
         requested = text.strip().casefold()
         first: QTreeWidgetItem | None = None
         exact: QTreeWidgetItem | None = None
-        # Children come after their parents.
+        # Children follow their parents in this list.
         for item in reversed(self._items):
             hit = requested in item.text(0).casefold()
             children = [item.child(number) for number in range(item.childCount())]

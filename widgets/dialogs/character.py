@@ -128,7 +128,7 @@ class CharacterDialog(Retranslated, QDialog):
         """Return a draft with the present title and otherwise automatic settings."""
         return found_by_itself(self._figure, self.draft.title)
 
-    # Building
+    # Construction
 
     def _build(self) -> None:
         self.rows.setMinimumWidth(_LEAST_LIST_PX)
@@ -182,7 +182,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._buttons.rejected.connect(self.reject)
         self._session.theme_changed.connect(self._show)
 
-    # What the user does
+    # User actions
 
     @property
     def draft(self) -> CharacterDraft:
@@ -225,7 +225,7 @@ class CharacterDialog(Retranslated, QDialog):
         self.bones.reveal(self._made.joints.bones.get(self._joint))
 
     def _rename(self, title: str) -> None:
-        # One word is one step.
+        # Typing one title is one step.
         self.change(replace(self.draft, title=title), self.title)
 
     def _resize_figure(self) -> None:
@@ -256,7 +256,7 @@ class CharacterDialog(Retranslated, QDialog):
         self.agreed.emit(self.draft, self.give.isEnabled() and self.give.isChecked())
         self.accept()
 
-    # What is shown
+    # Display
 
     def _show(self) -> None:
         made, tokens = self._made, self._session.tokens
@@ -325,7 +325,7 @@ class CharacterDialog(Retranslated, QDialog):
         }[state]
         return words.format(joint=joint_name(joint), bone=bone_name)
 
-    # Pictures
+    # Picture
 
     def _ask_picture(self, *_: object) -> None:
         if not self._soon.isActive():
@@ -373,7 +373,7 @@ class CharacterDialog(Retranslated, QDialog):
             self._picture_requested = False
             self._ask_picture()
 
-    # Words
+    # Texts
 
     def retranslate(self) -> None:
         self.setWindowTitle(verbatim_title(self.tr("character_dialog.character").format(file=shown(self._path.name))))
@@ -388,7 +388,7 @@ class CharacterDialog(Retranslated, QDialog):
         self.give.setVisible(bool(self._offered))
         self._show()
 
-    # Qt's own names
+    # Qt overrides
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Handle the shortcuts of undo and redo, regardless of the field with the keyboard focus."""

@@ -139,7 +139,7 @@ class CharactersDialog(Retranslated, QDialog):
     def retranslate(self) -> None:
         self.refresh()
 
-    # Qt's own names
+    # Qt overrides
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         if dropped_character(event) is not None:

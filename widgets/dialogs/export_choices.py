@@ -14,7 +14,7 @@ from widgets.common.plain import ComboBox
 def bone_name_profiles(dialog: Retranslated) -> ComboBox:
     """Return a combo box with the skeleton's own bone names and with tables of bone names, by id."""
     box = named(ComboBox(), "export_bvh_names")
-    # As wide as there is room, not as the longest title.
+    # As wide as the available room, not as the longest title.
     box.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
     box.addItem("", "")
     for profile, table in load_bone_names().items():

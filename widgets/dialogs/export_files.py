@@ -97,7 +97,7 @@ class ExportDialog(WorkingDialog):
     ) -> None:
         super().__init__("export_files", "export", parent)
         self._session, self._source, self._creator = session, source, creator
-        # What is exported is the piece as it is now, whatever is edited meanwhile.
+        # The piece is exported as it is now, regardless of later edits.
         self._project = session.project
         self._players = named(QListWidget(), "export_players")
         self._list_players()
@@ -129,7 +129,7 @@ class ExportDialog(WorkingDialog):
         self._face = FaceChooser()
         self._files = selectable(wrapped(named(Label(), "export_outcome")))
         self._files.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
-        # The excluded players of an orchestra may take more lines than there is room for.
+        # The list of excluded players of an orchestra may need more lines than fit.
         self._outcome = QScrollArea()
         self._outcome.setFrameShape(QScrollArea.Shape.NoFrame)
         self._outcome.setWidgetResizable(True)
@@ -145,7 +145,7 @@ class ExportDialog(WorkingDialog):
         self._players.itemChanged.connect(self._show_players)
         self.texted(self, title="export_dialog.export")
         self.retranslate()
-        # Beside the rows that are there now: what is being done, and how far it is.
+        # Room for two more rows: the current work and its progress.
         begin_with_size(self, self.sizeHint() + QSize(0, 2 * LEAST_TARGET_PX))
 
     def _list_players(self) -> None:
@@ -197,7 +197,7 @@ class ExportDialog(WorkingDialog):
         buttons = self._box("export_dialog.export", self.start, self._show_folder)
         in_column((columns, 1), self._under_way, self._progress, buttons, of=self)
 
-    # What is requested
+    # Request
 
     @property
     def player_ids(self) -> tuple[str, ...]:
@@ -229,7 +229,7 @@ class ExportDialog(WorkingDialog):
 
     def _request(self) -> ExportRequest:
         fps, bars = Fraction(self._rate.currentData()), self._range.bars
-        # The field that is shown counts.
+        # The visible field determines the pre-roll.
         project = self._project if bars else replace(self._project, preroll_beats=self._preroll.value())
         performance = Performance(project)
         span = bars_span(performance, fps, bars or (None, None), self._lead_in.value())
@@ -261,7 +261,7 @@ class ExportDialog(WorkingDialog):
         requested = set(self.player_ids)
         return tuple(player for player in self._project.players if player.id in requested)
 
-    # Doing it
+    # Export
 
     def start(self) -> None:
         """Write the files, in the background."""
@@ -308,7 +308,7 @@ class ExportDialog(WorkingDialog):
             if done.new_plugin:
                 text += "\n" + self.tr("export_dialog.if_unreal_has_project_open")
             reported = Message("unreal.done", {"count": done.count, "project": done.project.name})
-        # Excluded players come first, all of them.
+        # All excluded players come first.
         lines = [sentence(message) for message in done.left_out] + list(done.warnings[:6])
         self._files.setText(text + "".join(f"\n⚠ {line}" for line in lines))
         self._shown_folder = done.folder
@@ -333,7 +333,7 @@ class ExportDialog(WorkingDialog):
     def _show_folder(self) -> None:
         show_folder(self._shown_folder)
 
-    # What will come of it
+    # Preview
 
     def _show_players(self) -> None:
         self._skeleton.compare()

@@ -75,7 +75,7 @@ class PlaceChooser(Retranslated, QWidget):
         self.changed.emit()
 
     def _change(self) -> None:
-        # Reported once, and of the new destination's path.
+        # The change is reported once, with the path of the new destination.
         self._path.blockSignals(True)
         self._path.setText(self._paths[self.destination])
         self._path.blockSignals(False)

@@ -62,7 +62,7 @@ class RigChooser(Retranslated, QWidget):
 
 def _box(name: str, choices: Sequence[str]) -> ComboBox:
     box = named(ComboBox(), name)
-    # As wide as there is room.
+    # As wide as the available room.
     box.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
     for choice in choices:
         box.addItem("", choice)

@@ -122,7 +122,7 @@ class SkeletonChooser(Retranslated, QWidget):
     def compare(self) -> None:
         """Compare the skeleton with the asset file in the background."""
         players, choice, asset = self._players(), self.choice, self.asset
-        # Typing a path gives many that are none; what was read already is not read again.
+        # Typing a path produces many incomplete ones; a request already made is not repeated.
         requested = (choice, asset, tuple(player.character_id for player in players))
         if requested == self._requested:
             return
@@ -135,7 +135,7 @@ class SkeletonChooser(Retranslated, QWidget):
 
     def _found(self, found: Found) -> None:
         requested, checked, error = found
-        if requested == self._requested:  # something else may have been chosen meanwhile
+        if requested == self._requested:  # the choice may have changed meanwhile
             self._checked, self._error, self._comparing = checked, error, False
             self._show()
 
@@ -171,7 +171,7 @@ class SkeletonChooser(Retranslated, QWidget):
         said: dict[str, list[str]] = {}
         spoilt = not all(map(_fits, self._checked.values()))
         for player, checked in self._checked.items():
-            # What has to be put right comes alone.
+            # Severe differences are shown alone.
             severe = reported([difference for difference in checked.differences if difference.severe])
             for message in severe if spoilt else checked.messages:
                 said.setdefault(sentence(message), []).append(names.get(player, ""))
@@ -206,7 +206,7 @@ def _comparison(
 
     def work(progress: Progress, stop_requested: StopRequested) -> Found:
         try:
-            # A player without a character is excluded from the export, and among the problems.
+            # A player without a character is excluded from the export and listed among the problems.
             characters = attempt(players, character_of).made
             return requested, checked_targets(characters, choice, read_figure(asset)), None
         except AppError as error:

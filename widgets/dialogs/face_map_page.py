@@ -88,7 +88,7 @@ class FaceMapPage(Retranslated, QWidget):
         self._parts, self._own = {face: dict(made) for face, made in parts.items()}, own
         self._show()
 
-    # What the user does
+    # User actions
 
     def _chosen(self, item: QTreeWidgetItem | None, before: QTreeWidgetItem | None = None) -> None:
         if item is not None:
@@ -103,7 +103,7 @@ class FaceMapPage(Retranslated, QWidget):
         left = {name: factor for name, factor in self._parts.get(self._face, {}).items() if name != morph}
         self.changed.emit(self._face, left, None)
 
-    # What is shown
+    # Display
 
     def _show(self) -> None:
         tokens = self._session.tokens

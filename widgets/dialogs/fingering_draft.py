@@ -55,5 +55,5 @@ def base_of(instrument: InstrumentMap) -> edit.Table:
     try:
         return edit.base_table(instrument, library().own.get(instrument.id))
     except AppError:
-        # Their file is wrong now and an earlier version in use: there is nothing to go back to.
+        # The user's file is invalid and an earlier version in use, so the table cannot be reset.
         return instrument.fingerings

@@ -43,7 +43,7 @@ class InstrumentCell(QWidget):
             caption.setContentsMargins(12, 0, 0, 0)
             self._rows.append(panel(in_row(caption, (box, 1), margins=0)))
             self._column.addWidget(self._rows[-1])
-            # Else Qt does so later, and until then the cell is as low as without it.
+            # Otherwise Qt shows the row later, and until then the cell is too low.
             self._rows[-1].show()
         self.boxes = [box for _, box in boxes]
 

@@ -138,7 +138,7 @@ class ImportDialog(Retranslated, QDialog):
             heading, (self._table, 1), tools, self._warning_title, self._warnings, with_help(self._buttons), of=self
         )
         self._table.itemSelectionChanged.connect(self._show_tools)
-        # Rows are there once it is known what the file says.
+        # Rows are added when the content of the file is known.
         self._encodings.setEnabled(False)
         self.texted(self, title="import_dialog.import_midi")
         self.retranslate()
@@ -210,7 +210,7 @@ class ImportDialog(Retranslated, QDialog):
             self._encodings.show_encoding(self._encoding)
             self._summary.setText(message_text(error.message))
 
-        # What is chosen meanwhile would be of rows that are no longer there.
+        # Choices made meanwhile would belong to rows that are removed.
         self._table.setEnabled(False)
         self._slow.start()
         self._tasks.run(

@@ -112,7 +112,7 @@ class ImportTable(Retranslated, QTableWidget):
         self.setRowCount(0)
         self.setRowCount(len(self.rows))
         self._filled = 0
-        # Only where a track looks like a take is there something to clean.
+        # Cleaning is offered only if a track looks like a recorded take.
         self.setColumnHidden(_CLEAN, not any(map(self._take_reason, self.rows)))
         self._instruments = [(instrument_name(table), table.id) for table in in_score_order(self._maps.values())]
         self._characters = [(character_name(id_), id_) for id_ in characters()]
@@ -145,7 +145,7 @@ class ImportTable(Retranslated, QTableWidget):
         for place in range(self._filled, end):
             self._fill_row(place, self.rows[place])
         if self._filled == 0 or end == len(self.rows):
-            # Said again, the table measures its columns again: Qt does not do so for widgets that come later.
+            # Set again, so that the table measures columns whose widgets were added later.
             self.horizontalHeader().setSectionResizeMode(_PREVIEW, QHeaderView.ResizeMode.Stretch)
         self._filled = end
         if end < len(self.rows):
@@ -262,7 +262,7 @@ class ImportTable(Retranslated, QTableWidget):
             if widget is not None:
                 widget.setToolTip(tip)
         instrument.setEnabled(row.requested or self._can_choose(row))
-        # Only there is a difference.
+        # Concert and written pitch differ only for transposing instruments.
         transposes = any(table.transposition_semitones for table in self._played_on(row.assignment))
         pitches.setEnabled(row.requested and transposes)
 
@@ -289,7 +289,7 @@ class ImportTable(Retranslated, QTableWidget):
             cell.show_players(boxes)
             self.setRowHeight(place, max(ROW_PX, cell.sizeHint().height()))
         for voice, box in enumerate(cell.boxes):
-            # Without a choice of its own a player has the instrument of the part.
+            # A player without a choice of its own has the instrument of the part.
             name = whole or (alone[voice] if voice < len(alone) else "")
             if name:
                 box.setItemText(0, self.tr("import_dialog.automatic_2").format(name=name))
@@ -346,5 +346,5 @@ class ImportTable(Retranslated, QTableWidget):
         for column in (_NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _CHARACTER, _CLEAN):
             widget = self.cellWidget(place, column)
             if widget is not None:
-                # Where nothing says what the instrument is, it is asked for.
+                # If nothing names the instrument, the user must choose it.
                 widget.setEnabled(row.requested or (column == _INSTRUMENT and self._can_choose(row)))

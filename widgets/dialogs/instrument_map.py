@@ -113,7 +113,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._fill_list(front.instrument_id if front is not None else "")
         begin_with_size(self, _SIZE)
 
-    # Building
+    # Construction
 
     def _build(self) -> None:
         for label in (self._wrong, self._file):
@@ -154,7 +154,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._session.pitch_display.changed.connect(self._show)
         self._session.theme_changed.connect(self._show)
 
-    # The instruments
+    # Instruments
 
     def _fill_list(self, chosen: str) -> None:
         self._list.blockSignals(True)
@@ -199,7 +199,7 @@ class InstrumentsDialog(Retranslated, QDialog):
                 draft.instrument, draft.base = instrument, base_of(instrument)
         self._fill_list(shown.instrument.id if shown is not None else "")
 
-    # Showing
+    # Display
 
     def _show(self) -> None:
         draft = self.draft
@@ -266,7 +266,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         chosen = chosen or self._chosen()
         self._filling = True
         self._table.setUpdatesEnabled(False)
-        # Else every cell that is set has all of them measured again.
+        # Otherwise each new cell would make Qt measure all columns again.
         self._fit_columns(QHeaderView.ResizeMode.Fixed)
         self._table.setRowCount(len(draft.table))
         shift = draft.instrument.transposition_semitones
@@ -471,7 +471,7 @@ class InstrumentsDialog(Retranslated, QDialog):
             self._report(message_text(error.message, self._session))
             self._session.notice(error.message, Severity.ERROR)
             return False
-        # The watch reads it now; until then it is known already.
+        # The folder watch reads the file later; the new content is known already.
         draft.instrument = msgspec.structs.replace(draft.instrument, fingerings=draft.table)
         self._session.instruments_saved.emit()
         self.saved.emit(draft.instrument.id)
@@ -483,13 +483,13 @@ class InstrumentsDialog(Retranslated, QDialog):
         folder.mkdir(parents=True, exist_ok=True)
         show_folder(folder)
 
-    # Words
+    # Texts
 
     def retranslate(self) -> None:
         if self._list.count():
             self._show()
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self) -> QSize:
         return _SIZE
@@ -505,7 +505,7 @@ class InstrumentsDialog(Retranslated, QDialog):
             if answer == "cancel" or (answer == "save" and not self._save_all(unsaved)):
                 event.ignore()
                 return
-        # Qt's own would call `reject`, and that closes.
+        # Qt's implementation would call `reject`, which closes the dialog.
         event.accept()
 
     def ask(self, count: int) -> str:

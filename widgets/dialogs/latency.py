@@ -161,13 +161,13 @@ class LatencyDialog(Retranslated, QDialog):
     def _look(self) -> None:
         """Store the position of the audible sound for comparison with notes, and show the input."""
         ns, position_s = self._now_ns(), self._playback.position_s()
-        # The device plays nothing for a while at first: the clock does not run yet.
+        # A device just opened is silent at first: the clock has not started.
         if not self._positions or position_s > self._positions[-1][1]:
             self._positions.append((ns, position_s))
         last = sum(click_s <= position_s for click_s in CLICKS_S) - 1
         self.chart.show_click(last - LEAD, last >= 0 and position_s - CLICKS_S[last] < _FLASH_S)
         found = hits(events_on_time_line(self._events, self._positions), self._session.recording.mapping.breath)
-        # A click that may still be hit is not missed.
+        # A click that can still be hit does not count as missed.
         over = sum(click_s + LATEST_S <= position_s for click_s in CLICKS_S)
         self.chart.show_measured(measured_latency(CLICKS_S[LEAD : max(over, LEAD)], found))
         if position_s > CLICKS_S[-1] + _AFTER_S:
@@ -194,7 +194,7 @@ class LatencyDialog(Retranslated, QDialog):
     def _choose(self) -> None:
         self.latency_chosen.emit(self.value.value() / 1000.0)
 
-    # What is shown
+    # Display
 
     def _show(self) -> None:
         recording, tokens = self._session.recording, self._session.tokens
@@ -248,7 +248,7 @@ class LatencyDialog(Retranslated, QDialog):
         self.value.setSuffix(" " + self.tr("latency_dialog.ms"))
         self._show()
 
-    # Qt's own names
+    # Qt overrides
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape and self._running:
@@ -331,7 +331,7 @@ class HitChart(Retranslated, QWidget):
         for number, (offset_s, counts) in enumerate(zip(found.offsets_s, found.used, strict=True)):
             x = room.left() + (number + 0.5) * step
             if offset_s is None:
-                # Not over yet, or missed.
+                # Not finished, or missed.
                 painter.setPen(QColor(tokens.text_dim))
                 painter.drawText(QRectF(x - 10, self._y(room, 0.0) - 10, 20, 20), _MIDDLE, "×")
                 continue

@@ -44,7 +44,7 @@ class MetadataDifferencesDialog(Retranslated, QDialog):
         title = self.tr("metadata_differences_dialog.metadata_of_piece_and_file")
         self.setWindowTitle(title.format(file=self._file))
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self) -> QSize:
         return QSize(760, 420)

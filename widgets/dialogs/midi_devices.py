@@ -83,7 +83,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._kind, self._channel = named(Combo(), "midi_kind"), named(Combo(), "midi_wired_channel")
         self._breath, self._bite = named(Combo(), "midi_breath_source"), named(Combo(), "midi_bite_source")
         self._learn = named(QPushButton(), "midi_learn")
-        # Enter in the list is no answer.
+        # Enter in the list must not press the button.
         self._learn.setAutoDefault(False)
         self._close = Button("midi_devices_dialog.close", self.close, "midi_close")
         beep_tip = "midi_devices_dialog.short_tone_on_audio_device"
@@ -101,7 +101,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self.retranslate()
         self.resize(820, 560)
 
-    # Building
+    # Construction
 
     def _build(self) -> None:
         form = in_form(
@@ -133,13 +133,13 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._breath.chosen.connect(lambda id: self._wire(breath=id))
         self._bite.chosen.connect(lambda id: self._wire(bite=id))
         on_click(self._learn, self._toggle_learning)
-        # However it is closed.
+        # Stops however the dialog is closed.
         self.finished.connect(self._playback.stop)
         recording.changed.connect(self._show)
         recording.received.connect(self._on_received)
         session.theme_changed.connect(self._show)
 
-    # What the user does
+    # User actions
 
     def _choose(self, item: QTreeWidgetItem, column: int = 0) -> None:
         self.chosen.emit(item.data(0, Qt.ItemDataRole.UserRole))
@@ -151,7 +151,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
     def _wire(self, **values: object) -> None:
         mapping = msgspec.structs.replace(self._session.recording.mapping, **values)
         if mapping.bite == mapping.breath:
-            # One message cannot tell of both.
+            # One message cannot control both breath and bite.
             mapping = msgspec.structs.replace(mapping, bite="none")
         self._reported.clear()
         self.mapping_chosen.emit(mapping)
@@ -227,7 +227,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         names = {"source": source_name(breath.source), "bite": source_name(bite or "none")}
         self._report(self._reported, text.format(**names, number=breath.channel))
 
-    # What is shown
+    # Display
 
     def _report(self, label: Label, text: str, wrong: bool = False) -> None:
         tokens = self._session.tokens
@@ -269,7 +269,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         requested += [(name, name, self._state(name)) for name in names]
         shown = (requested, recording.port, tokens.name)
         if shown != self._listed:
-            # A list that is made anew under the mouse would not feel the click.
+            # Rebuilding the list under the mouse would lose the click.
             self._listed = shown
             self._fill(requested, at)
         self._hint.setText(self._advice())
@@ -340,7 +340,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._learn.setToolTip(self.tr("midi_devices_dialog.detect_tip").format(count=LEARN_S))
         self._show()
 
-    # Qt's own names
+    # Qt overrides
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape and self._learning is not None:

@@ -88,7 +88,7 @@ class MidiMonitor(Retranslated, QWidget):
             self._log.clear()
             self._channel, self._bite_now = 0, 0.0
         if recording.mapping.bite != self._bite_source:
-            # How far it was bitten was said with another message.
+            # The bite value belongs to another message.
             self._bite_source, self._bite_now = recording.mapping.bite, 0.0
         self._show()
 

@@ -59,7 +59,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._rate = named(ComboBox(), "piece_rate")
         self._rate.setEditable(True)
         self._rate.setInsertPolicy(ComboBox.InsertPolicy.NoInsert)
-        # It would make 120 of 12.
+        # Completion would turn 12 into 120.
         self._rate.setCompleter(None)  # type: ignore[arg-type]
         self._rate.addItems([frame_rate_text(rate) for rate in USUAL_RATES])
         self._preroll = self.texted(named(_Beats(), "piece_preroll"), suffix="piece_settings_dialog.beats")
@@ -122,7 +122,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         buttons.addButton(self._reset, QDialogButtonBox.ButtonRole.ResetRole)
         in_column(form, self._problem, STRETCH, with_help(buttons), of=self)
 
-    # What is chosen
+    # Choice
 
     @property
     def settings(self) -> PieceSettings | None:
@@ -171,7 +171,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._title.setText(settings.title)
         self._title.setCursorPosition(0)
         rate = frame_rate_text(settings.fps)
-        # Keys and wheel go on from here, which the text alone would not say.
+        # Sets the index too, from which keys and wheel continue.
         self._rate.setCurrentIndex(self._rate.findText(rate))
         self._rate.setEditText(rate)
         self._preroll.setValue(settings.preroll_beats)

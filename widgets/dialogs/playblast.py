@@ -104,7 +104,7 @@ class PlayblastDialog(WorkingDialog):
         self._state.setMinimumHeight(40)
         self._file.textChanged.connect(self._show_state)
 
-        # One picture in each turn of the event loop: the window stays alive.
+        # One picture for each turn of the event loop, so that the window stays responsive.
         self._timer = QTimer(self, interval=0)
         self._timer.timeout.connect(self._draw)
         self._build()
@@ -148,7 +148,7 @@ class PlayblastDialog(WorkingDialog):
         self._performance = self._session.performance
         self._span = span = self._requested_span()
         self._drawn, self._trouble, self._draw_at = 0, None, None
-        # The thread gets what it needs, not the dialog.
+        # The thread receives only what it needs, not the dialog.
         self._pictures = pictures = queue.Queue[Pictures](_AHEAD)
         self._show.hide()
         self._set_running(True)
@@ -191,7 +191,7 @@ class PlayblastDialog(WorkingDialog):
                 self._draw_at = self._film(width, height, (span.first_frame_s, span.end_s), view, marked)
             picture = self._draw_at(time_s)
         except Exception as error:
-            # The encoder stops and takes back what it has written.
+            # The encoder stops and removes what it has written.
             self._stop.set()
             self._timer.stop()
             if not isinstance(error, AppError):

@@ -56,12 +56,12 @@ class WorkingDialog(Retranslated, QDialog):
         self.fields: tuple[QWidget, ...] = ()
         self._prefix = prefix
         self._running = False
-        # Each work gets its own: the thread knows nothing of the dialog.
+        # A new event for each run, because the thread has no reference to the dialog.
         self._stop = threading.Event()
         self._progress = named(QProgressBar(), f"{prefix}_progress")
         self._progress.setRange(0, _PARTS)
         self._progress.hide()
-        # What is being written, how many there are, how long it takes; afterwards that it was cancelled.
+        # Current item, number of items and remaining time; afterwards the news that it was cancelled.
         self._under_way = named(Label(), f"{prefix}_under_way")
         self._under_way.hide()
         self._began_s = 0.0
@@ -92,7 +92,7 @@ class WorkingDialog(Retranslated, QDialog):
         self._under_way.setVisible(running or self._stop.is_set())
         for field in self.fields:
             field.setEnabled(not running)
-            # What was chosen is still read, though it cannot be changed.
+            # Choices cannot be changed during the work but stay legible.
             field.setProperty("working", running)
             for widget in (field, *field.findChildren(QWidget)):
                 widget.style().polish(widget)

@@ -99,7 +99,7 @@ class ReimportChanges(Retranslated, QWidget):
         self._tree.currentItemChanged.connect(lambda item: self._show(item))
         self.setFocusProxy(self._tree)
         self._tree.addTopLevelItems([row.item for row in self._rows])
-        # The names decide on the width, not only the rows in sight.
+        # The width follows from all names, not only from visible rows.
         self._tree.header().setSectionResizeMode(0, QHeaderView.ResizeMode.Interactive)
         self._apply_filter(_ALL)
         self._begun = False

@@ -135,7 +135,7 @@ class RuleForm(Retranslated, QWidget):
         title: QFormLayout = in_form({"rules_dialog.title": self._title})
         in_column(title, self._when, self._do, None, of=self)
 
-    # The rule
+    # Rule
 
     def show_rule(self, rule: Rule | None) -> None:
         """Show a rule; None for no rule."""

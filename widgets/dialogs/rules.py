@@ -116,7 +116,7 @@ class RulesDialog(Retranslated, QDialog):
         buttons.addButton(self._cancel, QDialogButtonBox.ButtonRole.RejectRole)
         in_column((split, 1), self._problem, self._folder, in_row(HelpButton(), self._preview, None, buttons), of=self)
 
-    # The list
+    # List
 
     @property
     def draft(self) -> Draft:
@@ -195,7 +195,7 @@ class RulesDialog(Retranslated, QDialog):
             self._set(removed(self._draft, row))
             self._fill(row)
 
-    # What is made of it
+    # Changes
 
     def _set(self, draft: Draft) -> None:
         self._draft = draft
@@ -260,7 +260,7 @@ class RulesDialog(Retranslated, QDialog):
             self._word(index)
         self._show_current()
 
-    # Qt's own names
+    # Qt overrides
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Accept a typed value on Return; save on Ctrl+Return."""

@@ -113,7 +113,7 @@ class ShortcutsPage(Retranslated, QWidget):
             items.append(item)
             if chosen is not None and row.id == chosen.id:
                 current = item
-        # All at once: columns are as wide as what they hold, and are measured after each addition.
+        # Added all at once, because columns are measured after each addition.
         self.list.addTopLevelItems(items)
         if current is not None:
             self.list.setCurrentItem(current)
@@ -158,7 +158,7 @@ class ShortcutsPage(Retranslated, QWidget):
         row, keys = self._chosen(), self._keys()
         taken = self._conflicts(row.id, keys) if row is not None and keys else ()
         menu = self._menu_of(keys) if keys else ""
-        # What opens a menu would do neither: it cannot be given, and no one can take it from the menu here.
+        # Keys that open a menu can neither be assigned nor be taken from the menu here.
         self.give.setEnabled(row is not None and bool(keys) and not menu)
         names = ", ".join(self._rows[other].text for other in taken if other in self._rows)
         self.reported.setStyleSheet(f"color: {self._session.tokens.warning};")

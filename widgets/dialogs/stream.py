@@ -101,7 +101,7 @@ class StreamDialog(Retranslated, QDialog):
             self._explained, form, self._warning, (self._list, 1), reported, bottom, of=self, margins=14, spacing=10
         )
 
-    # What is shown
+    # Display
 
     def _show(self) -> None:
         state, tokens = self._state, self._session.tokens

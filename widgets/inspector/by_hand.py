@@ -66,7 +66,7 @@ class ByHandLine(QWidget):
         self._button.setIcon(icon("reset", self._session.tokens, self._session.tokens.by_hand))
         self.update()
 
-    # Qt's own names
+    # Qt overrides
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)

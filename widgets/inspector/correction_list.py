@@ -79,7 +79,7 @@ class CorrectionList(Retranslated, QWidget):
         session.theme_changed.connect(self.show_corrections)
         self.retranslate()
 
-    # Showing
+    # Display
 
     def show_corrections(self) -> None:
         """Update the list of corrections, if it is visible."""
@@ -191,7 +191,7 @@ class CorrectionList(Retranslated, QWidget):
         self._attach.setVisible(any(_place(line).orphan for line in self.list.lines.lines))
         self._attach.setEnabled(len(lost) == 1 and len(self._session.selection.notes) == 1)
 
-    # Doing
+    # Actions
 
     def _open(self, key: object) -> None:
         assert isinstance(key, CorrectionRow)
@@ -242,12 +242,12 @@ class CorrectionList(Retranslated, QWidget):
                 lambda project: reattached(project, place.player_id, place.correction, notes[0]),
             )
 
-    # Words
+    # Texts
 
     def retranslate(self) -> None:
         self.show_corrections()
 
-    # Qt's own names
+    # Qt overrides
 
     def showEvent(self, event: QEvent) -> None:
         self.show_corrections()

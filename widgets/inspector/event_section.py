@@ -137,7 +137,7 @@ class EventSection(Retranslated, QWidget):
         self._session.theme_changed.connect(self._apply_theme)
         self._apply_theme()
 
-    # Showing
+    # Display
 
     def show_events(self) -> bool:
         """Show the selected events, and return whether there are any."""
@@ -173,7 +173,7 @@ class EventSection(Retranslated, QWidget):
                 slider.show_value(values[0], mixed=len(set(values)) > 1, default=default, by_hand=apart)
                 if unit == "tick":
                     slider.set_step(max(grid, 1.0))
-                # The entry belongs to the note; a cue's time is its preparatory beat.
+                # The time of an entry belongs to the note; a cue's own time is its preparatory beat.
                 slider.setVisible(not isinstance(first, CueEvent) or side == "end")
                 slider.setEnabled(not isinstance(first, CueEvent))
         self._numbers["end_tick"].set_texts(
@@ -200,7 +200,7 @@ class EventSection(Retranslated, QWidget):
         for name in ("fade_in_s", "fade_out_s"):
             self._show_number(name, name if is_pose or is_face or is_style else None, made)
         for angle in ANGLES:
-            # An elbow turns about one axis only.
+            # An elbow rotates about one axis only.
             has = is_pose and (angle == "up_deg" or "elbow" not in getattr(first, "target", ""))
             self._show_number(angle, angle if has else None, made)
         beats = self._numbers["beats"]
@@ -346,7 +346,7 @@ class EventSection(Retranslated, QWidget):
         ids = self._ids()
         self._edit("edit.give_back", lambda project, plan: edit.give_back(project, plan.player_id, ids))
 
-    # Words
+    # Texts
 
     def _amount_word(self, field: str) -> str:
         return {

@@ -51,7 +51,7 @@ _TOOLS = (
 def mirrored(morph: str) -> str:
     """Return the name of the corresponding morph target of the other side; the same name for one in the middle."""
     if morph in ("jawLeft", "jawRight", "mouthLeft", "mouthRight"):
-        # These move the middle to a side: they are opposites, not a pair.
+        # These move the mouth's middle sideways: they are opposites, not a pair.
         return morph
     if morph.endswith("Left"):
         return morph.removesuffix("Left") + "Right"
@@ -159,7 +159,7 @@ class ExpressionMaker(Retranslated, QWidget):
         session.players_changed.connect(self._preview)
         session.theme_changed.connect(self._apply_theme)
 
-    # Showing
+    # Display
 
     @property
     def is_open(self) -> bool:
@@ -341,7 +341,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self._kept = dict(presets.expressions(presets.expression_folder()).items)
         self._session.notice(Message("expression.kept", {"name": expression.name}))
 
-    # Words and pictures
+    # Texts and pictures
 
     def _group_title(self, group: str) -> str:
         return {
@@ -368,13 +368,13 @@ class ExpressionMaker(Retranslated, QWidget):
         self._name_sliders()
         self.show_expression()
 
-    # Qt's own names
+    # Qt overrides
 
     def showEvent(self, event: QEvent) -> None:
         self._preview()
 
     def hideEvent(self, event: QEvent) -> None:
-        # A window that the program's end takes down hides what is in it after everything else is gone.
+        # Windows closed at exit hide their children after everything else was deleted.
         if not QCoreApplication.closingDown() and shiboken6.isValid(self._session):
             self._picture.show_face(None)
             self._session.set_preview_morphs(None)

@@ -52,7 +52,7 @@ class Generated(QObject):
         return self._plan if self._of is performance and self._player_id == player_id else None
 
     def _make(self, performance: Performance, player_id: str) -> None:
-        # Most edits change nothing of what would be without corrections: what was made for it before serves again.
+        # Most edits do not affect the values without corrections, so the previous ones are reused.
         before = self._bare if self._bare is not None and self._player_id == player_id else performance
         bare = Performance(_without_corrections(performance.project, player_id), before, performance.waiting)
         if bare.unplanned_notes <= AT_ONCE_NOTES:

@@ -48,7 +48,7 @@ class HistoryList(QWidget):
         while len(document.done) < key and document.undone:
             document.redo()
 
-    # Qt's own names
+    # Qt overrides
 
     def showEvent(self, event: QEvent) -> None:
         self.show_steps()

@@ -66,7 +66,7 @@ class NoteFinder:
 def selected_notes(session: Session, finder: NoteFinder) -> SelectedNotes | None:
     """Return the selected notes (see `SelectedNotes`); None if there are none."""
     project, selection = session.project, session.selection
-    # A fingering or an embouchure is a note's.
+    # A fingering or an embouchure belongs to a note.
     events = [EventId.parse(key.event_id) for key in selection.events]
     ids = selection.notes | {event.of for event in events if event.kind in _OF_NOTES}
     if not ids:

@@ -131,7 +131,7 @@ class NoteSection(Retranslated, QWidget):
         self._session.theme_changed.connect(self._apply_theme)
         self._apply_theme()
 
-    # Showing
+    # Display
 
     @property
     def diagram_bottom_px(self) -> int:
@@ -225,7 +225,7 @@ class NoteSection(Retranslated, QWidget):
     ) -> None:
         shown = (instrument.id, *((fingering.label, fingering.cents) for fingering in fingerings))
         if shown != self._chips_shown:
-            # The same chips stay, so that the keyboard stays where it is.
+            # Chips are reused, so that the focus stays.
             self._chips_shown = shown
             self._chips.clear()
             self._chip_of = {
@@ -291,7 +291,7 @@ class NoteSection(Retranslated, QWidget):
         found = [item for item in self._corrections(shown) if isinstance(item, SetEmbouchure) and item.note_id in ids]
         return next((item for item in found if item.note_id == shown.note.id), found[0] if found else None)
 
-    # Words of numbers
+    # Texts of numbers
 
     def _transposition(self) -> int:
         player = self._shown.player if self._shown is not None else None
@@ -382,7 +382,7 @@ class NoteSection(Retranslated, QWidget):
             lambda project, player_id, ids: edit_events.forget(project, player_id, kind, frozenset(ids), field),
         )
 
-    # Words and pictures
+    # Texts and pictures
 
     def _apply_theme(self) -> None:
         tokens = self._session.tokens

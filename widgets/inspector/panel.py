@@ -135,7 +135,7 @@ class InspectorPanel(Retranslated, QWidget):
             return
         whole_px = sum(self._splitter.sizes())
         tabs_px = self._tabs.tabBar().sizeHint().height() + TAB_EDGE_PX
-        # It does not move to and fro with the selection.
+        # Keeps its height, so that it does not jump when the selection changes.
         self._diagram_px = max(self._diagram_px, self._notes.diagram_bottom_px)
         lists_px = min(round(self._lists_share * whole_px), self._problems.height_px() + tabs_px)
         least_px = max(self._problems.height_px(1) + tabs_px, USUAL_LISTS_PX)
@@ -201,7 +201,7 @@ class InspectorPanel(Retranslated, QWidget):
         self._show_tab_texts()
         self.show_selection()
 
-    # Qt's own names
+    # Qt overrides
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

@@ -144,7 +144,7 @@ class ProblemList(Retranslated, QWidget):
         for group in requested[:MOST_LINES]:
             player = group.performer
             colour = session.colour(current[player.id]) if player.id in current else ""
-            # What a line says comes from these; the player's notes are among them, which problems name.
+            # The text of a row depends on these, including the player's notes, which problems name.
             score = project.score
             part = project.part(player) if isinstance(player, Player) else None
             sources = (*group.problems, player, part, score.tempo_map, score.metres, colour, group.is_ignored)
@@ -190,7 +190,7 @@ class ProblemList(Retranslated, QWidget):
         if gone_to is None or self._is_opening:
             return
         if not self._filter.takes(*gone_to, self._session.players):
-            # There is none of those that were asked for.
+            # None of the requested players has problems.
             self._who.show_option(EVERYONE)
             self._kind.show_option(ALL)
             self.show_problems()
@@ -249,7 +249,7 @@ class ProblemList(Retranslated, QWidget):
         finally:
             self._is_opening = False
 
-    # What is done about them
+    # Fixes
 
     def _chosen(self) -> list[RowKey]:
         """Return the keys of the selected rows: the player and the row's problems."""
@@ -281,7 +281,7 @@ class ProblemList(Retranslated, QWidget):
 
     def _fixes(self, row: RowKey) -> tuple[ProblemFix, ...]:
         project = self._session.project
-        # Old problems of a project that is being planned name notes that may be other ones by now.
+        # While a project is planned, the notes of old problems may have changed.
         return fixes_of(project, *row) if self._session.performance.project is project else ()
 
     def _fix_text(self, fix: ProblemFix, problems: tuple[Problem, ...]) -> str:
@@ -343,7 +343,7 @@ class ProblemList(Retranslated, QWidget):
     def retranslate(self) -> None:
         self._say_anew()
 
-    # Qt's own names
+    # Qt overrides
 
     def showEvent(self, event: QEvent) -> None:
         self.show_problems()

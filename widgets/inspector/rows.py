@@ -61,7 +61,7 @@ class LineModel(QAbstractListModel):
         self.lines = new
         self.endResetModel()
 
-    # Qt's own names
+    # Qt overrides
 
     def rowCount(self, parent: AnyIndex = QModelIndex()) -> int:  # noqa: B008
         return 0 if parent.isValid() else len(self.lines)
@@ -87,7 +87,7 @@ class _LineDelegate(QStyledItemDelegate):
         font.setPointSizeF(max(font.pointSizeF() - 0.5, 9.0))
         return font
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self, option: QStyleOptionViewItem, index: AnyIndex) -> QSize:
         height = _line_px(self._view.font()) + 6
@@ -196,7 +196,7 @@ class LineList(QListView):
         if index.isValid():
             self.opened.emit(self.lines.lines[index.row()].key)
 
-    # Qt's own names
+    # Qt overrides
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):

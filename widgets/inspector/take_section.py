@@ -170,7 +170,7 @@ class TakeSection(Retranslated, QWidget):
     def _find_beats(self) -> None:
         actions(self._session)["takes.find_beats"].trigger()
 
-    # Showing
+    # Display
 
     def show_take(self) -> bool:
         """Show the selected take, and return whether there is one."""

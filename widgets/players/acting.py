@@ -108,7 +108,7 @@ class ActingRows(Retranslated, QWidget):
         edit = edit_of_parameter(self._session.project, _HABITS.name, chosen)
         self._session.attempt(edit, lambda project: set_habit(project, chosen, habit, has), None, self)
 
-    # Words
+    # Texts
 
     def retranslate(self) -> None:
         self._show()

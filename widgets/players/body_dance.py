@@ -56,7 +56,7 @@ class BodyDanceRows(Retranslated, QWidget):
         others = (slider for name, slider in self._sliders.items() if name != _VARIATION)
         in_column(choice, *others, variation, of=self, margins=0)
 
-    # Showing
+    # Display
 
     def show_players(self, players: Sequence[Player]) -> None:
         """Show the dance of one or more players."""
@@ -95,7 +95,7 @@ class BodyDanceRows(Retranslated, QWidget):
         if choreography is not None:
             self._edit(_DANCED.name, lambda project: set_body_dance(project, chosen, choreography))
         if id == _FROM_FILE:
-            # Also where none was chosen, or it was refused: the list does not stay at the question.
+            # Also if no file was chosen or it was refused: the list must not stay at the question.
             players = [self._session.project.player(player_id) for player_id in chosen]
             self._show_choreography(list(dict.fromkeys(player.parameters.choreography for player in players)))
 

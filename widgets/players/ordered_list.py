@@ -108,7 +108,7 @@ class OrderedList(QListView):
     def _let_go(self) -> None:
         self._press, self._pressed_number = None, -1
 
-    # Qt's own names
+    # Qt overrides
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         position = event.position().toPoint()
@@ -118,7 +118,7 @@ class OrderedList(QListView):
             self._press = position
             plain = event.modifiers() == Qt.KeyboardModifier.NoModifier
             if plain and self.selectionModel().isSelected(index) and len(self._selected_numbers()) > 1:
-                # Perhaps a drag of all of them: whether it was a click is known at the release.
+                # Possibly the start of a drag of all selected rows: the release shows whether it was a click.
                 self._pressed_number = index.row()
                 return
         elif event.button() == Qt.MouseButton.RightButton:
@@ -153,7 +153,7 @@ class OrderedList(QListView):
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         index = self.indexAt(event.position().toPoint())
         if event.button() == Qt.MouseButton.LeftButton and index.isValid():
-            # Qt forgets that the row was pressed where the press changed the selection.
+            # Qt does not treat it as a click on the row if the press changed the selection.
             self.edit(index)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:

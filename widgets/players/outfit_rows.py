@@ -32,7 +32,7 @@ class OutfitChooser(Retranslated, Combo):
         worn = {one.outfit.id for one in _people(performers)}
         self.setEnabled(bool(worn))
         self.setToolTip("" if worn else self.tr("outfit_rows.own_figure"))
-        # Those that are not there are of a project of another version.
+        # Outfits that are not installed come from a project of another version.
         unknown = [Option(id, id) for id in sorted(worn) if id != OWN_CLOTHES and id not in wardrobe()]
         self.set_options([*_outfits(), *unknown])
         self.show_option(OWN_CLOTHES if not worn else worn.pop() if len(worn) == 1 else None)

@@ -119,7 +119,7 @@ class PlayersPanel(Retranslated, QWidget):
         self._connect()
         self.retranslate()
 
-    # Building
+    # Construction
 
     def _tool(self, picture: str, tip_id: str, run: Callable[[], object]) -> IconButton:
         name = "remove" if picture == "delete" else picture
@@ -173,7 +173,7 @@ class PlayersPanel(Retranslated, QWidget):
         self._parameters.dice_thrown.connect(self._reseed)
         self._spread.changed.connect(self._set_spread)
 
-    # Showing
+    # Display
 
     def _splitter_moved(self) -> None:
         self._divided = True
@@ -203,11 +203,11 @@ class PlayersPanel(Retranslated, QWidget):
             return
         tools_px = self._tools["add"].sizeHint().height() + 14
         if self._empty.isVisibleTo(self):
-            # A sentence is read to its end.
+            # The whole text must be visible.
             upper = self._empty.heightForWidth(self.width()) + tools_px
         else:
             upper = min(max(self.list.height_of_rows() + tools_px, LEAST_LIST_PX), round(LIST_SHARE * height))
-            # The search takes nothing from the rows that it is for.
+            # The search field adds to the height, so that the rows do not lose any.
             upper += self.search.sizeHint().height() if self.search.isVisibleTo(self) else 0
         self._splitter.setSizes([upper, height - upper])
 
@@ -353,13 +353,13 @@ class PlayersPanel(Retranslated, QWidget):
     def _set_spread(self, value: float, token: object) -> None:
         self._session.variety = value
 
-    # Words
+    # Texts
 
     def retranslate(self) -> None:
         self._spread.show_value(self._session.variety)
         self._show_all()
 
-    # Qt's own names
+    # Qt overrides
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

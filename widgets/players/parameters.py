@@ -96,7 +96,7 @@ class ParameterSections(Retranslated, QWidget):
         session.instruments_changed.connect(self._instruments_changed)
         session.characters_changed.connect(self._characters_changed)
 
-    # Building
+    # Construction
 
     def _make_player_rows(self) -> None:
         self._labels = {name: Caption(text_id) for name, text_id in _LABELS.items()}
@@ -143,7 +143,7 @@ class ParameterSections(Retranslated, QWidget):
         elif parameter.name == "style":
             body.addWidget(self._acting)
         elif parameter.name == "habits":
-            return  # In the rows of the style.
+            return  # contained in the rows of the style
         elif parameter.name == "seed":
             body.addLayout(in_row((self._make_slider(parameter), 1), self._dice, spacing=4))
         elif parameter.name in AMOUNTS:
@@ -166,7 +166,7 @@ class ParameterSections(Retranslated, QWidget):
         slider.released.connect(self._session.document.end_gesture)
         return slider
 
-    # Showing
+    # Display
 
     def show_players(self) -> None:
         """Show the parameters of the session's selected players."""
@@ -271,7 +271,7 @@ class ParameterSections(Retranslated, QWidget):
     def _draw_portraits(self) -> None:
         """Draw the portraits of all characters in the background, since each must be loaded."""
         if self._session.performance.project is not self._session.project:
-            # The plans of a piece that was opened come first.
+            # The plans of a piece just opened come first.
             QTimer.singleShot(PORTRAITS_AFTER_MS, self, self._draw_portraits)
             return
         size_px = round(PORTRAIT_PX * self.devicePixelRatioF())
@@ -281,7 +281,7 @@ class ParameterSections(Retranslated, QWidget):
             for number, id in enumerate(characters()):
                 if stop_requested():
                     break
-                # Who cannot be opened has no picture; why is reported where the characters are.
+                # A character that cannot be read has no portrait; the list of characters reports why.
                 with suppress(AppError):
                     drawn[id] = portrait_of(id, size_px)
                 progress((number + 1) / len(characters()))
@@ -299,7 +299,7 @@ class ParameterSections(Retranslated, QWidget):
         self._show_characters()
         self.show_players()
 
-    # Words
+    # Texts
 
     def retranslate(self) -> None:
         self._show_instruments()
@@ -317,12 +317,12 @@ class ParameterSections(Retranslated, QWidget):
         self._show_instruments()
         self.show_players()
 
-    # Qt's own names
+    # Qt overrides
 
     def showEvent(self, event: QShowEvent) -> None:
         if not self._asked:
             self._asked = True
-            # The players themselves come first.
+            # The figures of the players come first.
             QTimer.singleShot(PORTRAITS_AFTER_MS, self, self._draw_portraits)
 
 

@@ -35,7 +35,7 @@ class PlayerDelegate(RowDelegate):
             return QRect()
         return self.buttons(row)[0].translated(-BUTTON_PX - 2, 0)
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self, option: QStyleOptionViewItem, index: AnyIndex) -> QSize:
         line_px = QFontMetricsF(self._view.font()).height()
@@ -124,7 +124,7 @@ class PlayerDelegate(RowDelegate):
             at = room.left() + round(QFontMetricsF(font).horizontalAdvance(name)) + 4
             icon("crown", tokens, tokens.by_hand).paint(painter, QRect(at, upper.center().y() - 7, 16, 16))
         painter.setFont(small)
-        # Dim text would be lost upon the selection.
+        # Dim text would be illegible on a selected row.
         dim = tokens.text if in_front else tokens.text_dim
         painter.setPen(QColor(tokens.warning if row.unseen else dim))
         lower = QRect(room.left(), room.top() + half, right - room.left(), room.height() - half)

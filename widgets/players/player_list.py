@@ -72,7 +72,7 @@ class PlayerList(OrderedList):
         self.rows.show_rows(rows)
         header = None if section is None else self.rows.number(section.id)
         if header is not None:
-            # The keyboard stays on a header that has moved.
+            # The focus stays on a header that has moved.
             self.selectionModel().setCurrentIndex(self.rows.index(header), _FLAGS.NoUpdate)
         self._showing = False
         self._hide_rows()
@@ -216,7 +216,7 @@ class PlayerList(OrderedList):
     def _drop_row_at(self, y: int) -> int:
         return min(self._places(), key=lambda place: abs(self._edge_px(place) - y))
 
-    # Qt's own names
+    # Qt overrides
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         position, left = event.position().toPoint(), event.button() == Qt.MouseButton.LeftButton

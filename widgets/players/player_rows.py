@@ -139,7 +139,7 @@ class PlayerModel(QAbstractListModel):
         row = self._rows[number] if 0 <= number < len(self._rows) else None
         return row if isinstance(row, SectionRow) else None
 
-    # Qt's own names
+    # Qt overrides
 
     def rowCount(self, parent: AnyIndex = QModelIndex()) -> int:  # noqa: B008
         return 0 if parent.isValid() else len(self._rows)

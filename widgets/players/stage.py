@@ -83,7 +83,7 @@ class StageView(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         session.theme_changed.connect(self.update)
 
-    # Between metres and pixels
+    # Conversion of metres and pixels
 
     def _frame(self) -> tuple[float, float, float]:
         """Return the scale in pixels per metre, and x and z of the centre of the view in metres; constant during a
@@ -148,7 +148,7 @@ class StageView(QWidget):
 
     def _moved(self, dx_m: float, dz_m: float, snaps: bool) -> dict[str, StagePosition]:
         if self._grabbed is not None and snaps:
-            # The one that is held comes to the grid, the others keep their places about it.
+            # The grabbed player snaps to the grid; the others keep their positions relative to it.
             place = self._start[self._grabbed]
             dx_m = round((place.x_m + dx_m) / SNAP_M) * SNAP_M - place.x_m
             dz_m = round((place.z_m + dz_m) / SNAP_M) * SNAP_M - place.z_m
@@ -246,7 +246,7 @@ class StageView(QWidget):
             )
         painter.setFont(font)
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self) -> QSize:
         return QSize(240, 190)
@@ -264,9 +264,9 @@ class StageView(QWidget):
         self._paint_floor(painter)
         project = self._session.project
         numbered: list[tuple[int, Player | Dancer]] = [*enumerate(project.players, 1), *enumerate(project.dancers, 1)]
-        # A musician who plays several instruments stands there once, with the number of the first.
+        # A musician with several instruments is drawn once, with the number of the first.
         numbered = [item for item in numbered if isinstance(item[1], Dancer) or project.musician(item[1]) is item[1]]
-        # The selected lie on top.
+        # Selected players are drawn on top.
         for number, player in sorted(numbered, key=lambda item: self._is_selected(item[1])):
             self._paint_performer(painter, number, player)
         painter.restore()

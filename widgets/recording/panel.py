@@ -105,7 +105,7 @@ class RecordingPanel(Retranslated, QWidget):
         session.pitch_display.changed.connect(self._show_played)
         self._count_in.chosen.connect(lambda id: actions(self._session)[id].trigger())
 
-    # What is shown
+    # Display
 
     def _recorded(self) -> Player | None:
         """Return the player to be recorded: the armed one, else the active one."""
@@ -160,7 +160,7 @@ class RecordingPanel(Retranslated, QWidget):
         pitch = recording.pitch
         self._note.setText("" if pitch is None else pitch_text(self._session.pitch_display, pitch, written))
 
-    # Words
+    # Texts
 
     def retranslate(self) -> None:
         table = actions(self._session)
@@ -173,7 +173,7 @@ class RecordingPanel(Retranslated, QWidget):
     # Qt overrides
 
     def showEvent(self, event: QShowEvent) -> None:
-        # The table of actions may be filled after the panel is made.
+        # Actions may be registered after the panel is created.
         self.retranslate()
         super().showEvent(event)
 

@@ -103,7 +103,7 @@ class Lane(Retranslated, QWidget):
         row.setSpacing(0)
         row.addWidget(self.header)
         row.addWidget(self.plot, 1)
-        # Where the plot is folded away the header stays at the left.
+        # The header stays at the left if the plot is folded away.
         row.addStretch(0)
         self.setMinimumHeight(self.least_height_px)
 
@@ -121,7 +121,7 @@ class Lane(Retranslated, QWidget):
         self._paint_surfaces()
         self._axis_changed()
 
-    # What a lane overrides
+    # Overridden by lanes
 
     def project_changed(self, change: Change) -> None:
         """Handle a changed project; compare displayed parts by identity."""
@@ -196,7 +196,7 @@ class Lane(Retranslated, QWidget):
         """Return the least automatic height of the lane in pixels."""
         return self.least_height_px
 
-    # What a lane uses
+    # Used by lanes
 
     @property
     def plot_rect(self) -> QRectF:
@@ -271,7 +271,7 @@ class Lane(Retranslated, QWidget):
         """True while the left button is held in the plot."""
         return self._button == Qt.MouseButton.LeftButton
 
-    # How it works
+    # Helpers
 
     def _mouse(self, event: QMouseEvent | QWheelEvent) -> LaneMouse:
         return self.mouse_at(event.position(), event.modifiers(), event.globalPosition().toPoint())
@@ -298,7 +298,7 @@ class Lane(Retranslated, QWidget):
             self.plot.setCursor(Qt.CursorShape.ClosedHandCursor)
         elif event.button() == Qt.MouseButton.RightButton:
             mouse = self._mouse(event)
-            # A menu takes the release away.
+            # A menu receives the release of the button.
             self._button = Qt.MouseButton.NoButton
             menu = self.context_menu(mouse)
             if menu is not None:
@@ -332,7 +332,7 @@ class Lane(Retranslated, QWidget):
         self._end_press()
         if left:
             self.release(mouse)
-            # While a lane is dragged in, its neighbours keep their heights.
+            # Neighbours of a dragged lane keep their heights.
             self.height_asked.emit()
 
     def _end_press(self) -> None:
@@ -419,7 +419,7 @@ class Lane(Retranslated, QWidget):
         if event.type() == QEvent.Type.LanguageChange:
             self.header.name_fold(self._folded)
         elif event.type() == QEvent.Type.FontChange:
-            # The plot's own font may be another, and stay.
+            # The font of the plot may be another one and unchanged.
             self.update_items()
 
     def sizeHint(self) -> QSize:

@@ -133,7 +133,7 @@ class LaneLayout(QObject):
         self._players.set_layout(state.stacked_heights, state.stacked_folded)
         self._stack.verticalScrollBar().setValue(0)
 
-    # What the user does
+    # User actions
 
     def is_shown(self, lane_id: str) -> bool:
         """Return whether a lane is visible, folded or not."""
@@ -164,7 +164,7 @@ class LaneLayout(QObject):
 
     def _fold(self, lane: Lane, folded: bool) -> None:
         if folded and lane.isAncestorOf(QApplication.focusWidget() or self._stack):
-            # The keys stay with the lane, which is unfolded again where it was folded.
+            # The focus stays in the lane, on its button if it was folded.
             lane.fold_button.setFocus()
         lane.set_folded(folded)
 

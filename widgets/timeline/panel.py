@@ -108,7 +108,7 @@ class TimelinePanel(Retranslated, QWidget):
             lane.fold_changed.connect(self.playhead.place)
         self.flags.sought.connect(self.sought)
         self.ruler.sought.connect(self.sought)
-        # The playback is notified there: a playhead that is set is sought.
+        # The playback is notified, so setting the playhead moves it there.
         self.sought.connect(session.set_playhead)
         self.setFocusProxy(self.roll.plot)
         self.players.made.connect(self._stack_made)
@@ -146,7 +146,7 @@ class TimelinePanel(Retranslated, QWidget):
         self.tool_bar.show_lanes_and_zoom(self.lanes_button, *self.zoom_buttons.values())
         return in_row((self.time_bar, 1), margins=(GUTTER_PX, 1, 0, 1))
 
-    # What commands ask for
+    # Requests of commands
 
     @property
     def rolls(self) -> tuple[PianoRoll, ...]:
@@ -347,7 +347,7 @@ class TimelinePanel(Retranslated, QWidget):
             self._show_beginning()
             self._fitted = False
         elif change.before.score is not change.after.score and not self._is_dragged():
-            # The user looks for notes that an edit or its undo takes out of sight.
+            # Scrolls to notes that an edit or its undo moved out of view.
             for roll in self.rolls:
                 roll.bring_notes_into_view(moved_notes(change.before.score, change.after.score))
 
@@ -375,7 +375,7 @@ class TimelinePanel(Retranslated, QWidget):
         super().showEvent(event)
         self.axis.set_width(self._front.roll.plot.width())
         if not self._fitted:
-            # Only now is it known how wide everything is.
+            # All widths are known only now.
             self._fitted = True
             self._show_beginning()
             self.roll.show_legibly()

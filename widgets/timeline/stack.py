@@ -234,11 +234,11 @@ class LaneStack(QScrollArea):
             Whether to scroll the lane as far to the top as possible, below its player's name. If the lanes of all
             stacked players fit, all are made visible.
         """
-        # The lane may have been shown or unfolded just now.
+        # The lane may have been shown or unfolded a moment ago.
         self.arrange()
         QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         bar = self.verticalScrollBar()
-        # The place of a hidden one is taken by the lanes of several players: that of the one in front.
+        # If hidden, the lane of the player in front among the stacked ones is used.
         shown = self._players.lane_in_front(lane.id) if lane.isHidden() else lane
         if shown is None:
             return

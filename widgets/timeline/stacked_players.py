@@ -140,7 +140,7 @@ class PlayerLanes(QObject):
     # Qt overrides
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        # Commands and menus are about the player in front: the lane's, before it answers.
+        # Commands and menus refer to the player in front, so the lane's player comes to the front first.
         if event.type() in (QEvent.Type.MouseButtonPress, QEvent.Type.FocusIn):
             self.session.bring_forward()
         return super().eventFilter(watched, event)
@@ -250,7 +250,7 @@ class StackedPlayers(Retranslated, QWidget):
             self._open = kinds
             self._show()
 
-    # Who is shown
+    # Displayed players
 
     def _session_changed(self, change: Change) -> None:
         if change.opened:
@@ -275,7 +275,7 @@ class StackedPlayers(Retranslated, QWidget):
                 return kept
             self._chosen = frozenset(chosen)
             ids = [id for id in known if id in self._chosen]
-            # The player in front is always among them.
+            # The player in front is always included.
             first = [id for id in ids if id != chosen[0]][: MOST_STACKED - 1]
             return tuple(id for id in ids if id == chosen[0] or id in first)
         self._chosen = frozenset()

@@ -147,7 +147,7 @@ class ToolBar(Retranslated, QWidget):
 
     def _choose_player(self, index: int) -> None:
         self._session.set_players((self.player_box.itemData(index),))
-        # The arrows are for notes again.
+        # The arrow keys act on notes again.
         timeline = self.parentWidget()
         if timeline is not None:
             timeline.setFocus()

@@ -40,7 +40,7 @@ class WheelTurn(NamedTuple):
 def wheel_turn(event: QWheelEvent) -> WheelTurn:
     """Return direction, notches and modifier keys of a turn of the mouse wheel."""
     delta, keys = event.angleDelta(), event.modifiers()
-    # With Alt held, some platforms turn the wheel sideways.
+    # On some platforms Alt turns the wheel sideways.
     sideways = not delta.y() and not keys & Qt.KeyboardModifier.AltModifier
     ctrl, shift = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
     return WheelTurn((delta.y() or delta.x()) / 120.0, sideways, bool(keys & ctrl), bool(keys & shift))

@@ -107,7 +107,7 @@ class TransportBar(Retranslated, QWidget):
         self._show_playhead(session.playhead_s)
         self._show_state()
 
-    # Building
+    # Construction
 
     def _button(self, action_id: str, text_id: str) -> QToolButton:
         button = self._tool(action_id.replace(".", "_"))
@@ -187,13 +187,13 @@ class TransportBar(Retranslated, QWidget):
         self.snap.chosen.connect(lambda name: self._session.set_grid(Grid(GRIDS[name])))
         on_switch(self.snap_button, lambda on: self._session.set_grid(Grid(self._session.grid.quarters, on)))
 
-    # What the user does
+    # User actions
 
     def _trigger(self, action_id: str) -> None:
         action = actions(self._session).get(action_id)
         if action is not None:
             action.trigger()
-        # A toggle that did nothing must not look as if it had.
+        # A toggle without effect must show its actual state.
         self._show_state()
 
     def _fill_record_menu(self, menu: QMenu) -> None:
@@ -205,7 +205,7 @@ class TransportBar(Retranslated, QWidget):
         time_s = min(max(time_s, start_s), end_s)
         self._session.set_playhead(time_s)
         self._session.reveal(time_s)
-        # Also where the playhead was at the limit already: the field has what was typed.
+        # Also if the playhead was at the limit already: the field still shows the typed value.
         self._show_playhead(time_s)
 
     def _choose_source(self, source: str) -> None:
@@ -213,7 +213,7 @@ class TransportBar(Retranslated, QWidget):
             if known == source:
                 self._session.listening.set(source=known)
 
-    # What is shown
+    # Display
 
     def _project_changed(self, change: Change) -> None:
         before, after = change.before, change.after
@@ -229,7 +229,7 @@ class TransportBar(Retranslated, QWidget):
         frames = playhead_s * float(project.fps)
         self.bars.show_value(float(tick), by_hand=False)
         self.clock.show_value(playhead_s, by_hand=False)
-        # The frame that is on the screen: the one that began last.
+        # The frame on the screen is the one that began last.
         self.frames.show_value(float(floor(frames + 1e-6)), by_hand=False)
         self.beat.show_time(playhead_s)
         self._show_take(playhead_s)
@@ -323,14 +323,14 @@ class TransportBar(Retranslated, QWidget):
 
     def retranslate(self) -> None:
         for slider in (self.volume, self.speed):
-            # A slider without its name is not found.
+            # The slider must be as wide as its name, or users would not find it.
             slider.setMinimumWidth(min(slider.sizeHint().width(), slider.maximumWidth()))
         self._show_state()
 
-    # Qt's own names
+    # Qt overrides
 
     def showEvent(self, event: QShowEvent) -> None:
-        # The table of actions may be filled after the bar is made.
+        # Actions may be registered after the bar is created.
         self.word()
         super().showEvent(event)
 

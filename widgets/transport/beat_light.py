@@ -50,7 +50,7 @@ class BeatLight(QWidget):
             return _OFF
         return _BEAT if beats[place] else _BAR
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self) -> QSize:
         return QSize(16, 16)

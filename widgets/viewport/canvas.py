@@ -40,7 +40,7 @@ def why_no_gl() -> str | None:
     version = context.format().version()
     context.doneCurrent()
     surface.destroy()
-    # PySide gives the pair as a plain tuple.
+    # PySide returns the pair as a plain tuple.
     major, minor = int(version[0]), int(version[1])
     return f"OpenGL {major}.{minor} < 2.0" if (major, minor) < (2, 0) else None
 
@@ -57,7 +57,7 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
     """
 
     def __init__(self, picture: Callable[[int, int], Picture], failed: Callable[[str], None]) -> None:
-        # Before the base class, which may draw at once.
+        # Set before the base class, which may draw at once.
         self._picture = picture
         self._failed = failed
         self._renderer: Renderer | None = None
@@ -128,13 +128,13 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         if self._broken:
             return None
         if native.context() is None:
-            # The context comes with the first picture of a widget, also of a hidden one.
+            # The first picture creates the context, even that of a hidden widget.
             native.grabFramebuffer()
         if native.context() is None or not native.isValid():
             return None
         native.makeCurrent()
         self.set_current()
-        # vispy binds the widget's own framebuffer with its next commands: let it do so before ours is bound.
+        # vispy binds the widget's framebuffer with its next commands, so these are flushed before ours is bound.
         self.context.flush_commands()
         kind = QOpenGLFramebufferObjectFormat()
         kind.setSamples(SAMPLES)

@@ -124,7 +124,7 @@ def stand_of(player: Player, assets: RenderAssets, number: int) -> FloatArray | 
         return None
     points = np.concatenate([mesh.positions_m for mesh in assets.instrument.meshes]).astype(np.float64)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
-    # It lies on what is nearest to its middle.
+    # Attached to the point nearest to its centre.
     nearest = points[int(np.argmin(np.linalg.norm(points - middle, axis=1)))]
     top_m: FloatArray = found[0] + quaternion.rotate(found[1], nearest)
     return top_m
@@ -165,7 +165,7 @@ def seat(skeleton: Skeleton, posture: Posture) -> FloatArray | None:
     rest = rest_positions(skeleton)
     shank_m = float(np.linalg.norm(skeleton.offsets_m[skeleton.index("leftFoot")]))
     ankle_m = float(rest[skeleton.index("leftFoot")][1])
-    # The thigh's flesh is as thick below its bone as the seat is under the knee's hollow.
+    # The flesh of the thigh is as thick below its bone as the seat is below the hollow of the knee.
     height_m = ankle_m + shank_m * posture.seat_height_shank - SITTING_FLESH_M
     return np.array([0.0, height_m, float(rest[skeleton.index("hips")][2]) + 0.02])
 
@@ -273,7 +273,7 @@ class Stage:
                 self.bones[row, self.seat_bone, :, :3] = member.world_from_player[:, :3]
                 self.bones[row, self.seat_bone, :, 3] = _moved(member.world_from_player, member.seat_m)
             if member.stand_m is not None:
-                # As high as it stands.
+                # Raised to the height of the stand.
                 self.bones[row, self.stand_bone, :, :3] = member.world_from_player[:, :3]
                 self.bones[row, self.stand_bone, :, 1] *= member.stand_m[1]
                 self.bones[row, self.stand_bone, :, 3] = _moved(member.world_from_player, member.stand_m)
@@ -294,7 +294,7 @@ class Stage:
         fresh = False
         for row, member in enumerate(self.members):
             pose = poses.get(member.player_id)
-            # Who has just got another character is posed as that one, or drawn as that one, only a moment later.
+            # A player whose character just changed may have a pose of the former one for a moment.
             if (
                 pose is not None
                 and pose is not self.poses[row]

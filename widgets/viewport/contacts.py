@@ -74,7 +74,7 @@ def touches(stage: Stage, row: int) -> tuple[ContactReading, ...]:
         result.append(ContactReading(contact.part, requested, place, contact.grip == "firm"))
         if works := worked_by(contact, kit.map):
             workers.setdefault(works, []).append(result[-1])
-    # What several fingers may work, the nearest of them does.
+    # If several fingers may work it, the nearest one does.
     idle = {id(touch) for touches in workers.values() for touch in touches if touch.finger != _nearest(touches).finger}
     return tuple(touch for touch in result if id(touch) not in idle)
 

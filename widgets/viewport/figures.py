@@ -130,7 +130,7 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
         pair = (dressed_as(player.character_id, player.outfit), player.instrument_id)
         if pair not in assets:
             assets[pair] = kit_of(player)
-        # Where what the musician plays first cannot be seen, the next has the body.
+        # If the musician's first instrument cannot be shown, the next one has the body.
         musician = musicians.setdefault(project.musician(player).id, player.id)
         played = project.played_by(player)
         stand_m = stand_of(player, assets[pair], played.index(player)) if len(played) > 1 else None

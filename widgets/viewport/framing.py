@@ -17,7 +17,7 @@ from widgets.viewport.cast import Stage
 from widgets.viewport.finger_visibility import clearest, directions, fingers_seen
 from widgets.viewport.limb_capsules import model_bounds
 
-# Turn from the player's front towards their left, height of the eye, both in degrees; of the hands: the usual ones.
+# Angle from the player's front towards their left and elevation of the eye, in degrees; for hands the usual ones.
 _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
     "ensemble": (0.0, 9.0),
     "front": (0.0, 4.0),
@@ -119,7 +119,7 @@ def tracked(view: View, stage: Stage, row: int) -> FloatArray | None:
         held = stage.node_matrix(row)
         assets = stage.members[row].assets
         lips = held[:, :3] @ np.asarray(assets.map.mouthpiece.position_m) + held[:, 3]
-        # Lips and eyes both, and in a long rest, when the instrument is lowered, still the face.
+        # Lips and eyes, and still the face while the instrument is lowered in a long rest.
         head = stage.joints[row, assets.character.skeleton.index("head")]
         size = face_size(assets.character)
         face: FloatArray = head[:, :3] @ (size * np.array([0.0, 0.02, 0.09])) + head[:, 3]

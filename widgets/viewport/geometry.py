@@ -128,7 +128,7 @@ def crowd(parts: Sequence[tuple[int, Geometry]]) -> Crowd:
     start, first, second = 0, 0, one_sided
     for row, part in parts:
         here = slice(start, start + len(part.shape))
-        # Plain numbers are copied ten times as fast as records of them.
+        # Copying plain numbers is ten times as fast as copying records.
         numbers(shape)[here] = numbers(part.shape)
         numbers(surface)[here] = numbers(part.surface)
         rows[here] = row
@@ -270,14 +270,14 @@ class _Whole:
         moved = np.zeros(len(self._shape), dtype=bool)
         for name in names:
             moved[self._morphs[name][0]] = True
-        # Vertices that morph come first, so that only they are sent again.
+        # Vertices that morph come first, so that only they are uploaded again.
         order = kept[np.argsort(~moved[kept], kind="stable")]
         place = np.full(len(self._shape), -1, np.int64)
         place[order] = np.arange(len(order))
         count = int(moved[kept].sum())
         shape = self._shape[order]
         face = self._face(names, shape, place, count) if count else None
-        # Vertices of different materials are never one, so that the first corner decides for the triangle.
+        # Vertices of different materials are never merged, so the first corner decides for the triangle.
         last = self._two_sided[triangles[:, 0]]
         look = self._look[triangles[:, 0]]
         textured = not far and bool((look >= 0).any())
@@ -324,7 +324,7 @@ class _Whole:
             return np.arange(len(self._shape)), self._triangles
         wide = np.maximum(np.minimum(cell_m * self._coarser, thin_share * self._thickness), LEAST_CELL_M)[:, None]
         cells = np.floor(self._shape["a_position"].astype(np.float64) / wide).astype(np.int64)
-        # Surfaces that face away from one another are not merged through a thin wall.
+        # Surfaces that face in different directions are not merged through a thin wall.
         facing = np.argmax(np.abs(self._shape["a_normal"]), axis=1)
         sign = np.take_along_axis(self._shape["a_normal"], facing[:, None], axis=1)[:, 0] > 0.0
         keys = row_keys(*cells.T, facing * 2 + sign, self._looks)

@@ -128,17 +128,17 @@ def dragged(
     turns = handle.leans if lean and handle.leans else handle.turns
     depth_m = float((camera.eye_m - handle.at_m) @ camera.backward)
     scale = camera.pixels_per_metre(height_px, max(depth_m, 0.05))
-    # Pixels per radian, with what perspective does to a handle that comes nearer.
+    # Pixels per radian, including perspective when a handle comes nearer.
     places, _ = camera.project([handle.at_m, *(handle.at_m + _SMALL * turn for _, turn in turns)], height_px, height_px)
     columns = (places[1:] - places[0]).T / _SMALL
     lengths = np.linalg.norm(columns, axis=0)
     fullest = max((float(np.linalg.norm(turn)) for _, turn in turns), default=0.0) * scale
-    # A turn seen from its end would need huge angles for small drags.
+    # A rotation seen along its axis would need huge angles for small drags.
     seen = lengths > 0.3 * max(fullest, 1e-9)
     result: dict[Angle, float] = {angle: 0.0 for angle, _ in turns}
     if seen.any():
         own = columns[:, seen]
-        # Turns that look alike from here share the drag instead of working against one another.
+        # Rotations that look alike from here share the drag instead of opposing each other.
         damped = own.T @ own + (_DAMPING * fullest) ** 2 * np.eye(own.shape[1])
         solved = np.linalg.solve(damped, own.T @ np.array([right_px, down_px]))
         for index, value in zip(np.flatnonzero(seen), solved, strict=True):

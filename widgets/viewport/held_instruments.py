@@ -58,7 +58,7 @@ class Instruments:
                 parts.append(part)
         self._rows, self._nodes = np.array(rows, np.intp), np.array(nodes, np.intp)
         most = max((len(own) for own in controls), default=1)
-        # A part that fewer controls move is moved by its first one once more.
+        # A part with fewer controls is moved by its first one again, with no effect.
         padded = [own + own[:1] * (most - len(own)) for own in controls]
         self._controls = np.array(padded, np.intp).reshape(-1, most)
         self._all_needed = np.array([part.when == "all" for part in parts], dtype=bool)
@@ -81,7 +81,7 @@ class Instruments:
         asked = self._values[self._controls]
         values = np.where(self._all_needed, asked.min(axis=1), asked.max(axis=1))
         turns = quaternion.to_matrix(quaternion.from_axis_angle(self._axes, values * self._angles_rad))
-        # About the pivot, and along the way: a part has one of both.
+        # About the pivot and along the path: a part has one of both.
         moved_m = self._pivots_m - (turns @ self._pivots_m[:, :, None])[..., 0] + values[:, None] * self._travels_m
         owners = held[self._rows]
         result[self._rows, self._nodes, :, :3] = owners[..., :3] @ turns

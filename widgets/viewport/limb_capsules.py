@@ -59,10 +59,10 @@ def _anatomy(skeleton: Skeleton) -> _Anatomy:
     for side in ("left", "right"):
         ankle = names.index(side + "Foot")
         toes = names.index(side + "Toes") if side + "Toes" in names else ankle
-        # A shoe is lower than a capsule as wide: the capsule sinks into the floor.
+        # A shoe is lower than a capsule of its width, so the capsule sinks into the floor.
         low_m = 0.6 * SOLE_RADIUS_M
         heel = (0.0, low_m - rest[ankle][1], -0.02)
-        # Without joints for the toes the foot is as long as feet are.
+        # Without toe joints the foot gets a usual length.
         tip = (0.0, low_m - rest[toes][1], 0.03 if toes != ankle else 0.15)
         joints.append((ankle, toes))
         offsets.append((heel, tip))
@@ -152,7 +152,7 @@ def hit(capsules: FloatArray, origin: FloatArray, direction: FloatArray) -> tupl
     ab, ap = b - a, origin - a
     length2 = np.maximum(np.einsum("nli,nli->nl", ab, ab), 1e-9)
     along = ab @ direction
-    # The point of the segment nearest to the ray's line, then that of the ray nearest to it.
+    # Point of the segment nearest to the ray's line, then point of the ray nearest to it.
     det = np.maximum(length2 - along * along, 1e-9)
     share = (np.einsum("nli,nli->nl", ab, ap) - along * (ap @ direction)) / det
     on = a + np.clip(share, 0.0, 1.0)[..., None] * ab

@@ -59,7 +59,7 @@ class Offscreen:
         selected = tuple(own for own in player_ids if own not in self._session.project.dancer_ids)
         self._session.set_players(selected if marked else ())
         self._session.viewport.show("names", marked)
-        # Of a large piece only the one in front has been loaded; the camera of a film looks at everyone.
+        # In a large piece only the player in front has been loaded; a film shows all.
         self._panel.scene.load()
         return self._panel.film(*size, span_s, view, marked, player_ids, cameras)
 
@@ -71,7 +71,7 @@ class Offscreen:
         unseen = {} if loaded is None else {one.player.id: one.reason for one in loaded.left_out}
         for performer in self._session.project.performers:
             lacking = self._live.performance.lacking(performer) if isinstance(performer, Player) else ()
-            # As exports and reports name it, where they do.
+            # Named as in exports and reports.
             reason = next(iter(lacking), None) or self._live.error(performer.id) or unseen.get(performer.id)
             if reason is not None:
                 found.append(LeftOut(performer, reason))
@@ -150,7 +150,7 @@ def captions(texts: Sequence[tuple[str, str]], width: int, theme: str) -> list[P
         painter.setFont(font)
         for row, (line, color) in enumerate(rows):
             painter.setPen(QColor(color))
-            # What is still wider than its picture is drawn narrower.
+            # A text still wider than its picture is condensed.
             narrower = min(1.0, (width - 2.0 * margin) / max(metrics.horizontalAdvance(line), 1))
             painter.setTransform(QTransform(narrower, 0.0, 0.0, 1.0, margin, metrics.ascent() + row * step))
             painter.drawText(0, 0, line)
@@ -181,7 +181,7 @@ class _MadePoses:
         live.request(time_s, 0.0)
         while not live.is_seen:
             raise_if_stopped(self._stop_requested)
-            # A player whom a fault of the program stops is excluded, with the reason.
+            # A player stopped by a fault of the program is excluded, with the reason.
             with contextlib.suppress(PlayerFault):
                 if not live.work():
                     break

@@ -93,7 +93,7 @@ def handle_at(
         return None
     places, depths = camera.project(np.array([handle.at_m for handle in handles]), *size)
     off = np.hypot(places[:, 0] - x_px, places[:, 1] - y_px)
-    # As large as a finger's or pen's target, larger than it is drawn.
+    # As large as a target for a finger or pen, larger than it is drawn.
     found = [index for index in range(len(handles)) if off[index] <= HANDLE_RADIUS_PX + 4.0 and depths[index] > 0.0]
     return handles[min(found, key=lambda index: off[index])] if found else None
 
@@ -246,7 +246,7 @@ def _placed_names(
     places, depths = camera.project(np.array([name.at_m for name in names]), *size)
     metrics = {bold: QFontMetricsF(_font(painter, 9.0, bold)) for bold in (False, True)}
     placed: list[tuple[NameTag, QRectF]] = []
-    # The selected players first, then the nearest; a name that would cover another is left out.
+    # Selected players first, then the nearest; a name that would cover another is omitted.
     for index in sorted(range(len(names)), key=lambda index: (not names[index].in_front, depths[index])):
         name, place = names[index], places[index]
         if depths[index] <= 0.0 or not (-50.0 < place[0] < size[0] + 50.0 and 0.0 < place[1] < size[1]):

@@ -160,7 +160,7 @@ class ViewportPanel(Retranslated, QWidget):
             self._pointer.menu_asked.connect(lambda at: offer_actions(session, MENU, self, "viewport_menu", at))
             self._pointer.framed.connect(lambda row: self._frame([row]))
 
-    # What others ask
+    # Requests of other parts
 
     @property
     def has_gl(self) -> bool:
@@ -309,7 +309,7 @@ class ViewportPanel(Retranslated, QWidget):
             painter.end()
             return pixels(image)
         finally:
-            # What the window shows has not changed.
+            # The display in this window has not changed.
             self._elsewhere = None
             self.scene.take(shown)
 
@@ -365,7 +365,7 @@ class ViewportPanel(Retranslated, QWidget):
 
     def _drawing_failed(self, reason: str) -> None:
         self._failure = reason
-        # Not while Qt paints the widget that is taken away.
+        # Deferred until Qt has finished painting the widget to be removed.
         QTimer.singleShot(0, self, self._give_up)
 
     def _give_up(self) -> None:
@@ -421,7 +421,7 @@ class ViewportPanel(Retranslated, QWidget):
             self._update()
 
     def _selection_changed(self) -> None:
-        # Only handles of poses tell of the selected span.
+        # Only handles of poses refer to the selected span.
         if self._session.viewport.posing:
             self._update()
 
@@ -429,7 +429,7 @@ class ViewportPanel(Retranslated, QWidget):
         state = self._session.viewport
         return state.posing or any(state.shows(what) for what in SHOWN if what not in ("wireframe", "props"))
 
-    # The camera
+    # Camera
 
     def _tracked(self) -> FloatArray | None:
         """Return the point (3,) in the world that the view keeps in the middle; None if it follows nothing."""
@@ -538,10 +538,10 @@ class ViewportPanel(Retranslated, QWidget):
 
     def _show_live(self) -> None:
         if not self._session.live_players.is_shown:
-            # The players that were played live return to the performance.
+            # Players played live return to the performance.
             self._live.stop()
             self.refresh()
-        # While the performance plays the playhead's changes draw already.
+        # During playback each change of the playhead draws anyway.
         if not self._session.playing:
             self.refresh()
 
@@ -586,7 +586,7 @@ class ViewportPanel(Retranslated, QWidget):
         self._eye.touched = True
         self._go(frame(self._eye.destination, *bounds(stage, rows), widget.width() / max(widget.height(), 1)))
 
-    # Looks and language
+    # Appearance and language
 
     def _apply_theme(self) -> None:
         tokens = self._session.tokens

@@ -159,7 +159,7 @@ class Pointer(QObject):
             if self._session.viewport.posing:
                 self._session.viewport.set_posing(False)
                 return True
-        # Everything else is the shell's: shortcuts, and the way from panel to panel.
+        # Other keys belong to the shell: shortcuts, and moving between panels.
         event.ignore()
         return False
 

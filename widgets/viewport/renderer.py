@@ -111,7 +111,7 @@ class Renderer:
         self._middles_m = floor_m + MIDDLE_M
         self._sent.clear()
         if same:
-            # The same players at other places: what is on the card stays.
+            # The same players at other positions: uploaded data remains valid.
             self._limbs = LimbCapsules(stage)
             return
         alive = {
@@ -196,7 +196,7 @@ class Renderer:
         stage, shapes, limbs = self._stage, self._shapes, self._limbs
         if stage is None or shapes is None or limbs is None or not stage.members or not stage.shown.any():
             return
-        # Who turns the camera waits for no image; a picture that stands has them all.
+        # While the camera moves, drawing waits for no texture; a still picture uses all of them.
         self._maps.left = 1 if emphasis.in_motion else _ALL
         level = self._levels(stage, camera, matrix, height / HASTY_FACTOR if hasty else height)
         self._upload(stage, limbs, level, emphasis)
@@ -214,7 +214,7 @@ class Renderer:
                 self._light(program, camera, clip, look)
         if (level == LEVELS - 1).any():
             draw_sides(self._batch, self._batch_triangles)
-        # Alpha is how many of a pixel's samples are drawn of what is cut out; the picture itself stays opaque.
+        # For cut-out materials alpha is the share of samples drawn; the picture itself stays opaque.
         gloo.set_color_mask(True, True, True, False)
         whole = hasty or gl.glGetParameter(GL_SAMPLES) < 2
         self._figures["u_least"] = WHOLE_PIXELS if whole else MULTISAMPLED
@@ -223,7 +223,7 @@ class Renderer:
         context.glir.command("FUNC", "glDisable", GL_SAMPLE_ALPHA_TO_COVERAGE)
         gloo.set_color_mask(True, True, True, True)
         if emphasis.wireframe:
-            # Lines that lie as near as pixels would paint the players over.
+            # Lines closer together than pixels would hide the players.
             opacity = 0.4 * float(np.clip(camera.pixels_per_metre(height) / 900.0, 0.25, 1.0))
             self._draw_wires(stage, shapes, level, 0.0006 * camera.distance_m, (*look.wire, opacity))
 
@@ -274,7 +274,7 @@ class Renderer:
         level = np.where(scale > FINE_PX_PER_M, 0, np.where(scale > COARSE_PX_PER_M, 1, LEVELS - 1))
         order = np.argsort(away, kind="stable")
         level[order[MOST_NEAR:]] = LEVELS - 1
-        # A sphere that lies wholly outside one side of the frustum is not seen.
+        # A sphere wholly outside one side of the frustum is invisible.
         planes = matrix[3] + np.array([sign * matrix[axis] for axis in (0, 1) for sign in (1.0, -1.0)])
         planes /= np.linalg.norm(planes[:, :3], axis=1, keepdims=True)
         outside = (middles @ planes[:, :3].T + planes[:, 3] < -SPREAD_M).any(axis=1)
@@ -286,7 +286,7 @@ class Renderer:
         rows = self._bone_rows
         rows[:, :-1] = stage.bones.reshape(count, -1, 4)
         if not emphasis.props:
-            # What has shrunk to a point is not drawn, nor has it edges.
+            # Parts that have shrunk to a point are not drawn, nor are their edges.
             rows[:, 3 * stage.first_support : -1] = 0.0
         rows[:, -1] = 0.0
         rows[:, -1, 0] = level == LEVELS - 1
@@ -294,7 +294,7 @@ class Renderer:
         self._bones.set_data(rows)
         capsules = limbs.capsules()
         self._limb_rows[:, :-1] = capsules.reshape(count, -1, 4)
-        # Of a player without a body of its own only the instrument is drawn.
+        # For a player without a body of its own only the instrument is drawn.
         first = [0 if member.has_body else HELD for member in stage.members]
         middle = capsules[np.arange(count), first, 0, :3]
         self._limb_rows[:, -1, :3] = middle
@@ -322,7 +322,7 @@ class Renderer:
         program["u_clip_from_world"] = clip
         program["u_eye"] = camera.eye_m
         program["u_key"] = look.key
-        # The fill comes with the camera, from the side where the key is not.
+        # The fill light comes from the camera, on the side away from the key light.
         fill = camera.backward + 0.7 * camera.right + 0.15 * camera.up
         program["u_fill"] = fill / np.linalg.norm(fill)
         program["u_rim"], program["u_sky"], program["u_ground"] = look.rim, look.sky, look.ground
@@ -341,7 +341,7 @@ class Renderer:
             program.bind(self._shape(stage, row, int(level[row]), solid))
             program.bind(solid.surface)
             self._draw_solid(solid, row, mode)
-        # A capsule is too coarse a likeness of an instrument to shade the instrument itself.
+        # Capsules are too coarse to shade the instrument itself.
         program["u_shaded"] = 0.0
         bound: Solid | None = None
         holding = [row for row in near if stage.members[row].assets.held is not None]
@@ -377,7 +377,7 @@ class Renderer:
             program["a_uv"] = solid.uvs
         for culled, look, triangles in solid.triangles:
             if look >= 0:
-                # Only the finest of a figure's levels is seen from so near that its surface has a relief.
+                # Only the finest level is seen near enough for its surface to have a relief.
                 self._maps.dress(program, looks[look], solid.fine)
             gloo.set_state(cull_face=culled)
             program.draw("triangles", triangles)

@@ -129,10 +129,10 @@ class ViewportScene(QObject):
             if same_figures(loaded.key, key):
                 self._report_left_out(loaded.left_out)
             elif not loaded.stage.shown.any():
-                # Loading them would hold up the motion of the one in front.
+                # Loading them now would delay the motion of the one in front.
                 self._others.start()
                 return
-        # Players or places may have changed meanwhile.
+        # Players or positions may have changed meanwhile.
         self.load()
 
     def _report_left_out(self, left_out: tuple[LeftOut, ...]) -> None:
@@ -181,7 +181,7 @@ class ViewportScene(QObject):
         """Return whether the pose of any performer at a time differs from the displayed one."""
         shown = self.poses()
         found = self._poses.poses(tuple(shown), time_s)
-        # A pose that is not there yet leaves the one before it.
+        # If a pose is not ready the previous one stays.
         return any(pose is not None and not same(pose, own) for pose, own in zip(found, shown.values(), strict=True))
 
     def lacks(self, time_s: float) -> bool:
@@ -239,7 +239,7 @@ class ViewportScene(QObject):
         dancer = self._session.dancer
         return dancer is not None and performer.id == dancer.id
 
-    # Marks and words
+    # Marks and texts
 
     def handles(self) -> tuple[Handle, ...]:
         """Return the handles of the first visible selected player while the pose tool is active; otherwise none."""

@@ -69,7 +69,7 @@ class _Head(msgspec.Struct, frozen=True):
     levels: tuple[_Level, ...]
 
 
-# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+# Created while the import lock is held: msgspec crashes if two threads use a type for the first time at once.
 _DECODER: Final = msgspec.msgpack.Decoder(_Head)
 
 
@@ -88,7 +88,7 @@ def kept(
     if found is not None:
         return found
     made = make()
-    # A cache that cannot be written costs the next start some tenths of a second and nothing else.
+    # If the cache cannot be written, only the next start takes some tenths of a second longer.
     with contextlib.suppress(OSError, FileError):
         path.parent.mkdir(parents=True, exist_ok=True)
         with atomic_write(path) as file:

@@ -36,7 +36,7 @@ class Shapes:
 
 def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
     """Return the shapes of a stage, reusing those in ``before``."""
-    # What no one wears any more is not kept: every colour that was tried would be.
+    # Clothes that are no longer worn are dropped, or each colour tried would be kept.
     known = {} if before is None else before.characters
     characters: dict[str, tuple[Geometry, ...]] = {}
     for member in stage.members:
@@ -44,7 +44,7 @@ def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
         if character.id not in characters:
             found = known.get(character.id)
             characters[character.id] = character_levels(character) if found is None else found
-    # The instruments' nodes and the straps follow the joints: their numbers depend on who else is there.
+    # Nodes of instruments and straps are numbered after all joints, which depends on the other players.
     instruments, supports = {}, {}
     for member in stage.members:
         if member.assets.held is not None and member.assets.map.id not in instruments:

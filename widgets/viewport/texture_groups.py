@@ -27,7 +27,7 @@ def uv_islands(triangles: AnyIntArray, textured: npt.NDArray[np.bool_]) -> IntAr
     count = len(textured)
     if not textured.any():
         return np.zeros(count, np.int64)
-    from scipy.sparse import coo_matrix  # heavy; not needed before the first figure with textures
+    from scipy.sparse import coo_matrix  # slow to import; not needed before the first figure with textures
     from scipy.sparse.csgraph import connected_components
 
     own = triangles[textured[triangles[:, 0]]]

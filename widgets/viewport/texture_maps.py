@@ -99,7 +99,7 @@ def _pixels(texture: Texture, near: bool) -> Pixels | None:
 def texture_of_pixels(pixels: Pixels) -> Any:
     """Return a texture with mipmaps, so that fine details do not flicker."""
     texture = gloo.Texture2D(np.ascontiguousarray(pixels), interpolation="linear", wrapping="repeat")
-    # vispy has no name for them. Its last command leaves the texture bound.
+    # vispy does not support these modes by name. Its last command leaves the texture bound.
     texture.glir.command("INTERPOLATION", texture.id, _GL_LINEAR_MIPMAP_LINEAR, "linear")
     texture.glir.command("FUNC", "glGenerateMipmap", gl.GL_TEXTURE_2D)
     return texture

@@ -176,7 +176,7 @@ class VideoStrip(Retranslated, QWidget):
         on_click(self._estimate, lambda: actions(session)["video.estimate_offset"].trigger())
         self._hide = self.texted(self._button("video_hide"), tip="video_strip.hide", name="video_strip.hide")
         on_click(self._hide, partial(session.video.set, placement="hidden"))
-        # What the viewport has no room for comes into a second line, with its whole text.
+        # Controls that do not fit move to a second line, with their whole text.
         parts = FlowLayout()
         for part in (self._title, *self._buttons.values(), self._opacity, self._offset, self._estimate):
             part.setMinimumHeight(LEAST_TARGET_PX + 2)

@@ -179,7 +179,7 @@ class GeneratedDance:
             fps,
             constraints=self._constraints(grid),
             first_s=frame.first_frame_s,
-            # Half a frame less: rounding must not add one.
+            # Half a frame less, so that rounding does not add a frame.
             end_s=frame.first_frame_s + (count - 0.5) * fps.denominator / fps.numerator,
         )
         held = not_held(self._corrections, dance.steps, grid, self._tempo_map)
@@ -228,10 +228,10 @@ def dancing_of(performance: Performance, dancer: Dancer) -> GeneratedDance:
         raise AppError(message.id, **message.arguments)
     choreographer, character = choreographer_of(dancer.choreography), character_named(dancer.character_id)
     project = performance.project
-    # Another seed of the piece is another performance by everyone.
+    # Another seed of the piece changes the performance of every player and dancer.
     dancer = msgspec.structs.replace(dancer, seed=performed_seed(dancer.seed, project.seed))
     rhythm = delayed(rhythm_of(performance), dancer.delay_beats) if dancer.delay_beats else rhythm_of(performance)
-    # Who does not listen to the melody dances on as before when it is edited.
+    # The dance of a dancer that ignores the melody does not change when the melody is edited.
     rhythm = _same_rhythm(rhythm if dancer.melody else replace(rhythm, melody=None))
     corrections = project.dance_corrections.get(dancer.id, ())
     tempo_map, frame = project.score.tempo_map, dance_frame(performance)
@@ -293,7 +293,7 @@ def not_held(
     for item in corrections:
         if isinstance(item, ForbidState):
             places = _places(item, grid, tempo_map)
-            # What is pinned counts.
+            # Steps with a pinned state are exempt.
             danced = [
                 step for step in steps if step.place in places and step.state == item.state and step.place not in pinned
             ]

@@ -115,7 +115,7 @@ def evaluate(arguments: argparse.Namespace) -> int:
     if reason is not None:
         warn(reason)
         return NO_DISPLAY
-    # All of Qt.
+    # imports all of Qt
     from widgets.viewport.offscreen import offscreen
 
     progress = Progress(sys.stderr)
@@ -125,7 +125,7 @@ def evaluate(arguments: argparse.Namespace) -> int:
                 project, request, offscreen, sentence, lambda share, at: progress(share, sentence(at)), stop_requested
             )
         except AppError as error:
-            # ffmpeg has got the same Ctrl-C, and then refuses what it gets.
+            # ffmpeg received the same Ctrl-C and rejects further input.
             if stop_requested() or isinstance(error, Cancelled):
                 raise KeyboardInterrupt from error
             if error.message.id not in ("picture.film_no_gl", "picture.no_gl"):

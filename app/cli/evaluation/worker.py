@@ -25,7 +25,7 @@ def main() -> None:
 
 
 def _made(job: EvaluationJob, channel: MessageChannel[EvaluationJob], stopped: threading.Event) -> Answer:
-    # All of Qt.
+    # imports all of Qt
     from widgets.viewport.offscreen import offscreen
 
     def report(share: float, message: Message) -> None:

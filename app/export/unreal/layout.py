@@ -143,7 +143,7 @@ def layout_of(project: Project, piece: str) -> Layout:
     own = numbered(asset_name(player.name, "Player") for player in players)
     named = dict(zip((player.id for player in players), own, strict=True))
     held = [f"{named[project.musician(player).id]}_{asset_name(player.instrument_id, 'held')}" for player in players]
-    # Dancers come last, so that a new player does not rename theirs.
+    # Dancers come last, so that a new player does not change their names.
     names = numbered(
         [
             *own,

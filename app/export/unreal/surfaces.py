@@ -132,7 +132,7 @@ class Surfaces:
     def _material(self, material: Material) -> UnrealMaterial:
         if material not in self._materials:
             textures = material.textures
-            # Named for what it is and not for the size of its textures, so that a change of that renames nothing.
+            # The name depends on the material and not on the size of its textures, so another size renames nothing.
             digest = hashlib.sha256(repr(material).encode("utf-8", "surrogatepass")).hexdigest()[:8]
             red, green, blue, alpha = (float(value) for value in material.base_color)
             self._materials[material] = UnrealMaterial(
@@ -142,7 +142,7 @@ class Surfaces:
                 roughness=float(material.roughness),
                 normal_scale=float(textures.normal_scale),
                 occlusion_strength=float(textures.occlusion_strength),
-                # Cards of hair are seen from both sides.
+                # Hair cards are visible from both sides.
                 two_sided=material.double_sided or material.alpha_mode == "mask",
                 alpha=material.alpha_mode,
                 cutoff=float(material.alpha_cutoff),

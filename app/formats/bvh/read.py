@@ -184,7 +184,7 @@ def _motion(motion: str, skeleton: _Skeleton, line: int, figure: str) -> BvhClip
         raise FileError("bvh.no_frames", file=file, line=max(1, line))
     frames_line, time_line = (line - 1 + len(motion[: said.end(group)].splitlines()) for group in (1, 2))
     frames = _whole(said[1])
-    # A decimal comma means the same.
+    # A decimal comma is accepted.
     written = said[2].replace(",", ".", 1)
     frame_time = float(written) if _is_number(written) else 0.0
     if not 1e-6 < frame_time < 1e6:
@@ -238,7 +238,7 @@ def _table(text: str, frames: int, width: int, file: str, line: int) -> tuple[Fl
     unlike = next((at for at, words in enumerate(rows) if words and len(words) != width), None)
     if not width and unlike is None:
         return np.zeros((frames, 0)), ()
-    # Where the count is right, a row may be broken into lines anywhere; else the lines must be the rows.
+    # If the number of values is right, rows may be broken into lines anywhere; else each line must be a row.
     if width and len(values) == frames * width:
         return values.reshape(frames, width), ()
     whole = len(values) // max(1, width)
@@ -299,7 +299,7 @@ def _clip(
     """
     frames, joints = len(table), len(skeleton.names)
     if frames * joints > _FREE_ROTATIONS + 4 * table.size:
-        # Joints need not have channels, and then cost the file nothing in a frame.
+        # Joints need no channels, and then cost the file no bytes in a frame.
         raise FileError("bvh.too_large", file=skeleton.file)
     offsets = np.array(skeleton.offsets)
     offsets[0] = 0.0

@@ -58,7 +58,7 @@ def bvh_pieces(clip: BvhClip) -> Iterator[bytes | bytearray]:
     order: list[int] = []
     _joint_lines(clip, children, lines, order)
     frames = len(clip.rotations_xyzw)
-    # A decimal more than a double holds at this size, so that the last frame of an hour is still in its place.
+    # One digit more than a double holds at this size, so that the time of the last frame of an hour is exact.
     lines += ["MOTION", f"Frames: {frames}", f"Frame Time: {float(1 / clip.fps):.16f}", ""]
     return itertools.chain(["\n".join(lines).encode("utf-8")], _table_pieces(clip, order))
 
@@ -80,7 +80,7 @@ def _table_pieces(clip: BvhClip, order: list[int]) -> Iterator[bytearray]:
 def _joint_lines(clip: BvhClip, children: list[list[int]], lines: list[str], order: list[int]) -> None:
     """Append the lines of the hierarchy to ``lines``, and the joints to ``order``, depth first."""
     turning = [" ".join(f"{axis}rotation" for axis in order) for order in _orders(clip)]
-    # What is still to be written, last first: a joint with its depth, or a closing brace of that depth.
+    # Items still to be written, last first: a joint and its depth, or a closing brace of a depth.
     pending: list[tuple[int | None, int]] = [(0, 0)]
     while pending:
         joint, depth = pending.pop()

@@ -23,7 +23,7 @@ ORDERS = ("ZYX", "YZX", "XZY", "ZXY", "YXZ", "XYZ")
 STEADY_DEG, STEADY_CM = 1e-3, 1e-4
 """Change of an axis in degrees or centimetres below which reduced keys omit it as rounding."""
 
-# Linear keys. The bits beside "linear" (4) and the tangent data are those that every reader has met before.
+# Linear keys. Other bits beside "linear" (4), and the tangent data, are those that all readers accept.
 _KEY_FLAGS = np.array([0x6104], dtype=np.int32)
 _KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
 CUBIC, OWN_SLOPES = 0x8, 0x400 | 0x800
@@ -154,7 +154,7 @@ class FbxLayerCurves:
             key_ticks = self._ticks if frames is None else self._ticks[frames]
             self._at[known] = (
                 (integer("KeyVer", 4008), Element("KeyTime", (pack_array(key_ticks),))),
-                # All three are needed: without them the FBX SDK crashes.
+                # Without any of the three the FBX SDK crashes.
                 (
                     Element("KeyAttrFlags", (pack_array(_KEY_FLAGS),)),
                     Element("KeyAttrDataFloat", (pack_array(_KEY_DATA),)),

@@ -21,9 +21,9 @@ from app.formats.fbx.encode import LARGE_VERSION, MAGIC, Element, Property
 _DEEPEST = 32
 """Greatest nesting depth of records; files of real programs have about 8 levels."""
 
-# DEFLATE cannot pack more than 1032 bytes into one.
+# DEFLATE compresses at most 1032 bytes into one.
 _LARGEST_RATIO = 1032
-# What all packed arrays may take together: this and a multiple of the file's size. What stands still packs well.
+# Total size of all unpacked arrays: this and a multiple of the file's size, since constant curves compress well.
 _FREE_BYTES = 2**26
 _MOST_TIMES = 256
 
@@ -118,7 +118,7 @@ class _Reader:
         stop = start + property_bytes
         if record_end > limit or stop > record_end:
             raise self._error("truncated" if record_end > len(self._data) else "bad_record", position)
-        # What is the same but for where it ends, in many records of a file, is the same record.
+        # Records of a file that differ only in their end offset are decoded once.
         same = self._data[position + self._end_bytes : stop] if stop == record_end < position + _SMALL_BYTES else b""
         known = self._known.get(same)
         if known is not None:
@@ -175,7 +175,7 @@ class _Reader:
         return self._values(dtype, size, raw, start)
 
     def _unpack(self, dtype: np.dtype[np.generic], count: int, raw: bytes, start: int) -> npt.NDArray[np.generic]:
-        # All curves of a clip have the same times.
+        # All curves of a clip share their times.
         last, found = self._last.get((dtype, count, len(raw)), (b"", None))
         if found is not None and last == raw:
             return found

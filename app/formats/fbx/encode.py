@@ -24,7 +24,7 @@ VERSION = 7400
 LARGE_VERSION = 7500
 """File version with 64-bit offsets, used only for large files, since older programs refuse it."""
 
-# One fixed triple that belongs together, so that the same scene gives the same bytes.
+# A fixed creation time with its matching ids, so that the same scene gives the same bytes.
 CREATION_TIME = "1970-01-01 10:00:00:000"
 FILE_ID = bytes.fromhex("28b32aebb624ccc2bfc8b02aa92bfcf1")
 FOOTER_ID = bytes.fromhex("fabcab09d0c8d466b176fb831cf7267e")

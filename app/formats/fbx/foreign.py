@@ -271,7 +271,7 @@ def _value(arrays: Mapping[str, npt.NDArray[Any]], kind: type, given: Any) -> An
         raise ValueError("a number is not finite")
     if np.dtype[np.uint8] in get_args(kind):
         return found.astype(np.uint8)
-    # Since NumPy 2.5 `npt.NDArray` is an alias that msgspec resolves, so that a kind is no longer equal to `IntArray`.
+    # Since NumPy 2.5 msgspec resolves the alias `npt.NDArray`, so the kind is no longer equal to `IntArray`.
     return found.astype(np.int64 if np.dtype[np.int64] in get_args(kind) else np.float64)
 
 

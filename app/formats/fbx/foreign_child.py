@@ -111,7 +111,7 @@ def _mesh(mesh: Any, written: _Written) -> dict[str, Any]:
     written.take(2 * len(_keep(mesh.faces)))
     spans = np.array([(face.index_begin, face.num_indices) for face in mesh.faces], dtype=np.int64)
     nodes = [_keep(node).typed_id for node in _every(mesh.instances)]
-    # On each node it is a mesh of its own.
+    # Each node with the mesh becomes a mesh of its own.
     written.take(len(nodes) * len(_keep(mesh.vertex_indices)))
     return {
         "name": mesh.name,
@@ -231,7 +231,7 @@ def _morph(deformer: Any, channel: Any, written: _Written) -> list[dict[str, Any
         return []
     shape = _keep(frames[-1].shape)
     name, prefix = channel.name or shape.name, _keep(deformer).name
-    # Maya puts the deformer's name before each channel's; Unreal drops it too.
+    # Maya prefixes each channel with the deformer's name; Unreal removes it too.
     if prefix and name.startswith(prefix) and name[len(prefix) : len(prefix) + 1] in (".", "_"):
         name = name[len(prefix) + 1 :] or name
     return [
@@ -265,7 +265,7 @@ def _load(data: bytes, *, animated: bool) -> Any:
 
 
 def _nodes(scene: Any, written: _Written) -> list[dict[str, Any]]:
-    # Matrices, a name and the rest.
+    # Matrices, a name and smaller values.
     written.take(64 * len(_keep(scene.nodes)))
     return [
         {
@@ -312,7 +312,7 @@ def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]
         raise MemoryError
     content = {"nodes": nodes, "bound": bound, "fps": fps, "length_s": length_s}
     if stack is None or length_s > longest_motion_s(fps, len(nodes), len(data)):
-        # An animation of this length is refused by whoever asked; its frames would cost seconds.
+        # The caller refuses an animation of this length, so its frames are not evaluated.
         return {**content, "transforms": written.add(np.empty((0, len(nodes), TRANSFORM)))}, written.arrays
     frames = round(length_s * fps) + 1
     written.take(TRANSFORM * frames * len(nodes))
@@ -320,7 +320,7 @@ def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]
     values = np.empty((frames, len(nodes), TRANSFORM))
     for at, node in enumerate(_every(scene.nodes)):
         for frame in range(frames):
-            # Tuples of tuples, which may be freed.
+            # Copied as tuples, because ufbx may free its own values.
             moved, turned, scaled = ufbx.evaluate_transform(anim, node, float(stack.time_begin) + frame / fps)
             values[frame, at] = (*moved, *turned, *scaled)
     return {**content, "transforms": written.add(values)}, written.arrays
@@ -353,7 +353,7 @@ def main() -> None:
     except MemoryError:
         status = 4
     output.flush()
-    # Not even the interpreter's own end may free what ufbx gave.
+    # Exit without the interpreter's cleanup, which must not free memory of ufbx.
     os._exit(status)
 
 

@@ -58,7 +58,7 @@ class FbxTextures:
             packed = TextureUse(packed_surface(*images), placed.scale, placed.offset)
         red, green, blue, alpha = surface.base_color
         bump = surface.bump if 0.0 <= surface.bump < _FARTHEST else 1.0
-        # A map takes the place of the value.
+        # A texture replaces the value.
         return Material(
             surface.name,
             (1.0, 1.0, 1.0, 1.0 if opacity is not None else alpha) if color is not None else (red, green, blue, alpha),
@@ -84,7 +84,7 @@ class FbxTextures:
         if made is None or not all(abs(number) < _FARTHEST for number in (*texture.scaled, *texture.moved)):
             return None
         (scale_u, scale_v), (moved_u, moved_v) = texture.scaled, texture.moved
-        # v points down in the place of a texture.
+        # v points down in texture coordinates.
         return TextureUse(made, (scale_u, scale_v), (-moved_u * scale_u, 1.0 - scale_v + moved_v * scale_v))
 
     def _texture(self, texture: FbxTexture) -> Texture | None:
@@ -106,7 +106,7 @@ class FbxTextures:
                     continue
                 content = read_file(file, self._left)
             except (OSError, RuntimeError, ValueError, FileError):
-                continue  # A figure is shown without what cannot be had.
+                continue  # a figure is shown without textures that cannot be read
             break
         self._left -= len(content)
         self._beside[name] = content

@@ -25,7 +25,7 @@ DIELECTRIC_REFLECTANCE = 0.04
 """Reflectance of skin, cloth and lacquer at normal incidence (glTF 2.0, appendix B)."""
 _BLENDER_SPECULAR = 0.25
 """Value of SpecularFactor that Blender uses for that reflectance."""
-# A metal without any diffuse part is black in viewers that have nothing to reflect.
+# A metal without a diffuse part is black in viewers without reflections.
 _METAL_DIFFUSE = 0.4
 
 SHADING_MODEL = "PHONG"

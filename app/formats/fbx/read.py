@@ -147,7 +147,7 @@ def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...]
             if len(chain) > len(models):
                 raise FileError("fbx.contradiction", file=graph.file, detail=f"{model.name} is its own ancestor")
         if parent_of[chain[-1]] not in index:
-            continue  # of another figure
+            continue  # belongs to another figure
         for key in reversed(chain):
             if key not in index:
                 index[key] = len(found)
@@ -370,7 +370,7 @@ def _clip(
                 raise FileError("fbx.contradiction", file=graph.file, detail=f"two different curves of {name}")
             weights[name] = weight
     _turn(rotations, turning, [bone.order for bone in bones], turns_from)
-    # In memory component after component: so they are computed with.
+    # Contiguous by component, as later computations read it.
     return Clip(take.name, take.fps, frames, rotations.transpose(2, 1, 0), translations, weights)
 
 

@@ -87,7 +87,7 @@ def read_take(graph: ObjectGraph, root: Element) -> FbxTake | None:
     curves = _curves(graph, stacks[0], ticks.frame_ticks(fps, frames), fps)
     for (target, to_property), channels in curves.items():
         moved = graph.objects[target].sub_class if target in graph.objects else ""
-        # A weight of a morph that is elsewhere is a property of the root.
+        # The weight of a morph of another mesh is a property of the root.
         if _ANIMATED.get(to_property, ("LimbNode", 1)) != (moved, len(channels)):
             raise FileError("fbx.unsupported", file=graph.file, what=f"animation of {to_property}")
     return FbxTake(stacks[0].name, fps, frames, curves)
@@ -100,7 +100,7 @@ def _curves(
     property.
     """
     result: dict[tuple[int, str], list[FbxCurve]] = {}
-    # Equal arrays of a file are one array.
+    # Equal arrays of a file become one array.
     known: dict[int, tuple[IntArray, IntArray]] = {}
     for layer in graph.below(stack, "AnimationLayer"):
         for node in graph.below(layer, "AnimationCurveNode"):

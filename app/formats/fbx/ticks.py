@@ -41,7 +41,7 @@ def frame_ticks(fps: Fraction, frames: int) -> IntArray:
     numerator, denominator = TICKS_PER_SECOND * fps.denominator, fps.numerator
     if numerator % denominator == 0:
         return np.arange(frames, dtype=np.int64) * (numerator // denominator)
-    # Python's integers: the products would overflow 64 bits after about an hour.
+    # In Python integers, since products would overflow 64 bits after about an hour.
     return np.array([(2 * n * numerator + denominator) // (2 * denominator) for n in range(frames)], dtype=np.int64)
 
 

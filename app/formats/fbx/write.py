@@ -147,11 +147,11 @@ def _add_bone(
     flags = (Element("TypeFlags", ("Skeleton",)),)
     attribute = graph.add("NodeAttribute", bone.name, "NodeAttribute", "LimbNode", flags)
     turning = (
-        # Without it the FBX SDK passes over the other two.
+        # Otherwise the FBX SDK ignores the other two.
         property_row("RotationActive", "bool", "", "", np.int32(1)),
         property_row("RotationOrder", "enum", "", "", np.int32(ORDERS.index(bone.order))),
         property_row("PreRotation", "Vector3D", "Vector", "", *map(float, rest_degrees)),
-        # Curves of morphs that are elsewhere: animated properties of a user's, as Unreal takes for curves.
+        # Weights of morphs of another mesh are animated user properties, which Unreal imports as curves.
         *(property_row(name, "Number", "", "A+U", 0.0) for name in weights),
     )
     model = graph.add("Model", bone.name, "Model", "LimbNode", _model(bone.translation_cm, np.zeros(3), turning))
@@ -275,7 +275,7 @@ def _pose_node(node: int, world_from_node: AnyFloatArray) -> Element:
 
 
 def _add_morphs(graph: Assembly, figure: _Figure, mesh: SkinnedMesh, packed: PackedMesh, shape: int) -> None:
-    # Unreal cuts the deformer's name off the front of a channel's name, so it must not be one.
+    # Unreal removes the deformer's name from the front of channel names, so it must not be a prefix of one.
     deformer = graph.add("Deformer", f"{mesh.name}_morphs", "Deformer", "BlendShape", (integer("Version", 100),))
     graph.connect(deformer, shape)
     for morph, geometry in zip(mesh.morphs, packed.morphs, strict=True):

@@ -20,17 +20,17 @@ from app.formats.gltf.container import field
 COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 
-# What decoding may take in all, in bytes: this and a multiple of the file's size. Accessors may overlap, be used many
-# times or have no bytes at all, so that a small file could ask for any amount; the largest that a real one takes is
-# eight times its size (numbers that are stored as bytes), more where parts share what they do not use alike.
+# Total bytes that decoding may take: this and a multiple of the file's size. Accessors may overlap, be used many times
+# or need no bytes, so a small file could request any amount; the most that a real file needs is eight times its size
+# (numbers stored as bytes), or more if primitives share accessors.
 _FREE_BYTES = 2**23
 _MOST_TIMES = 32
 _MOST_TIMES_UNPACKED = 8
 
-# Extensions without which the file can still be read as it is meant here: they change materials only, or add meaning.
+# Extensions that can be ignored here: they change only materials or add information.
 _HARMLESS = (
     *("KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_punctual"),
-    # Integers for numbers are read with or without it.
+    # Integer attributes are read with or without it.
     "KHR_mesh_quantization",
     *("VRMC_", "VRM"),
 )
@@ -72,7 +72,7 @@ class Accessors:
         if owner is not None:
             return self._list(owner, name)
         if name not in self._lists:
-            # Asked for once for every element of others: it is looked through once.
+            # Parsed once, since each element refers to it.
             self._lists[name] = self._list(self.document, name)
         return self._lists[name]
 
@@ -231,7 +231,7 @@ class Accessors:
     def _scaled(self, accessor: object, values: npt.NDArray[Any]) -> FloatArray:
         """Return an accessor's values as floats; integers marked as normalised become fractions -1..1. Raises FileError
         for values that are not finite."""
-        with np.errstate(invalid="ignore"):  # What is no number at all is refused below.
+        with np.errstate(invalid="ignore"):  # values that are not numbers are refused below
             result = values.astype(np.float64)
         if field(accessor, "normalized") is True and values.dtype.kind != "f":
             result = np.maximum(result / np.iinfo(values.dtype).max, -1.0)

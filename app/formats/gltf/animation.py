@@ -22,7 +22,7 @@ def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
     key. Rotations are normalised."""
     known = channel.times_s
     if channel.interpolation == "STEP":
-        # Keys are float32 seconds, which may lie after the frame that they are meant for.
+        # Times of keys are float32, which may be rounded up beyond their frame.
         reached = np.searchsorted(known, times_s + _KEY_TOLERANCE * np.maximum(1.0, np.abs(times_s)), side="right") - 1
         return _unit(channel, channel.values[np.maximum(reached, 0)])
     after = np.clip(np.searchsorted(known, times_s, side="right"), 1, max(1, len(known) - 1))

@@ -102,14 +102,14 @@ class GlbDocument:
 
     def sparse(self, count: int, rows: AnyIntArray, values: SingleArray) -> int:
         """Add a sparse accessor of vectors (count, 3) with few non-zero rows, and return its index."""
-        if not len(rows):  # legal without any, but assimp refuses an accessor that has no bytes
+        if not len(rows):  # legal without any, but assimp refuses an accessor without bytes
             rows, values = np.zeros(1, np.int64), np.zeros((1, 3), np.float32)
         bounds = values if len(rows) == count else np.concatenate([np.zeros((1, 3), np.float32), values])
         indices = rows.astype(np.uint16 if count <= 2**16 else np.uint32)
         index_view, index_start = self.buffer.add("sparse indices", indices, None, None)
         value_view, value_start = self.buffer.add("sparse values", values, None, None)
         accessor = gltf.Accessor(
-            # No view, so no offset either, which the library would set.
+            # Without a buffer view there is no offset, which the library would set.
             byteOffset=None,
             componentType=gltf.FLOAT,
             count=count,

@@ -77,7 +77,7 @@ def main() -> None:
         status, printed = NO_READER, str(error.name).encode()
     except MemoryError:
         status = NO_MEMORY
-    # The libraries' own errors have no common base.
+    # The errors of these libraries have no common base class.
     except Exception as error:  # noqa: BLE001 - whatever a damaged file does here is said there
         status, printed = UNREADABLE, str(error)[:300].encode()
     sys.stdout.buffer.write(printed)

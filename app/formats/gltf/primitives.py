@@ -44,7 +44,7 @@ def primitives(mesh: SkinnedMesh) -> tuple[Primitive, ...]:
     for material in range(len(mesh.materials)):
         chosen = np.flatnonzero(own == material)
         if len(chosen):
-            # A polygon as a fan of triangles, by the places of its corners among all the mesh's corners.
+            # Each polygon becomes a fan of triangles, given by indices into all corners of the mesh.
             first = chosen[:, None] * corners
             fan = [np.concatenate([first, first + k, first + k + 1], axis=1) for k in range(1, corners - 1)]
             result.append(_primitive(mesh, material, np.stack(fan, axis=1).reshape(-1, 3)))
@@ -65,7 +65,7 @@ def _primitive(mesh: SkinnedMesh, material: int, triangles: AnyIntArray) -> Prim
         rows = np.concatenate([vertices[:, None], *(values[places] for values in by_corner)], axis=1)
         _, kept, indices = np.unique(rows, axis=0, return_index=True, return_inverse=True)
     else:
-        # As `np.unique` would, without sorting.
+        # Same result as `np.unique`, without sorting.
         place_of_vertex = np.full(count, -1)
         place_of_vertex[vertices] = np.arange(len(vertices))
         kept = place_of_vertex[place_of_vertex >= 0]
@@ -82,7 +82,7 @@ def _primitive(mesh: SkinnedMesh, material: int, triangles: AnyIntArray) -> Prim
     return Primitive(
         material=material,
         vertices=vertices[kept],
-        # A degenerate triangle may have no normal; glTF requires one all the same.
+        # A degenerate triangle may have no normal, but glTF requires one.
         normals=np.where(lengths > 0, normals / np.where(lengths > 0, lengths, 1.0), [0.0, 1.0, 0.0]),
         uvs=uvs,
         triangles=indices.reshape(-1, 3),

@@ -103,7 +103,7 @@ class _Reader(Accessors):
     def mesh(self, mesh: object, index: int) -> GltfMesh:
         primitives = self.items("primitives", mesh)
         names = self.mapping(mesh, "extras").get("targetNames")
-        if not isinstance(names, list) and primitives:  # some exporters name them here
+        if not isinstance(names, list) and primitives:  # some exporters store the names here
             names = self.mapping(primitives[0], "extras").get("targetNames")
         names = [str(name) for name in names] if isinstance(names, list) else []
         known: dict[str, _Vertices] = {}
@@ -121,7 +121,7 @@ class _Reader(Accessors):
 
     def _primitive(self, primitive: object, names: list[str], known: dict[str, _Vertices]) -> GltfPrimitive:
         attributes, targets = self.mapping(primitive, "attributes"), self.items("targets", primitive)
-        # Primitives of several materials often have the same vertices: they are read once.
+        # Primitives with different materials often share their vertices, which are read once.
         key = repr((attributes, targets))
         if key not in known:
             known[key] = self._vertices(attributes, targets, names)
@@ -372,7 +372,7 @@ class _Reader(Accessors):
         m = matrix[:3, :3] / scale
         if np.abs(m.T @ m - np.eye(3)).max() > 1e-3:
             raise self.damaged("matrix")
-        # Shepperd's method: the largest of the four possible divisors.
+        # Shepperd's method, which divides by the largest of the four candidates.
         squares = np.array([m[0, 0], m[1, 1], m[2, 2], np.trace(m)])
         largest = int(np.argmax(squares))
         if largest == 3:

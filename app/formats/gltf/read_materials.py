@@ -50,7 +50,7 @@ def _material(model: GltfModel, surface: GltfMaterial, images: ImageReader) -> M
             surface.normal_scale,
             surface.occlusion_strength,
         ),
-        # What a colour lets through is blended anyway.
+        # A translucent colour is blended anyway.
         None if mode == "blend" and alpha < 1.0 else mode,
         surface.alpha_cutoff,
     )

@@ -67,7 +67,7 @@ def write_vrma(
     clip = _checked(scene)
     document = GlbDocument(gltf.GLTF2(asset=gltf.Asset(version="2.0", generator=scene.creator)))
     out = document.gltf
-    # Viewers scale and place what is above the hips.
+    # Viewers scale and place the node above the hips.
     out.nodes.append(gltf.Node(name="root", children=[_FIRST]))
     for bone in scene.bones:
         out.nodes.append(node_at(bone.name, NodePlace(bone.translation_cm, bone.rotation_xyzw)))

@@ -146,7 +146,7 @@ def _add_figure(
     for mesh, node in zip(every_mesh(scene), mesh_nodes, strict=True):
         out.nodes[node].mesh, out.nodes[node].skin = len(out.meshes), len(out.skins)
         out.meshes.append(_mesh(document, mesh, len(scene.bones), materials))
-    # Programs call the armature as the skin, and take nodes for bones by it.
+    # Programs name the armature after the skin and recognise bones by the skin.
     binds = scene.meshes[0].world_from_bone_bind if scene.meshes else _rest_transforms(scene)
     out.skins.append(_skin(document, binds, scene.title, first))
     return first, mesh_nodes
@@ -187,7 +187,7 @@ def node_at(name: str, place: NodePlace) -> gltf.Node:
 def _skin(document: GlbDocument, world_from_bone_bind: AnyFloatArray, name: str, first: int) -> gltf.Skin:
     binds = np.array(world_from_bone_bind, dtype=np.float64)
     binds[:, :3, 3] *= METRES
-    # Stored column by column, and the last row of each must be exact.
+    # Stored by columns; the last row of each must be exact.
     inverse = np.linalg.inv(binds)
     inverse[:, 3] = [0.0, 0.0, 0.0, 1.0]
     columns = inverse.transpose(0, 2, 1).reshape(-1, 16).astype(np.float32)
@@ -218,11 +218,11 @@ def _mesh(document: GlbDocument, mesh: SkinnedMesh, bone_count: int, materials: 
         )
         for number in range(sets):
             columns = slice(number * _PER_SET, (number + 1) * _PER_SET)
-            # The library names one set only, but keeps any other name it is given.
+            # The library defines one set only but keeps attributes of any other name.
             setattr(attributes, f"JOINTS_{number}", attribute("joints", joints[chosen, columns]))
             setattr(attributes, f"WEIGHTS_{number}", attribute("weights", weights[chosen, columns]))
         indices = primitive.triangles.ravel()
-        # The largest number of a type ends a strip, so it is none of an index.
+        # The largest value of an index type restarts a strip, so it cannot be an index.
         index_type = np.uint16 if len(chosen) < 2**16 else np.uint32
         result.primitives.append(
             gltf.Primitive(

@@ -54,7 +54,7 @@ def _material(document: GlbDocument, material: Material, numbers: dict[Texture, 
         normalTexture=used(textures.normal, gltf.NormalMaterialTexture, scale=textures.normal_scale),
         occlusionTexture=used(textures.occlusion, gltf.OcclusionTextureInfo, strength=textures.occlusion_strength),
         alphaMode=_MODES[mode],
-        # Without an alpha that is compared there may be no threshold, which the library would set.
+        # The threshold is legal only in mask mode; the library would set it always.
         alphaCutoff=material.alpha_cutoff if mode == "mask" else None,
         doubleSided=material.double_sided,
     )

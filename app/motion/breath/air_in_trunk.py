@@ -64,7 +64,7 @@ def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
     level = 0.0
     drawn = sorted((breath for breath in breaths if breath.draws_air), key=lambda breath: breath.start_s)
     for breath, following in zip_longest(drawn, drawn[1:]):
-        # Breaths that were moved onto each other by hand: the later one goes on from where the one before is full.
+        # Breaths that overlap after editing: the later one begins when the earlier one is full.
         start_s = max(breath.start_s, full[-1][1]) if full else breath.start_s
         if breath.end_s <= start_s:
             continue

@@ -130,7 +130,7 @@ def with_added(motion: BodyMotion, added: Mapping[str, Added], body: Body, knee_
             case "hips", "roll":
                 changes["hips_roll_rad"] = motion.hips_roll_rad + more.beside(0.0)
             case "hips", "up":
-                # Legs that are nearly straight become no longer: upwards there is only what the body has sunk.
+                # Legs that are nearly straight cannot get longer: the body can rise only by as much as it has sunk.
                 sunk = np.clip(motion.hips_bob_m, 0.0, more.high)
                 changes["hips_bob_m"] = motion.hips_bob_m - np.minimum(within(more.values, sunk, -more.low), sunk)
             case "knees", _:

@@ -209,5 +209,5 @@ def _swivel(
     turned = swivelled(limb, there, turn, clavicle[here], target_rotation[here])
     rotations = (pose.upper, pose.lower, pose.end, *pose.bones)
     for own, new in zip(rotations, (turned.upper, turned.lower, turned.end, *turned.bones), strict=True):
-        # Of the two quaternions of a rotation the one near to where it was: no frame flips.
+        # Of the two quaternions of each rotation the one closer to the former value is used, so that none changes sign.
         own[here] = np.where(quaternion.dot(own[here], new)[:, None] < 0.0, -new, new)

@@ -43,14 +43,14 @@ class EndpinStand:
         """Rotate the carried instrument about its mouthpiece until its pin is above the point of the floor where the
         tip stands.
         """
-        # Where an animator turns the instrument, its tip goes: melody and cues move no one's pin.
+        # The tip follows only the angles set by the animator; melody and cues do not move the pin.
         pitch, yaw, roll = held_angles(self.carriage, replace(motion, bell_rad=np.zeros_like(motion.bell_rad)))
         still = attitude(pitch, np.asarray(yaw), roll)
         drawn_m, _ = _needed(self.endpin, self.lips_m, still)
         place_m = self.lips_m + quaternion.rotate(still, self._tip_m(drawn_m))
         requested_m = place_m - carried.position_m
         tip_m, axis = np.asarray(self.endpin.tip_m), np.asarray(self.endpin.axis)
-        # How far the pin has to come out to be as far from the lips as that place: |tip + out * axis| = distance.
+        # Solves |tip + out * axis| = distance for the length by which the pin has to be pulled out.
         along = float(tip_m @ axis)
         out_m = np.sqrt(np.maximum((requested_m**2).sum(axis=1) - float(tip_m @ tip_m) + along**2, 0.0)) - along
         pointing_m = quaternion.rotate(carried.rotation, self._tip_m(out_m))

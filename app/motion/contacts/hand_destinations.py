@@ -103,7 +103,7 @@ def with_shapes(
         there = {shape: hands[f"{side}.{shape}"] for shape in SHAPES if f"{side}.{shape}" in hands}
         if not there:
             continue
-        # One after another, each as large as its share of all that are mixed then.
+        # Blended one after another, each by its share of the sum so far.
         mixed = np.maximum(1.0 - np.sum(list(there.values()), axis=0), 0.0)
         for shape, share in there.items():
             mixed = mixed + share

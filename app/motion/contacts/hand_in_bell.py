@@ -45,7 +45,7 @@ def bell_closing(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelop
 def wrist_shift(skeleton: Skeleton, stopped: Stopped, share: FloatArray, carried: InstrumentTransform) -> Shift:
     """Displacement of a wrist from its grip, scaled by shares (F,): the palm turns about the knuckles."""
     turned_rad = quaternion.rotate(carried.rotation, np.deg2rad(np.asarray(stopped.turned_deg)))
-    # About the first finger's knuckle, which is held against the wall.
+    # Rotated about the knuckle of the first finger, which is held against the wall.
     knuckle_m = next((skeleton.offsets_m[joint] for joint in _knuckles(skeleton, stopped)), np.zeros(3))
     return Shift(quaternion.from_rotation_vector(share[:, None] * turned_rad), knuckle_m)
 
@@ -57,7 +57,7 @@ def with_fingers_kept(
     turns.
     """
     (hand,) = (one for one in grip.hands if one.side == stopped.hand)
-    # The palm's turn seen from the hand.
+    # Rotation of the palm in the frame of the hand.
     turned = quaternion.conjugate(hand.instrument_from_hand_rotation[0])
     back_rad = quaternion.rotate(turned, -np.deg2rad(np.asarray(stopped.turned_deg)))
     back = quaternion.from_rotation_vector(share[:, None] * back_rad)

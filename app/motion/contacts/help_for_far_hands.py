@@ -167,7 +167,7 @@ def _waist(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) ->
     root_m = skeleton.offsets_m[shoulder] + quaternion.rotate(forwards, clavicle)
     root = quaternion.rotate(body.chest, root_m)
     there = target_m - body.chest_m
-    # Turning to the left takes what is on the right forwards; a left hand's turn is counted the other way.
+    # Turning to the left moves the right shoulder forward; for a left hand the sign is reversed.
     sign = 1.0 if side == "right" else -1.0
     across = sign * (root[:, 2] * there[:, 0] - root[:, 0] * there[:, 2])
     along = root[:, 0] * there[:, 0] + root[:, 2] * there[:, 2]
@@ -189,7 +189,7 @@ def forwards_axis(skeleton: Skeleton, side: Side) -> FloatArray:
     axis = np.cross(clavicle, Z_AXIS)
     length = float(np.linalg.norm(axis))
     if length < LEAST_M:
-        # A clavicle without a length turns like others, and takes the shoulder nowhere.
+        # A clavicle of zero length rotates like others and does not move the shoulder.
         return np.array([0.0, -1.0 if side == "left" else 1.0, 0.0])
     unit: FloatArray = axis / length
     return unit

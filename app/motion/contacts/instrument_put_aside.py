@@ -94,7 +94,7 @@ class AsidePlace:
         bare = cls(aside, pivot_m, quaternion.to_rotation_vector(whole), low)
         lies = bare._swung(low, np.ones(1))
         reach_m = LONGEST * arm(skeleton, aside.side).length_m
-        # What the arm cannot reach with it there lies nearer.
+        # If the arm cannot reach that far, the instrument is put down nearer.
         towards = out_m / max(float(np.linalg.norm(out_m)), LEAST_M)
         wrist_m = quaternion.rotate(whole, borne_m[0] - pivot_m)
         along_m, away2 = float(wrist_m @ towards), float(wrist_m @ wrist_m)
@@ -142,7 +142,8 @@ class AsidePlace:
             joint, _ = clavicle_of(skeleton, hand.side)
             for bone in (joint, limb.upper, limb.lower, limb.end):
                 there = hangs if bone == limb.upper else quaternion.IDENTITY
-                # An elbow bends and turns each for itself: on the shortest way to both it would bend sideways.
+                # Bending and twisting of an elbow are interpolated separately; the shortest rotation would bend it
+                # sideways.
                 parts = quaternion.swing_twist(arms[bone], along) if bone == limb.lower else (arms[bone],)
                 ways = [quaternion.slerp(part, np.broadcast_to(there, part.shape), stowed) for part in parts]
                 freed = ways[0] if len(ways) == 1 else quaternion.multiply(*ways)

@@ -38,7 +38,7 @@ def with_bell_room(player: PlayerBody) -> PlayerBody:
         return player
     tipped = np.deg2rad(np.arange(-MOST_DEG, MOST_DEG + 1, STEP_DEG))
     leans = [lean for hand in player.grip.hands for lean in hand.leans]
-    # As the hands lie, and as they give way for a finger, a row each.
+    # One row for the hands as placed, one for each finger that they yield to.
     placed: dict[str, StationBlend] = {}
     for finger in sorted({finger for lean in leans for finger, _ in lean.places}):
         stations = [dict(lean.places).get(finger, 0) for lean in leans]

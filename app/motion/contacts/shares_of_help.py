@@ -143,7 +143,7 @@ def greatest_within(values: FloatArray, half: int) -> FloatArray:
     """
     found, window, width = _symmetric(values, half), 2 * half + 1, 1
     while width < window:
-        # Of twice as many each time, the last time of as many as are left.
+        # Windows double in width, and the last one covers the remainder.
         step = min(width, window - width)
         found = np.maximum(found[:-step], found[step:])
         width += step

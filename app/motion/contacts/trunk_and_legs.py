@@ -166,7 +166,7 @@ def _lifted(place: Stance, side: Side, parts: Mapping[str, FloatArray]) -> tuple
     for angle, pivot_m in ((heel, place.balls_m[side]), (None if toes is None else -toes, place.heels_m[side])):
         if angle is not None:
             turned = quaternion.multiply(foot, quaternion.from_axis_angle(X_AXIS, angle))
-            # The difference first: a foot that stands is then where it stands to the bit.
+            # Only the difference is added, so that a standing foot keeps its exact position.
             ankle_m = ankle_m + (quaternion.rotate(foot, pivot_m) - quaternion.rotate(turned, pivot_m))
             foot = turned
     if ahead_m is not None:

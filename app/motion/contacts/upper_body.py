@@ -97,7 +97,7 @@ def _at_lips(player: StillPlayer, curves: ContactCurves, body: Trunk) -> FloatAr
     """Return the mouthpiece position (F, 3) at the lips; during a breath only one lip holds it."""
     lips, frames = player.grip.lips, len(curves)
     lips_m = lips.contact_m(curves.morphs, frames)
-    # The jaw is far enough down to have left the rim long before the mouth is fully open.
+    # The jaw leaves the rim long before the mouth is fully open.
     on_one = 1.0 - (1.0 - curves.mouth_open) ** 4
     breathing = np.flatnonzero(on_one)
     if len(breathing):

@@ -79,7 +79,7 @@ class Curve:
         """Return the values (F,) of the curve at ascending times (F,)."""
         if len(self.start_s) == 0:
             return np.full(len(times_s), self.initial)
-        if len(times_s) < len(self.start_s):  # a short span of a long curve: look at its own segments only
+        if len(times_s) < len(self.start_s):  # a short span of a long curve: only its own segments are examined
             here = np.maximum(np.searchsorted(self.start_s, times_s, side="right") - 1, 0)
             start_s, before = self.start_s[here], self.before[here]
             phase = np.clip((times_s - start_s) / (self.end_s[here] - start_s), 0.0, 1.0)
@@ -88,7 +88,7 @@ class Curve:
         edges, way = np.concatenate(([0], first, [len(times_s)])), self.after - self.before
         levels = np.concatenate((self.before[:1], self.before + way))
         result = np.repeat(levels, np.diff(edges))
-        # The frames in which it moves, one segment after another.
+        # Frames at which the value changes, one segment after another.
         counts = np.maximum(np.minimum(stops, edges[2:]) - first, 0)
         segment = np.repeat(np.arange(len(first)), counts)
         moving = np.arange(len(segment)) + np.repeat(first - (np.cumsum(counts) - counts), counts)
@@ -122,7 +122,7 @@ class Curve:
         edges = np.unique(np.concatenate((self.start_s, self.end_s, other.start_s, other.end_s)))
         if len(edges) == 0:
             return EVERYWHERE
-        # Between two edges each of them either rests at a value or is in one of its moves.
+        # Between two edges each curve either rests or is within one of its moves.
         inner = np.concatenate(([edges[0] - 1.0], 0.5 * (edges[:-1] + edges[1:]), [edges[-1] + 1.0]))
         differ = np.any(self._described(inner) != other._described(inner), axis=1)
         bounds = np.concatenate(([-np.inf], edges, [np.inf]))
@@ -181,7 +181,8 @@ class Trace:
         there = other.values[np.clip(place - others, 0, len(other.values) - 1)]
         differ = np.concatenate(([False], here != there, [False]))
         edges = np.flatnonzero(np.diff(differ.astype(np.int8))).reshape(-1, 2)
-        # From the sample before the first that differs to the one after the last; a held end differs for ever.
+        # From the sample before the first difference to the one after the last; a different end value differs to
+        # infinity.
         spans: FloatArray = (first + edges + np.array([-1.0, 0.0])) * self.step_s
         spans[edges[:, 0] == 0, 0] = -np.inf
         spans[edges[:, 1] == count, 1] = np.inf
@@ -270,7 +271,7 @@ class Envelopes:
         if not len(shown):
             return result
         counts = (last - first)[shown]
-        # Frame by frame of every span that is there, one span after another.
+        # Frame numbers of each span that is shown, one span after another.
         span = np.repeat(shown, counts)
         here = np.arange(len(span)) + np.repeat(first[shown] - (np.cumsum(counts) - counts), counts)
         rise_s, fall_s = np.maximum(self.full_s - self.start_s, 1e-9), np.maximum(self.end_s - self.fall_s, 1e-9)

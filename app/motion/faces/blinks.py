@@ -59,7 +59,7 @@ def _starts(
     """Return the times (K,) at which the eyelids begin to blink, and the closure (K,) of each blink 0..1."""
     frame = plan.time_frame
     breaths_s = silences.breaths_s
-    # By the place in the score: another breath has another chance.
+    # Chances depend on the position in the score, so that editing a breath changes only its own.
     ticks = np.array([event.start_tick for event in plan.breaths if event.draws_air], dtype=np.int64)
     drawn = table[(ticks * 2654435761 >> 7) % len(table)]
     phrase_s = breaths_s[:, 0] - BREATH_LEAD_S + BREATH_SPREAD_S * drawn[:, 0]

@@ -204,7 +204,7 @@ def _emptying(plan: PlayerPlan, lungs: Lungs, loudness: FloatArray, sounds: Bool
     before = np.append(used[np.minimum(begins, len(at_s) - 1)], 0)[filled]
     depths = np.append(np.array([max(event.depth, 0.3) for event in breaths]), 1.0)[filled]
     spent = np.where(filled >= 0, used - before, 0) * STEP_S / (depths * lungs.full_s)
-    # Little is seen of the first half.
+    # The first half of the exertion hardly shows.
     left = _whole(np.square(np.clip(spent / ONE, 0.0, 1.0)))
     return _mean(np.where(_sum(sounds.astype(np.int32), 0.5, 0.0) > 0, left, np.int32(0)), 0.15, 0.15)
 

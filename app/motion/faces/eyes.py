@@ -105,7 +105,7 @@ def weights_for(side: EyeSide, sight: FloatArray) -> dict[str, FloatArray]:
     left, up = sight[..., 0] / ahead, sight[..., 1] / ahead
     outwards = left if side == "left" else -left
     asked = {"In": -outwards, "Out": outwards, "Up": up, "Down": -up}
-    # A shape takes the iris aside by the sine of its angle, and back by one less its cosine.
+    # A shape moves the iris sideways by the sine of its angle and back by one minus the cosine.
     back = 1.0 + sum(np.maximum(asked[way], 0.0) * math.tan(0.5 * angle) for way, angle in SHAPES_RAD.items())
     return {
         shape_name(side, way): np.clip(np.maximum(asked[way], 0.0) / (back * math.sin(angle)), 0.0, 1.0)

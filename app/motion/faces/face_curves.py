@@ -46,7 +46,7 @@ def _tracked(spans_s: FloatArray, targets: FloatArray, shift_s: float, rest_valu
     before = np.append(initial, targets[:-1])
     free_s = np.append(-np.inf, np.maximum(onsets_s, lasts_s - SHIFT_SHARE * (lasts_s - onsets_s))[:-1])
     left_s = np.append(-np.inf, lasts_s[:-1])
-    # Two rows for every note: back to rest where there is one before it, and to its own value.
+    # Two rows for each note: back to rest if it follows a rest, then to its own value.
     rows = np.empty((len(spans_s), 2, 3))
     if rest_value is not None:
         gap_s = onsets_s - left_s
@@ -131,7 +131,7 @@ def _shown(plan: PlayerPlan) -> dict[str, Envelopes]:
     for event in plan.expressions:
         full_s, fall_s = event.start_s + event.fade_in_s, event.end_s - event.fade_out_s
         rows.setdefault(event.expression, []).append((event.start_s, full_s, fall_s, event.end_s, event.strength))
-    # In the order of their names: an expression that is shown earlier does not change how the others add up.
+    # Sorted by name, so that the order of display does not change the order of summation.
     return {name: Envelopes.of(rows[name]) for name in sorted(rows)}
 
 

@@ -224,7 +224,7 @@ def _fixations(plan: PlayerPlan, silences: Silences, watching: Watching) -> tupl
     jitter = np.concatenate((chances[~near, 1:], np.full((len(turns_s), 2), 0.5)))
     order = np.argsort(at_s, kind="stable")
     at_s, jitter = at_s[order], jitter[order]
-    # Of two that are too close the later one counts: the eyes stay a moment longer where they were.
+    # If two glances are too close together the earlier one is dropped: the eyes stay a moment longer.
     wide = np.append(np.diff(at_s) >= CLOSE_S, np.ones(min(len(at_s), 1), dtype=bool))
     at_s, jitter = at_s[wide], jitter[wide]
     line, along = np.divmod((at_s - frame.first_frame_s) / line_s, 1.0)
@@ -240,7 +240,7 @@ def _fixations(plan: PlayerPlan, silences: Silences, watching: Watching) -> tupl
 
 
 def _random(plan: PlayerPlan, watching: Watching, purpose: str) -> np.random.Generator:
-    # One for each purpose: a longer piece draws more, and the rest stays as it was.
+    # A generator for each purpose: a longer piece draws more numbers without changing the existing ones.
     return generator(plan.player_id, watching.seed, "gaze", purpose)
 
 
@@ -257,7 +257,7 @@ def _about(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
     end_s = np.where(resting, np.minimum(end_s, ready_s[np.searchsorted(silences.entries_s, start_s, "right")]), end_s)
     gaze = watching.gaze * share_at(plan.styles, "gaze", start_s)
     kept = chances[:, 2] < gaze * np.where(resting, ABOUT_IN_REST, UP_IN_PHRASE)
-    # Hands and eyes are busy while the instrument goes down or comes up.
+    # Hands and eyes are busy while the instrument is lowered or raised.
     kept &= (end_s - start_s > 2.0 * CLOSE_S) & ~overlaps(silences.carried_s, start_s, end_s + HEAD_TURN_S)
     yaw = np.clip(np.where(resting, wide, 0.4 * wide), -MOST_YAW_RAD, MOST_YAW_RAD)
     pitch = np.clip(up, -MOST_UP_RAD, MOST_DOWN_RAD)
@@ -308,7 +308,7 @@ def _head(plan: PlayerPlan, at_s: FloatArray, yaw: FloatArray, pitch: FloatArray
     steps = round(0.5 * HEAD_TURN_S / HEAD_STEP_S)
     rows = []
     for values in (yaw, pitch):
-        # Whole millionths: the mean of them is the same wherever it is taken.
+        # Integers in millionths, so that their mean does not depend on the order of summation.
         whole = np.rint(1e6 * np.append(0.0, values)[held]).astype(np.int64)
         for _ in range(2):
             total = np.concatenate(([0], np.cumsum(np.concatenate((np.full(steps, whole[0]), whole)))))

@@ -30,7 +30,7 @@ RATE_VARIES_RAD: Final = 0.8
 MOST: Final = 2.5
 """Greatest value of noise, as a multiple of its root mean square."""
 _BANDS: Final = {
-    # Root mean square 1, by the frequencies it is made of.
+    # Frequencies (Hz) of the noise, whose root mean square is 1.
     "lips": (0.25, 1.1),
     "corners": (0.12, 0.7),
     "chin": (0.12, 0.8),

@@ -74,7 +74,7 @@ def firmness(plan: PlayerPlan) -> Curve:
 def tension_release(plan: PlayerPlan) -> Curve:
     """Return the release of lip tension between notes and after the last one."""
     starts_s, ends_s, _ = _notes(plan)
-    # All notes may be too short to be seen.
+    # All notes may be too short.
     if not len(starts_s):
         return moves((), EASED)
     next_s = np.append(starts_s[1:], np.inf)

@@ -115,7 +115,7 @@ def face_morphs(
     formed = at_lips * (1.0 - 0.9 * inhaling)
     around = formed
     if lips.apart_m > 0.0:
-        # What is between the lips stays between them in a rest, as long as it is not lowered.
+        # A reed or mouthpiece between the lips stays there in a rest unless the instrument is lowered.
         share = np.clip((AROUND_FROM - lowered) / (AROUND_FROM - AROUND_BY), 0.0, 1.0)
         around = share * share * (3.0 - 2.0 * share)
     resting = np.maximum(around - at_lips, 0.0) * (1.0 - 0.9 * inhaling)
@@ -148,7 +148,7 @@ def _lips(
     curve and morph weights.
     """
     embouchure = sizes.embouchure
-    # In a breath the upper lip stays where the mouthpiece is.
+    # During a breath the upper lip stays on the mouthpiece.
     alive = sizes.lips * formed * np.square(1.0 - face.mouth_open)
     wanders = 1.0 + TIRED_WANDERS * face.exertion.tired
     given = sizes.lips * embouchure.give * wandering.lips * wanders

@@ -48,7 +48,7 @@ def changed_stretch(
     most = min(len(before), len(after))
     head = _alike(before[:most], after[:most])
     tail = _alike(before[head:][::-1], after[head:][::-1])
-    # Both notes of a silence are to be the same before and after.
+    # The notes on both sides of a silence must be unchanged.
     first = next((index for index in range(head - 1, 0, -1) if _apart(after, index, felt_beats)), 0)
     count = len(after)
     last = next((index for index in range(count - tail + 1, count) if _apart(after, index, felt_beats)), count)

@@ -178,7 +178,7 @@ class _Notes:
         ends = np.array([event.end_tick for event in fingerings], np.int64)
         rests = np.zeros(len(starts), dtype=np.bool_)
         rests[1:] = starts[1:] - ends[:-1] >= beat_ticks_at(felt_beats, starts[1:])
-        # Notes of one fingering share its values; of equal ones that are not the same object, no more is saved.
+        # Notes with the same fingering object share its values; equal objects are not searched for.
         different = {id(event.controls): event.controls for event in fingerings}
         numbers = {identity: number for number, identity in enumerate(different)}
         return cls(
@@ -197,7 +197,7 @@ def _curve(notes: _Notes, control: Control, farthest: float) -> Curve:
         return moves((), control.rest_value)
     name, rest = control.name, control.rest_value
     targets = np.minimum([place.get(name, rest) for place in notes.places], farthest)[notes.kinds]
-    # Nothing happens where a control stays where it is: most keys do, in most notes.
+    # Most controls do not move at most notes.
     stays = (targets[1:] == targets[:-1]) & (~notes.rests[1:] | (targets[1:] == rest))
     changes = np.flatnonzero(~stays) + 1
     through = notes.rests[changes]
@@ -233,7 +233,7 @@ def _at_once(notes: _Notes, control: Control, targets: FloatArray, changes: Inde
     distances = targets[changes] - targets[changes - 1]
     windows_s = window_s(control, distances, end_s - before_s, onset_s - end_s)
     start_s = onset_s - windows_s - _unseen_s(control, distances, windows_s)
-    # However hurried, the note before has its first frame, and most of its first half.
+    # However hurried, the previous note keeps its first frame and most of its first half.
     earliest_s = before_s + np.maximum(SLOWEST_FRAME_S, LEAST_HELD_SHARE * (onset_s - before_s))
     start_s = np.minimum(np.maximum(start_s, earliest_s), onset_s - windows_s)
     if control.kind == "slide":
@@ -273,7 +273,7 @@ def _through_rest(
     if back_s + out_s > gap_s and back and out and control.unhurried_speed_m_s is not None:
         straight_s = min(_free_window_s(control, target - value), gap_s)
         return [(end_s, onset_s - straight_s, value), (onset_s - straight_s, onset_s, target)]
-    if back_s + out_s > gap_s:  # a fast beat: hurry both ways, each by its share of the distance
+    if back_s + out_s > gap_s:  # a fast beat: both moves are shortened in proportion to their distances
         back_s = max(gap_s - out_s, gap_s * back / (back + out))
         back_s = min(back_s, MOST_BACK_SHARE * gap_s) if out else gap_s
     back_end_s = min(end_s + back_s, onset_s)

@@ -170,7 +170,7 @@ def _visits(
         before = sets[worked[first - 1]] if first and follows[first] else nothing
         after = sets[worked[end]] if end < len(fingerings) and follows[end] else nothing
         onset_s, end_s = onsets_s[visit], fingerings[end - 1].end_s
-        # What it works at both of two notes comes up between them where there is a rest.
+        # A key pressed at both of two notes is released between them if there is a rest.
         ended_s = fingerings[first - 1].end_s if first else -np.inf
         next_s = fingerings[end].start_s if end < len(fingerings) else np.inf
         downs, ups = [], []
@@ -278,7 +278,7 @@ def _givings(
                 go(*up, 0)
                 here = 0
         if here != visit.station:
-            # From one place to another at once: while keys of the one come up and of the other go down.
+            # Moves from one key to another at once, while one key rises and the other goes down.
             spans = [span for span in ((last.up if last and here else None), visit.down) if span is not None]
             start_s, end_s = _hull(spans) or (visit.start_s, visit.start_s)
             go(start_s, end_s, visit.station)

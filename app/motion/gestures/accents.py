@@ -54,7 +54,7 @@ class Accents:
         down = _bump(phase, 0.0, DOWN_HALF)
         down -= BEFORE * _bump(phase, BEFORE_HALF - ACCENT_AT, BEFORE_HALF)
         down -= AFTER * _bump(phase, 1.0 - ACCENT_AT - AFTER_HALF, AFTER_HALF)
-        # Added in the order of the accents, whatever the frames are: the same frame is the same bits.
+        # Summed in the order of the accents for any choice of frames, so that results are identical to the bit.
         total: FloatArray = np.bincount(frame, self.amount[event] * down, len(times_s)).astype(np.float64)
         return total
 

@@ -187,7 +187,8 @@ def _hold_posture(total: Sum, posture: Posture, lowered: FloatArray) -> FloatArr
         total.forward({joint: 1.0}, np.deg2rad(angle_deg) * still)
     for add, angles in ((total.left, posture.spine_left_deg), (total.turn, posture.spine_turn_deg)):
         for joint, angle_deg in angles.items():
-            # A player turned to the instrument looks straight ahead when it is lowered; the trunk stays with the hands.
+            # The head of a player turned to the instrument looks straight ahead when it is lowered; the trunk stays
+            # with the hands.
             there = 1.0 - lowered if joint in NECK_SHARES else still
             add({joint: np.deg2rad(angle_deg)}, there)
     aside: FloatArray = sum(np.deg2rad(angle_deg) for angle_deg in posture.spine_turn_deg.values()) * (1.0 - lowered)

@@ -288,13 +288,13 @@ def _put(found: dict[str, FloatArray], name: str, moves: _Moves, times_s: FloatA
     stays = np.all(moves.from_m[row] == moves.to_m[row], axis=1)
     for axis, way in enumerate(("aside", "ahead")):
         low, high = moves.from_m[row, axis], moves.to_m[row, axis]
-        # A foot that stands is at its place to the bit.
+        # A standing foot keeps its exact position.
         there = np.where(stays | (share >= 1.0), high, low + share * (high - low))
         found[f"{name}_{way}"] = np.where(begun > 0, there, moves.from_m[0, axis])
 
 
 def _add(found: dict[str, FloatArray], name: str, values: FloatArray) -> None:
-    # From 0: a move before the span adds as much as none, to the sign of nought.
+    # Adding to 0 keeps the sign of zero independent of moves before the span.
     found[name] = found.get(name, np.zeros(len(values))) + values
 
 

@@ -110,7 +110,7 @@ def _step(times_s: FloatArray, span_s: tuple[float, float], step_s: float) -> di
         phase = np.clip((times_s - begin_s) / (end_s - begin_s), 0.0, 1.0)
         ahead += way * minimum_jerk(phase)
         up += 16.0 * np.square(phase * (1.0 - phase))
-        # Up with the foot, and the toes down in time for the sole to land.
+        # The toes bend up with the foot, and down in time for the sole to land flat.
         push += 16.0 * np.square(phase * (1.0 - phase)) * (1.0 - 2.0 * phase)
         coming = minimum_jerk(np.clip((times_s - begin_s) / UNLOADS_S + 1.0, 0.0, 1.0))
         going = minimum_jerk(np.clip((end_s - times_s) / UNLOADS_S + 1.0, 0.0, 1.0))

@@ -115,7 +115,7 @@ class Counting:
             here = slice(first[index], last[index])
             beat = (times_s[here] - self.start_s[index]) / self.length_s[index] * self.beats[index]
             eased = minimum_jerk(np.clip(np.minimum(beat, self.beats[index] - beat) / COUNT_EASE, 0.0, 1.0))
-            # Down to each beat and soon up again.
+            # Reaches down on each beat and rises soon after.
             result[here] = self.amount[index] * eased * np.square(0.5 + 0.5 * np.cos(2.0 * np.pi * beat))
         return result
 

@@ -42,7 +42,7 @@ def _monotone(at: FloatArray, values: FloatArray) -> FloatArray:
     slopes = np.zeros(len(at))
     before, after = steps[:-1], steps[1:]
     onwards = before * after > 0.0
-    # The harmonic mean (Fritsch and Butland 1984) keeps the curve between its keys.
+    # The harmonic mean (Fritsch and Butland 1984) keeps the curve within the range of its keys.
     slopes[1:-1][onwards] = 2.0 * before[onwards] * after[onwards] / (before + after)[onwards]
     return slopes
 
@@ -129,7 +129,7 @@ class Gestured(KeyedGestures):
 
     def sample(self, times_s: FloatArray) -> Sums:
         """Sum of the gestures at ascending times, before scaling by the player's amplitude."""
-        # Of all gestures, wherever they are: the same frames are the same bits in every span.
+        # Sums include all gestures for any span, so that the same frames are identical to the bit.
         sums: Sums = {}
         for gesture in self.gestures:
             alike = sums.setdefault(gesture.amplitude, {})

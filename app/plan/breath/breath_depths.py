@@ -30,7 +30,7 @@ def with_depths(
         if not event.corrected:
             index = index_of[EventId.parse(event.id).of]
             until = breaths[bisect_right(breaths, index)]
-            # What the rest of a note needs is not known within it: there the time says it.
+            # The air needed for the rest of a note is unknown within it, so its duration is used.
             need = 1.0 if event.is_within else (used_s[until] - used_s[index]) / lung_s
             most = drawn_share(event.end_s - event.start_s) if event.draws_air else 1.0
             depth = min(max(LEAST_DEPTH + (1.0 - LEAST_DEPTH) * need, LEAST_DEPTH), max(most, LEAST_DEPTH), 1.0)

@@ -184,7 +184,7 @@ def _rests_used(breather: Breather, score: BreathScore, given: GivenBreaths) -> 
     _, steady_used, refill = air_taken(breather, score, given)
     needs = rest_needs(score.rests.lasts_s, breather.parameters.breath_need, score.lung_s)
     certain = [*breather.marked, *(breather.number_of(event) for event in given.by_hand)]
-    # No rest is needed for a breath within a note.
+    # A breath within a note needs no rest.
     within = [breather.number_of(event) for event in given.kept if event.is_within]
     certain += [index for index in within if not score.rests.lasts_s[index]]
     for column in needs:

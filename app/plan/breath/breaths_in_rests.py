@@ -141,7 +141,7 @@ def _in_silences(
     rests, beat = silence / beats, beats[serving]
     onsets = end_tick[serving].astype(np.float64)
     long = rests[serving] >= parameters.breath_last_beat_beats
-    # A threshold below one beat lets a rest shorter than a beat count as "last beat": then it is all there is.
+    # With a threshold below one beat a shorter rest may count as "last beat"; the breath then fills it.
     lasts = np.where(long, np.minimum(silence[serving], beat), room[serving])
     starts = onsets - np.minimum(lasts, room[serving])
     prepared = rests[serving] >= parameters.breath_prepare_beats

@@ -82,7 +82,7 @@ def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: 
     stretches = _stretches(lungs, level)
     if not stretches:
         return []
-    # No note is left out that a breath in a rest comes before.
+    # Notes may be dropped for a breath only if no breath in a rest lies between them.
     breathed = np.concatenate(([0], np.cumsum(refill > 0.0)))
     places = np.arange(len(refill))
     dropping = may & ~open_ & (room.drop_s > 0.0) & (breathed[places] == breathed[places - room.dropped])
@@ -101,7 +101,8 @@ def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: 
             found, is_enough = cheapest_chain(*numbers, float(level[start]), lung_s, free_s, steps=AIR_STEPS)
         return places[list(found)].tolist(), is_enough
 
-    # Where the air lasts only a phrase's end is worth a breath, and in no rest: `rests_for_breath` says in which.
+    # While the air lasts, a breath is worthwhile only at the end of a phrase and outside rests: `rests_for_breath`
+    # decides about those.
     ends_phrase = open_ & (cost < 0.0) & (line.rests == 0)
     result: list[int] = []
     for start, end, is_short in stretches:
@@ -169,9 +170,9 @@ def cheapest_chain(
     total = np.full((last + 1, steps), np.inf)
     total[0, 0] = 0.0
     origin = np.zeros((last + 1, steps), dtype=np.int64)
-    # No lungful reaches further back than this; where it does not even reach the place before, that one has to do.
+    # One lungful reaches no further back than this; if it does not reach the previous place, that place is used anyway.
     reach = np.minimum(np.searchsorted(used_s, used_s - lung_s - EPSILON), np.arange(last + 1) - 1)
-    # From here on so little is used up since that the breath is hasty.
+    # From here on so little air has been used that a breath would be premature.
     hasty_s = HASTY_SHARE * lung_s
     hasty = np.searchsorted(used_s, used_s - hasty_s, side="right").tolist()
     gasps = np.searchsorted(played_s, played_s - LEAST_PLAYED_S + EPSILON, side="right").tolist()

@@ -34,7 +34,7 @@ def catch_breath_notes(
         compared = ComparedLine(times, breather.piece, score.rests.sounding_tick, breather.written, taken, seeds)
         return catch_places(compared, AirSupply(used, score.lung_s, filled, free_s), may, missing, stock.room)
 
-    # All breathe where it is written and after what they held together, and no one just before that.
+    # All players breathe at written marks and after notes held together, and none just before.
     after_hold = sorted(shared.after_hold) if score.gaps is None else []
     first = {*breather.marked, *(index for index in after_hold if not breather.written.joined[index - 1])}
     first = {index for index in first if may[index] and stock.refill[index] == 0.0 and stock.room.length_s[index] > 0.0}
@@ -43,7 +43,8 @@ def catch_breath_notes(
     given[at] = np.minimum(stock.room.lasts_s[at] / FULL_BREATH_S, 1.0)
     may = may.copy()
     may[[index - 1 for index in after_hold]] = False
-    # Who breathes in every rest, as the thesis has it, or only when empty, needs no breath for a phrase's end.
+    # A player that breathes in every rest (as the source document demands) or only when empty needs no breath at phrase
+    # ends.
     free_s = (breather.parameters.breath_need or 1.0) * score.lung_s
     catches = between(score.steady, stock.steady_used, given, free_s)
     if score.steady is score.written:

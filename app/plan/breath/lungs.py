@@ -44,7 +44,7 @@ def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelop
         Recorded breath; if it shows when air is blown, all of it counts, also between notes.
     """
     lasts_s = times.duration_s
-    # The dynamic of the phrases takes the air, not how each of their notes turned out.
+    # Air is used by the dynamic of the phrase, regardless of variations of single notes.
     loudness = marked_loudness(
         mean_around(times.onset_s, lasts_s, times.loudness, times.onset_s + lasts_s / 2.0, PHRASE_S)
     )
@@ -55,7 +55,7 @@ def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelop
     ends_s = np.append(times.onset_s[1:], times.played_end_s[-1])
     blown_s = np.maximum(ends_s - times.onset_s, EPSILON)
     taken = step_means(envelope.at_s, rate, times.onset_s, times.onset_s + blown_s) * blown_s
-    # Notes that were not blown take what their loudness says.
+    # Air for notes that were not blown is computed from their loudness.
     taken = np.where(envelope.plays(times), taken, noted_s)
     return np.concatenate(([0.0], np.cumsum(taken)))
 
@@ -78,7 +78,8 @@ def lungful_s(parameters: PlayerParameters, air: Air | None = None) -> float:
 
 def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
     """Fill level (N,) of the lungs, 0..1, at each note's onset, after the breath before it."""
-    # No one enters on empty lungs: without any breath before the first note (removed by hand) a normal one is assumed.
+    # No player begins with empty lungs: if no breath precedes the first note (removed by hand), a normal one is
+    # assumed.
     here, before = (0.5 if refill[0] == 0.0 else 0.0), 0
     breaths = np.flatnonzero(refill > 0.0)
     full = [here]
@@ -86,7 +87,7 @@ def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
         spent = (air - float(used[before])) / lung_s
         here, before = min(max(here - spent, 0.0) + more, 1.0), index
         full.append(here)
-    # Until the next breath it goes down as the air is used.
+    # The content of the lungs decreases until the next breath as air is used.
     last = np.searchsorted(breaths, np.arange(len(refill)), side="right")
     since = used[np.concatenate(([0], breaths))[last]]
     return np.asarray(np.maximum(np.array(full)[last] - (used[: len(refill)] - since) / lung_s, 0.0))

@@ -20,7 +20,7 @@ from app.plan.music.notation import PLACES, written_onsets
 from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds, gaps_s, staccato
 from app.plan.music.written_marks import WrittenMarks
 
-# Learned: log odds of a phrase's end, each where ...
+# Learned weights: log odds of a phrase end for each property.
 LONG_NOTE: Final = 0.8
 """Log odds of a phrase's end after a note twice as long as the notes around; four times as long counts twice, and no
 more."""
@@ -53,7 +53,7 @@ TWO_BARS: Final = 1.55
 FOUR_BARS: Final = 0.7
 """Added to `TWO_BARS` after four bars or a multiple of that."""
 
-# What songs do not show.
+# Weights that folk songs cannot teach.
 PLACE_COST: Final = 5.15
 """Cost of a breath at a place with no favourable feature; 3.9 of it is the negative log odds of such a place."""
 REST: Final = 4.0
@@ -198,7 +198,7 @@ def _phrase_end(times: LineTimes, places: _Places, rests: IntArray, at: IntArray
     shorter = np.clip(np.log2(steps[at - 1] / steps[at]), -2.0, 2.0)
     moves = np.diff(times.pitch)[at - 1]
     again = _begins_again(steps, times.pitch, rests)
-    # Out of running notes a breath comes after the note on the beat.
+    # In running notes a breath comes after the note on the beat.
     square = _squareness(rests, places.onsets, at - runs, places.bars)
     good: FloatArray = LONG_NOTE * places.long
     good += SHORTER * np.maximum(shorter, 0.0) + LONGER * np.maximum(-shorter, 0.0)
@@ -216,13 +216,13 @@ def _against(line: ComparedLine, places: _Places, at: IntArray) -> FloatArray:
     """
     onsets, steps, strength, runs, falls = places.onsets, places.steps, places.strength, places.runs, places.falls
     times, rest = line.times, line.rests[at] > 0
-    # Slurs that are known say where a short note before a bar line is an upbeat.
+    # Where slurs are known, they show whether a short note before a bar line is an upbeat.
     slurs_known = bool(times.slurs_next[:-1].any()) and _legato(line) == 0.0
     leads_to = strength[np.minimum(at + 1, len(onsets) - 1)]
     tail = ~rest & (2 * steps[at] <= places.beat - (slurs_known & (leads_to == BAR_STRENGTH)))
     tail &= _are_dotted(steps[at - 1], steps[at]) & (leads_to > 0 if slurs_known else strength[at] == 0)
     short = staccato(onsets, onsets + times.played_end_tick - times.onset_tick, line.piece.clock.ticks_per_quarter)
-    # A long note or a rest ends what led to the next one.
+    # A long note or a rest ends the notes that led to the next one.
     leads = ~rest & (places.long < 1.0)
     good: FloatArray = BEFORE_TAIL * tail + IN_STACCATO * (~rest & _in_a_row(short)[at])
     good += runs * (BEFORE_UPBEAT * np.maximum(falls, 0) + AFTER_UPBEAT * np.maximum(-falls, 0) * leads)
@@ -316,7 +316,7 @@ def _begins_again(steps: IntArray, pitch: IntArray, rests: IntArray) -> BoolArra
         moves = np.sign(np.diff(pitch))
         columns = np.concatenate((rows_of(steps[:-1], AGAIN_NOTES), rows_of(moves, AGAIN_NOTES)))
         rows = np.ascontiguousarray(columns.T, np.int64)
-        # Compared as bytes: most lines have few entries and many different bars.
+        # Compared as bytes, since most lines have few entries but many different bars.
         kinds = rows.view(np.dtype((np.void, rows.shape[1] * rows.itemsize))).ravel().tolist()
         entries = {kinds[place] for place in np.flatnonzero(rests[: len(kinds)] > 0).tolist()}
         result[: len(kinds)] = [kind in entries for kind in kinds]

@@ -105,7 +105,7 @@ def rest_needs(rest_s: FloatArray, need: float, lung_s: float) -> RestNeeds:
     shares = np.interp(rest_s, [SHORT_S, MIDDLE_S], [scaled(share, 1.0) for share in SHORT_SHARES])
     least, short_least = (scaled(figure, figure) for figure in (LEAST_PLAYED_S, SHORT_LEAST_PLAYED_S))
     middle = scaled(MIDDLE_SHARE, 1.0)
-    # Who waits in a catch breath's rest until the lungs are empty would better have breathed before.
+    # If the lungs would be empty before the rest of a catch breath, an earlier breath is better.
     empty = scaled(1.0, 1.0) if need < USUAL_NEED else np.inf
     played_s = np.array([np.inf, 0.0, scaled(MIDDLE_PLAYED_S, lung_s), scaled(LONG_PLAYED_S, lung_s), 0.0])
     is_short = kind == 1

@@ -281,7 +281,7 @@ def within_held(
         first_s, last_s = float(times.onset_s[index]), float(times.played_end_s[index])
         reason = Message("breath.staggered", {"air_s": round(air_s, 2), "lung_s": round(lung_s, 2)})
         lungful_s = (last_s - first_s) * lung_s / air_s
-        # What leads to it takes air too.
+        # The notes before it use air too.
         begun_s = lungful_s if index == 0 or times.silence_tick[index] > 0 else LED_TO_SHARE * lungful_s
         starts_s = _handed_on(first_s, last_s, lungful_s, begun_s, others_s)
         for number, start_s in enumerate(starts_s, 1):

@@ -44,7 +44,7 @@ def answering_nods(
             size *= UNDER_CONDUCTOR
         start_s, end_s = cue.start_s + after_s, cue.downbeat_s + after_s
         event_id = f"nod:{notes[index].id}"
-        # Of two who give the same entry the first is answered.
+        # If two players cue the same entry, the first one is answered.
         found.setdefault(
             event_id,
             GestureEvent(

@@ -131,7 +131,7 @@ def plan_cues(
         amount = _size(entry, all_times)
         takers = _takers(leader, entry.players, parts)
         cue = _cue(parts[leader].player_id, note, entry, why, piece, frame, amount=amount, takers=takers)
-        # No one nods twice at once: head and instrument rise again once the last cue was given.
+        # Cues of a player do not overlap: head and instrument must rise again after the last cue.
         free_s = busy_until_s.get(leader, -np.inf)
         if cue.peak_s - max(free_s, cue.start_s) >= min(LEAST_RISE_BEATS * cue.beat_s, cue.peak_s - cue.start_s):
             if cue.start_s < free_s:

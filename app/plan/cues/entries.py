@@ -89,7 +89,7 @@ def entries(
     found |= {entry.tick: entry for entry in _common_entries(sounding, lines, piece)}
     shared: list[Entry] = []
     for entry in sorted(found.values(), key=lambda entry: entry.tick):
-        # A tempo that changes while they come in belongs to their entry.
+        # A change of tempo while players enter is a part of their entry.
         if not shared or entry.tick - shared[-1].tick >= beat_ticks(piece, shared[-1].tick):
             shared.append(entry)
     return tuple(sorted([*shared, *_joining(sounding, lines, shared, piece, musicians)], key=lambda entry: entry.tick))
@@ -154,7 +154,7 @@ def _common_entries(sounding: list[tuple[int, NoteTimes]], lines: _Spans, piece:
     for gap in np.flatnonzero(all_spans.starts[1:] > all_spans.ends[:-1]).tolist():
         end, begin = int(all_spans.ends[gap]), int(all_spans.starts[gap + 1])
         index = int(np.searchsorted(lines.starts, begin))
-        # What comes in later comes in with the accompaniment.
+        # Later entries belong to the accompaniment.
         if end <= first or index == len(lines.starts) or lines.starts[index] - begin >= beat_ticks(piece, begin):
             continue
         tick = int(lines.starts[index])
@@ -220,7 +220,7 @@ def _tempo_entries(
     seconds = piece.clock.seconds(beats.astype(np.float64))
     lasts_s: FloatArray = np.diff(seconds) / np.maximum(np.diff(beats), 1)
     changes = np.abs(np.diff(np.log(np.maximum(lasts_s, 1e-12)))) >= np.log(OTHER_TEMPO)
-    # Into a fermata no one needs a beat; its end is an entry of its own.
+    # An entry into a fermata needs no beat; the end of the fermata is an entry of its own.
     slow = Spans((one.start_tick - beat_ticks(piece, one.start_tick) + 1, one.entry_tick + 1) for one in held)
     places = [place for place in (np.flatnonzero(changes) + 1).tolist() if not slow.hold(beats[place], beats[place])]
     found = [(int(beats[place]), float(lasts_s[place])) for place in places if _new_tempo(lasts_s, place)]
@@ -230,7 +230,7 @@ def _tempo_entries(
     for tick, tick_s in found:
         beat = beat_ticks(piece, tick)
         players = coming_in(sounding, tick, beat)
-        # A single player with an accompaniment follows it.
+        # A single player with accompaniment follows it.
         carried = len(sounding) == 1 and accompaniment.sounds_before(tick, beat)
         if not players or carried or tick <= lines.starts[0]:
             continue
@@ -258,7 +258,7 @@ def _new_tempo(lasts_s: FloatArray, place: int) -> bool:
         return False
     stretch = int(np.argmin(other[::-1])) if not other.all() else len(other)
     if stretch <= STEADY_BEATS and stretch < len(other):
-        # The tempo was the same shortly before: that was a ritardando, or only a delay.
+        # The tempo was this fast shortly before: only a ritardando or delay preceded.
         return bool(before[-stretch:].max() >= SLOWED_TEMPO)
     return True
 
@@ -283,7 +283,7 @@ def _joining(
                 )
                 begins &= before < 0
         rests_s = times.onset_s - ends_s
-        # A voice that comes in first of all after the others needs no long rest for it.
+        # A voice that enters for the first time after the others needs no long rest before it.
         for index in np.flatnonzero((rests_s >= LONG_REST_LEAST_S) | begins).tolist():
             tick, rest_s = int(times.onset_tick[index]), float(rests_s[index])
             bars = (tick - int(ends[index])) / piece.metre_map.bar_ticks_at(tick)

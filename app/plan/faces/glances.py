@@ -93,7 +93,7 @@ def glances_of(
         elif event.gesture is not None and event.gesture.gaze is not None and event.amount > 0.0:
             found.append(_at_own_hands(event, event.gesture.gaze))
     taken = Spans((one.start_s, one.end_s) for one in found)
-    # What is asked for anyway is more than a look up from the music.
+    # Looking up from the music is omitted during a planned glance.
     found += [one for one in up if not taken.meet(one.start_s, one.end_s)]
     lowered = Spans(lowered_spans_s(gestures))
     return tuple(_in_turn([_turned(one, lowered) for one in found]))

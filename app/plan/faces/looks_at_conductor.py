@@ -101,7 +101,7 @@ def _certain(times: LineTimes, piece: Piece, last_s: float) -> list[tuple[float,
         elif found[-1][1] - found[-1][0] < LONGEST_S:
             found[-1] = (found[-1][0], max(end_s, found[-1][1]))
         elif start_s > found[-1][1]:
-            # A glance at the page, and up again.
+            # A glance at the page, then up again.
             found.append((max(start_s, found[-1][1] + PAGE_S), max(end_s, found[-1][1] + PAGE_S + CHANGE_S[1])))
     return found
 
@@ -116,7 +116,7 @@ def _by_chance(times: NoteTimes, piece: Piece, amount: float, seeds: Seeds) -> l
     bars, bars_s = _bars(times, piece)
     if len(bars) > 1:
         chances = np.minimum(np.append(np.diff(bars_s), 0.0), LONGEST_BAR_S) / BAR_EVERY_S * amount
-        # Read ahead: what comes next is what keeps the eyes on the page.
+        # Players read ahead, so the difficulty of the coming notes keeps the eyes on the page.
         place = np.minimum(np.searchsorted(times.onset_s, bars_s), len(times.onset_s) - 1)
         around = np.stack([np.clip(place + step, 0, len(times.onset_s) - 1) for step in (-1, 0, 1)])
         lasts = times.onset_s[np.minimum(around + 1, len(times.onset_s) - 1)] - times.onset_s[around]

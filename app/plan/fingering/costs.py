@@ -36,7 +36,7 @@ RARE_TRILL_COST = 18.0
 QUICK_S = 0.15
 """Time in seconds from the previous or to the next note below which a note is fast."""
 LOUD, SOFT = 0.75, 0.35
-# What moving costs.
+# Costs of movement.
 FAST_S = 0.085
 """Time in seconds per note below which fingers reach their limit (16ths at about 176 beats/min): tapping one finger
 reaches 6 to 7 per second, alternating fingers about twice that.
@@ -270,7 +270,8 @@ class FingeringProblem:
         touching = np.clip(1.0 - gap[again] / REPEATED_REST_S, 0.0, 1.0)
         easy = (REPEATED_HURRIED_S, REPEATED_EASY_S)
         home = np.interp(np.diff(self.times.onset_s)[again], easy, (REPEATED_COST, REPEATED_HOME_COST))
-        # A slide leaves a good place in time too; who lets a key go and presses another could have done so at first.
+        # A slide may leave a good position just in time; a player who releases one key to press another could have
+        # started with the other.
         away = home if self.has_slide else np.full(len(again), REPEATED_COST)
         return again, away * touching, home * touching
 
@@ -340,7 +341,7 @@ class FingeringProblem:
         motions, steps = self.motions, np.arange(len(path) - 1)
 
         def along(amount: FloatArray, rows: IntArray, way: IntArray) -> FloatArray:
-            # One more, for a span that begins at the last note.
+            # One additional entry for a span that begins at the last note.
             return np.append(amount[rows, way[:-1], way[1:]], 0.0)
 
         if not self.has_slide:

@@ -102,7 +102,7 @@ class FingerPlaces:
         a, b = self.holds[:, before, :, None], self.holds[:, after, None, :]
         whole = self.holds | self.half
         whole_a, whole_b = whole[:, before, :, None], whole[:, after, None, :]
-        # Where what is held half differs, so does what is held wholly, or all of what is held.
+        # If half-holed keys differ, so do the fully pressed keys or the set of all pressed keys.
         moved = (a != b) | (whole_a != whole_b)
         busy = moved & (whole_a != 0) & (whole_b != 0)
         apart = busy & ((whole_a & whole_b) == 0)
@@ -165,7 +165,7 @@ def finger_places(
                 finger = fingering.fingers.get(name, worked[name].finger)
                 chosen = holds if value > _DOWN else half
                 chosen[finger][row, column] |= bits[name]
-    # Under a finger a lever is worked like any valve.
+    # A finger works a lever like any valve.
     levers = sum(bits[item.name] for item in controls if item.kind == "lever" and item.finger.endswith(".thumb"))
     beside = {contact.control for contact in contacts if _SIDE.search(contact.part)}
     aside = sum(bits[item.name] for item in controls if item.name in beside)

@@ -10,7 +10,7 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.plan.fingering.finger_travel import FingerPlaces, finger_places
 from instrument_maps.model import Control, Fingering, InstrumentMap
 
-# What choosing an alternate costs. The unit is one step down in rank.
+# Costs of alternate fingerings, in units of one rank.
 RANK_COST = 1.0
 MOST_RANKS = 3
 """Greatest rank that adds cost: woodwinds have many alternates, whose order matters little."""

@@ -49,14 +49,15 @@ def _windows(problem: FingeringProblem, path: IntArray) -> list[tuple[int, int]]
     others = local - local[np.arange(count), path][:, None]
     others[np.arange(count), path] = np.inf
     dearer = float(others.min())
-    # A span of notes first..last has the steps first-1..last; one step more on each side where three notes matter.
+    # A span of notes first..last includes the steps first-1..last, and one more step on each side if costs depend on
+    # three notes.
     reach = 1 if problem.reversal_cost is None else 2
     if not np.isfinite(dearer):
         return []
     sums = np.concatenate(([0.0], np.cumsum(saving - dearer)))
     lowest = np.minimum.accumulate(sums)
     highest = np.maximum.accumulate(sums[::-1])[::-1]
-    # Of a step: the best span of steps that holds it.
+    # For each step: the best span of steps that contains it.
     pays = highest[1:] - lowest[:-1] > -dearer * reach - TOLERANCE
     held = np.zeros(count, dtype=bool)
     held[:-1] |= pays
@@ -105,7 +106,7 @@ def _chain(local: FloatArray, cost: FloatArray) -> IntArray:
     first, last = np.unravel_index(int(steps[0].argmin()), steps[0].shape)
     chosen = np.array([first, last], dtype=np.int64)
     for middle in reversed(rounds):
-        # An odd step at the end of a round was joined to nothing.
+        # With an odd count the last step of a round has no partner.
         joined = len(middle)
         between = middle[np.arange(joined), chosen[:joined], chosen[1 : joined + 1]]
         chosen = np.concatenate((np.stack((chosen[:joined], between), axis=1).ravel(), chosen[joined:]))
@@ -139,7 +140,7 @@ def even_trills(problem: FingeringProblem, path: IntArray) -> IntArray:
     for first, last in zip(edges[::2], edges[1::2], strict=True):
         for note, within in ((first, first + 2), (first + 1, first + 3), (last, last - 2), (last - 1, last - 3)):
             same = problem.pitch_index[note] == problem.pitch_index[within]
-            # A correction of one of the two is for that note alone.
+            # A correction of one of two notes applies to that note alone.
             if same and (problem.allowed[note] == problem.allowed[within]).all():
                 even[note] = path[within]
     return even
@@ -154,12 +155,12 @@ def never_worse(problem: FingeringProblem, path: IntArray) -> IntArray:
     if len(different) == 0:
         return path
     count = len(path)
-    # A slide that stays near for a note between two alternates gains on the first what it may lose on the second.
+    # Between two alternates a slide that stays near gains at the first note what it may lose at the second.
     breaks = np.flatnonzero(np.diff(different) > (2 if problem.has_slide else 1))
     starts, ends = different[np.append(0, breaks + 1)], different[np.append(breaks, len(different) - 1)]
     silence = problem.times.onset_s[1:] - problem.times.played_end_s[:-1] >= PHRASE_SILENCE_S
-    # With the notes on either side, which runs may share (no step belongs to two of them), but across no rest: there
-    # is time to change.
+    # Includes the notes on both sides, which runs may share (no step belongs to two runs), but not across a rest, in
+    # which there is time to change.
     before = starts - ~np.append(True, silence)[starts]
     after = ends + ~np.append(silence, True)[ends]
     worse = problem.goes_further(path, first_path, before, after)

@@ -161,7 +161,7 @@ def _taps(
             continue
         apart_s = median(np.diff(beats_s).tolist())
         every = 1 if apart_s >= TAP_APART_S else 2
-        # The first ones are listened to.
+        # The player listens to the first beats before tapping.
         beats_s, beats = beats_s[2::every], beats[2::every]
         sizes = 0.6 + 0.4 * seeds.chances_at("tap size", beats)
         lasts_s = min(TAP_S, TAP_SHARE * apart_s * every)

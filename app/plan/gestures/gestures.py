@@ -153,7 +153,7 @@ def bell_heights(
     arches, turns = _arches(times.onset_s[starts], heights, loud, first_of_bar, apart)
     arches = arches * np.minimum(vigour, 1.5)
     amounts = amount_at_vigour(heights, vigour) + arches + np.minimum(ACCENT_LIFT * accents, MOST_ACCENT_LIFT)
-    # Plain lists: a loop over single numbers of an array costs several times as much.
+    # As lists, because looping over single values of an array is several times slower.
     accented = accents.tolist()
     breaks = (apart | turns | (accents > 0.0)).tolist()
     firsts = _bell_starts(heights.tolist(), vigour.tolist(), breaks, accented)
@@ -184,7 +184,7 @@ def bell_heights(
     ]
 
 
-# Equal reasons are kept once: there are tens of thousands.
+# Equal reasons are cached: there are tens of thousands.
 
 
 @lru_cache(maxsize=2)

@@ -108,7 +108,7 @@ class _Busy:
 
     def __init__(self, spans_s: list[tuple[float, float]]) -> None:
         self._starts_s = [start_s for start_s, _ in spans_s]
-        # A span that ends later than all before it is the first that ends after a time.
+        # Running maxima, so that the first span that ends after a time is found by bisection.
         self._last_ends_s = list(itertools.accumulate((end_s for _, end_s in spans_s), max))
 
     def free_until(self, start_s: float, end_s: float) -> float:

@@ -138,7 +138,7 @@ def _acceleration_deg(track: AngleTrack) -> float:
     slopes = np.array([abs(key.slope or 0.0) for key in track.keys])
     length = np.diff(at)
     moved = 10.0 / np.sqrt(3.0) * np.abs(np.diff(deg)) / (length * length)
-    # A tangent adds at most this much, by the second derivative of the quintic.
+    # Upper bound of a tangent's contribution, from the second derivative of the quintic.
     bent = 10.0 * (slopes[1:] + slopes[:-1]) / length
     return float((moved + bent).max())
 

@@ -66,7 +66,7 @@ def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
     beat_s = clock.seconds(at_tick + beat) - clock.seconds(at_tick)
     swing_beats = 2 ** max(round(math.log2(SWING_S / beat_s)), 0)
     first_tick, last_tick = int(clock.ticks(frame.first_frame_s)), int(np.ceil(clock.ticks(frame.end_s)))
-    # Players whose swings are twice as long have whole ones too.
+    # Some players' swings are twice as long and must be complete too.
     margin = 4 * swing_beats * beat
     beats = piece.metre_map.felt_between(first_tick - margin, last_tick + margin)
     bars = np.append(piece.bars(first_tick, last_tick), last_tick)
@@ -132,9 +132,9 @@ def swings_of(
     """
     beats, beat_s = pulse.swing_beats, pulse.beat_s
     if seeds.chance("swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
-        # Some players take the tempo in longer swings than others.
+        # Some players swing at half the tempo of others.
         beats *= 2
-    # Counted from the piece's beginning, so that a longer pre-roll or a note added at the end changes nothing.
+    # Counted from the beginning of the piece, so that a longer pre-roll or an added note changes nothing.
     phase = (int(np.searchsorted(pulse.beat_ticks, 0)) + int(seeds.chance("phase") * beats)) % beats
     every_tick, every_s = pulse.beat_ticks[phase::beats], pulse.beats_s[phase::beats]
     origin = int(np.searchsorted(every_tick, 0))
@@ -158,7 +158,8 @@ def _shaped(
     Side and size at the end of a block depend on that block alone, so blocks can be changed independently.
     """
     blocks, inner = units // BLOCK, units % BLOCK
-    # A place in the score for each block's chances: that of its first unit, whether it is among these or not.
+    # Position in the score that determines the chances of each block: that of its first unit, even if outside this
+    # range.
     firsts = np.concatenate(([True], np.diff(blocks) != 0))[: len(blocks)]
     own = np.cumsum(firsts) - 1
     block, at = blocks[firsts], ticks[firsts]
@@ -202,7 +203,7 @@ def _turns() -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
     shape = (len(FORMS), BLOCK)
     before, after, between, parts = np.zeros(shape), np.zeros(shape), np.zeros(shape), np.zeros(shape, np.int64)
     for row, form in enumerate(FORMS):
-        # The ends of its swings: from where the block before ended to the turns, by turns, and to its own end.
+        # Ends of the swings of a block: the end of the previous block, the turning points, and its own end.
         ends = [(1.0, 0.0, 0.0)]
         for number in range(len(form) - 1):
             ends.append((0.0, 0.0, 1.0 if number % 2 == 0 else -0.7))
@@ -260,7 +261,7 @@ def spans_near_notes(times: NoteTimes, frame: TimeFrame, edges_s: FloatArray) ->
     last = len(edges_s) - 1
     lows = np.maximum(np.searchsorted(edges_s, near_s - STIR_S, side="right") - 1, 0)
     highs = np.clip(np.searchsorted(edges_s, near_s + STIR_S, side="left"), lows, last)
-    # Each begins where the one before has ended.
+    # Each block begins where the previous one ends.
     lows = np.minimum(np.maximum(lows, np.concatenate(([0], np.maximum.accumulate(highs)[:-1]))), highs)
     counts = highs - lows
     before = np.cumsum(counts) - counts

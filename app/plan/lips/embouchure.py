@@ -28,7 +28,8 @@ def tension_of(pitch: FloatArray, instrument: InstrumentMap) -> FloatArray:
     limits = instrument.range
     low, high = limits.usual
     knots = np.array([low, limits.easy_low, limits.easy_high, high], dtype=np.float64)
-    # Equal knots (a map whose easy range is its range) would make np.interp jump; a semitone's slack keeps the order.
+    # A map whose easy range equals its range has equal knots, at which np.interp would jump; a semitone keeps them
+    # apart.
     knots = np.maximum.accumulate(knots + np.array([-0.03, -0.02, 0.02, 0.03]))
     return np.interp(pitch, knots, [0.0, EASY_TENSION[0], EASY_TENSION[1], 1.0])
 
@@ -40,7 +41,7 @@ def strain_of(register: FloatArray, loudness: FloatArray, length_s: FloatArray) 
     loud = np.clip((loudness - MEZZOFORTE) / (1.0 - MEZZOFORTE), 0.0, 1.0)
     high = np.clip((register - EASY_TENSION[1]) / (1.0 - EASY_TENSION[1]), 0.0, 1.0)
     long = np.clip(length_s / LONG_S, 0.0, 1.0)
-    # Independent strains: each takes its part of what the others leave.
+    # Independent strains combine as shares of what the others leave.
     effort = 1.0 - (1.0 - 0.75 * high) * (1.0 - 0.5 * loud) * (1.0 - 0.35 * long)
     return register + LOUD_TENSION * loud, np.clip(effort + 0.05 * register, 0.0, 1.0)
 

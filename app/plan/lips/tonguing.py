@@ -192,13 +192,13 @@ def _articulations(notes: tuple[Note, ...], times: LineTimes, slurred: BoolArray
     gates = (end - onset) / np.maximum(between, 1)
     joined = between <= 2 * quarter
     short = staccato(onset, end, quarter)
-    # An eighth before an eighth's rest sounds for half of its step, as a staccato quarter does.
+    # An eighth note before an eighth rest sounds for half its value, as a staccato quarter does.
     doubtful = short & (times.duration_s >= BEFORE_REST_S - EPSILON)
     if doubtful.any():
         short &= ~(doubtful & np.append(rest_ticks(times, piece.beat_ticks_at(onset))[1:] > 0, False))
     accented = louder_by(times) >= ACCENT
     follows = np.append(~slurred[1:], False)
-    # Held to the next stroke, in a line that detaches its notes.
+    # Held until the next stroke, in a line of detached notes.
     held = joined & follows & (gates >= TOUCHING_GATE)
     if held.any():
         low, high = DETACHED_GATES
@@ -240,7 +240,7 @@ def _strokes(
             starts = bars[np.maximum(np.searchsorted(bars, ticks[first : last + 1], side="right") - 1, 0)]
             places = np.round((ticks[first : last + 1] - starts) / step).astype(np.int64)
         back = places % 3 == 2 if triple else places % 2 == 1
-        # The first stroke is the tip's, whatever comes before.
+        # The first stroke uses the tip of the tongue in any case.
         back[0] = False
         for place, is_back in enumerate(back.tolist()):
             strokes[first + place] = "ka" if is_back else "ta"

@@ -76,7 +76,7 @@ class BreathEnvelope:
         rests_s = rests_s[played[:-1] & played[1:] & (rests_s[:, 1] - rests_s[:, 0] >= BREATH_S)]
         if len(gaps_s) == 0 or len(rests_s) == 0:
             return len(gaps_s) > 0
-        # The first gap that ends after the rest begins also begins before the rest ends.
+        # The first gap that ends after the beginning of the rest also begins before the end of the rest.
         first = np.searchsorted(gaps_s[:, 1], rests_s[:, 0], side="right")
         begins_s = np.append(gaps_s[:, 0], np.inf)[first]
         return bool(np.mean(begins_s < rests_s[:, 1]) >= SILENT_SHARE)
@@ -127,7 +127,7 @@ def gaps_within(envelope: BreathEnvelope, times: LineTimes) -> list[tuple[int, f
     gaps_s = envelope.gaps_s[np.isfinite(envelope.gaps_s).all(axis=1)]
     gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= BREATH_S]
     notes = np.searchsorted(times.onset_s + LEAST_PLAYED_S, gaps_s[:, 0]) - 1
-    # What ends later is a breath for the next note: see `silences`.
+    # A gap that ends later is a breath for the next note: see `silences`.
     inside = (notes >= 0) & (gaps_s[:, 1] <= times.played_end_s[notes] - LATE_S)
     longest: dict[int, tuple[float, float]] = {}
     for note, (start_s, end_s) in zip(notes[inside].tolist(), gaps_s[inside].tolist(), strict=True):
@@ -154,7 +154,7 @@ def silences(envelope: BreathEnvelope, times: LineTimes) -> BreathGaps:
     played = envelope.plays(times)
     kept = (ends_s - starts_s >= GASP_S) & (ends_s > ended_s - LATE_S) & played[serves]
     starts_s, ends_s, serves = starts_s[kept], ends_s[kept], serves[kept]
-    # The longest comes last of a note's, and stays.
+    # The longest gap of each note comes last and is kept.
     order = np.lexsort((ends_s - starts_s, serves))
     start_s[serves[order]], end_s[serves[order]] = starts_s[order], ends_s[order]
     return BreathGaps(start_s, end_s, played)

@@ -49,7 +49,7 @@ def dynamics_within(
     heard = begins - LOUDER_ROWS * struck - written.swell_at(times.onset_tick.astype(np.float64))
     rows = written.rows_at(ticks)
     rows = np.where(np.isnan(rows), heard[note] + written.swell_at(ticks), rows)
-    # None of an accent is left after it.
+    # The effect of an accent fades to zero.
     left = np.clip((ATTACK_S + FALL_S - since_s) / FALL_S, 0.0, 1.0) * struck[note]
     rows += left * (begins[note] - rows)
     moving = np.maximum.reduceat(rows, firsts) - np.minimum.reduceat(rows, firsts) > 1e-6

@@ -33,7 +33,7 @@ def ending_of(all_times: tuple[LineTimes, ...], piece: Piece) -> Ending:
     last = max(int(times.played_end_tick[-1]) for times in lines)
     beat = int(piece.beat_ticks_at(np.array([last]))[0])
     first = max(last - BARS * piece.metre_map.bar_ticks_at(last), min(int(times.onset_tick[0]) for times in lines))
-    # Notes end in their order, and those that end before the last bars count for nothing.
+    # Notes are sorted by their ends; notes that end before the last bars do not count.
     begins = [int(np.searchsorted(times.played_end_tick, first, "right")) for times in lines]
     onset, end, pitch, loudness = (
         np.concatenate([getattr(times, name)[begin:] for times, begin in zip(lines, begins, strict=True)])

@@ -80,7 +80,7 @@ def fermatas(all_times: tuple[NoteTimes, ...], piece: Piece) -> tuple[Fermata, .
         return ()
     in_a_row = {place: one for row in _rows(gaps, sounding, piece) for place, one in row}
     found: list[tuple[float, Fermata]] = []
-    # What is held is followed by something faster.
+    # A held note is followed by faster ones.
     followed = np.append(gaps.slowness[:-1] >= gaps.slowness[1:] * (1.0 + ROUNDING), True)
     followed[list(in_a_row)] = True
     for place in np.flatnonzero(followed).tolist():
@@ -88,7 +88,7 @@ def fermatas(all_times: tuple[NoteTimes, ...], piece: Piece) -> tuple[Fermata, .
         if fermata is None:
             continue
         slowness = float(gaps.slowness[place])
-        # What slows down just before a longer hold belongs to it.
+        # A slowing just before a longer hold belongs to it.
         if found and found[-1][1].entry_tick >= fermata.start_tick and place not in in_a_row:
             if found[-1][0] > slowness:
                 continue
@@ -179,7 +179,7 @@ def _row(first: int, last: int, gaps: _Gaps, sounding: list[NoteTimes], piece: P
         more_s = (float(gaps.slowness[place]) - max(usual, then)) * (entry - start)
         if more_s < MORE_S - ROUNDING or not (rests or entry - start >= LONG_BEATS * beat):
             return []
-        # Each but the last is followed by another one.
+        # Each tempo except the last one is followed by another.
         returns = place < last or max(usual / then, then / usual) < OTHER_TEMPO
         row.append((place, Fermata(start, entry, entry, returns)))
     return row

@@ -213,16 +213,17 @@ def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, Floa
     for step, (mark, velocity) in enumerate(ladder.steps):
         more = [added for added, _ in articulated(ladder, velocity)]
         rows = [(added, _ARTICULATION_COST + _ADDED_COST * abs(added)) for added in more[1:]]
-        # A hairpin passes by the level without a mark.
+        # A hairpin passes through the unmarked level without a mark.
         if mark == UNMARKED_STEP:
-            # What a mark has exactly is rather that mark than an articulation of what has none.
+            # A velocity equal to that of a mark is more likely the mark than an articulation without one.
             rows = [(added, max(paid, _MARK_COST) if velocity + added in values[has] else paid) for added, paid in rows]
         near = () if mark == UNMARKED_STEP else ((-1, _NEAR_COST), (1, _NEAR_COST))
         for added, paid in (*near, *rows, (0, 0.0)):
             place = min(max(velocity + added, 0), 127)
             if paid <= cost[place, step]:
                 cost[place, step] = paid
-                # What a program writes without a mark is as loud as the mark in force, whatever its number is near.
+                # The velocity that a program writes without marks has the loudness of the current mark, whichever mark
+                # it is close to.
                 plain = added < -1 or (added == 0 and mark == UNMARKED_STEP)
                 accent[place, step] = _ACCENT if added >= STRESS else 0.0 if plain else accent[place, step]
     if ladder.default is not None and ladder.default not in values:
@@ -262,7 +263,7 @@ class LadderMarks(NamedTuple):
             known = np.maximum.accumulate(np.where(self.marks < 0, -1, np.arange(len(self.marks))))
             unmarked = np.where(known < 0, MF, self.marks[np.maximum(known, 0)])
         marks = np.where(self.marks < 0, unmarked, self.marks)
-        # Of several stressed notes the first has an accent.
+        # The first of several stressed notes has an accent.
         first = self.stressed & ~np.concatenate(([False], self.stressed[:-1]))
         more = np.where(self.stressed, np.where(first, _ACCENT, 0.0), self.accents)
         return np.clip(LEVELS[marks] + more, 0.0, 1.0), marks

@@ -129,10 +129,10 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
         early = np.rint(clock.ticks(times.played_end_s[:-1] + EARLY_RELEASE_S)).astype(np.int64) - end
         sounding = RELEASE_NOTE_SHARE * (end - times.onset_tick[:-1])
         release = usual_release(early_share(times))
-        # A note that began early ended early, too.
+        # A note played early also ended early.
         moved = 0 if onset is times.onset_tick else near[:-1]
         latest = end + np.minimum(np.maximum(early, max(release, RELEASE_SHARES[0]) * np.diff(onset) + moved), sounding)
-        # No release is an audible silence after a long note, nor one of a beat.
+        # A release is not a rest if the silence is inaudible after a long note, or shorter than a beat.
         audible = np.minimum(np.ceil(clock.ticks(times.played_end_s[:-1] + AUDIBLE_S)), following) - 1.0
         certain = are_certain(times, piece.beat_ticks_at(times.onset_tick), release)[1:]
         latest = np.where(certain, np.minimum(latest, audible), latest)
@@ -140,7 +140,7 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
         since = end - begins
         rest_from = begins + simplest_places(since - LATE_RELEASE * quarter, latest - begins, since, quarter)
         shortest_rest = round(SHORTEST_REST * quarter)
-        # A rest stays one where the note after it came late.
+        # A rest before a late note remains a rest.
         lasts = np.maximum(following - end, times.silence_tick[1:])
         is_rest = (latest < following) & (lasts >= shortest_rest)
         written = np.where(is_rest, np.minimum(rest_from, following - shortest_rest), following)

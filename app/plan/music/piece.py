@@ -374,7 +374,8 @@ class Seeds(msgspec.Struct, frozen=True):
         if not self.varied:
             return shares
         last = ticks + 1 if ends is None else ends
-        # From the last span on, so that each place is drawn for once, however many spans it lies in.
+        # From the last span backwards, so that one random number is drawn for each place, however many spans contain
+        # it.
         undecided = np.arange(len(ticks))
         for start_tick, end_tick, seed in reversed(self.varied):
             within = (ticks[undecided] >= start_tick) & (last[undecided] <= end_tick)

@@ -57,7 +57,7 @@ def _of_note(bend: ControllerSteps, onset_tick: float, end_tick: float) -> tuple
     start, end = float(values[0] - middle), float(values[-1] - middle)
     before = ("scoop",) if start <= -LEAST_BEND else ("plop",) if start >= LEAST_BEND else ()
     after = ("fall",) if end <= -LEAST_BEND else ("doit",) if end >= LEAST_BEND else ()
-    # A slide through the whole note leaves its pitch or arrives at it; it does not do both.
+    # A slide through a whole note either leaves its pitch or arrives at it, not both.
     if before and after and start * end < 0.0:
         if abs(float(values[0])) < LEAST_BEND <= abs(float(values[-1])):
             return after

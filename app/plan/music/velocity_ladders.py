@@ -83,7 +83,7 @@ _LILYPOND_ADDED: Final = (4, 6, 20, 24, 26, 40)
 
 def _lilypond(program: int | None) -> Ladder:
     low, high = {**LILYPOND_RANGES, **SET_RANGES}.get(-1 if program is None else program, (0.0, 1.0))
-    # Floored, rounding errors and all, as LilyPond does it: a flute without a mark has 62.
+    # Rounded down as in LilyPond, including rounding errors: a flute without a mark gets 62.
     steps = [(mark, int(127 * (low + (high - low) * volume))) for mark, volume in _LILYPOND_VOLUMES]
     default = dict(steps)[UNMARKED_STEP]
     if default != _DEFAULT_VOLUME:
@@ -109,7 +109,7 @@ _FIXED: Final = (
     _ladder("Finale", "23 36 49 62 75 88 101 114", default=64, usual=-0.5),
     _ladder("Sibelius", "20 39 61 71 84 98 113 127", usual=-0.5),
     _ladder("NoteWorthy", "10 30 45 60 75 92 108 127", usual=-1.5),
-    # Strong, weaker and weak beats: what is added is negative.
+    # Strong, weaker and weak beats: the additions are negative.
     _ladder("abc2midi", "30 45 60 75 90 105 120 127", default=105, added=(-10, -25), usual=-1.5),
     _ladder("music21", "19 32 44 57 70 89 108 114", usual=-1.5),
 )
@@ -134,6 +134,6 @@ def articulated(ladder: Ladder, velocity: int) -> list[tuple[int, float]]:
     """
     more = [*ladder.added]
     if ladder.accent_share != 1.0:
-        # Rounded down as MuseScore does it: the product, not what is added.
+        # MuseScore rounds the product down, not the addition.
         more.append(int(velocity * ladder.accent_share) - velocity)
     return [(0, 0.85), *((one, 0.15 / len(more)) for one in more)]

@@ -84,7 +84,7 @@ def written_dynamics(marks: Iterable[Mark], source: Source, quarter: int) -> Wri
     hairpins = [mark for mark in of_dynamics if mark.kind != "dynamic" and mark.end_tick > mark.tick]
     swells = []
     if source == "sound":
-        # Before the first dynamic they change what is heard.
+        # Before the first dynamic, hairpins change the played dynamic.
         first = min(holding, default=None)
         heard = [mark for mark in hairpins if first is None or mark.tick < first]
         hairpins = [mark for mark in hairpins if mark not in heard]
@@ -165,7 +165,7 @@ def _knots(holding: dict[int, float], hairpins: Sequence[Mark], quarter: int) ->
     reached = -1
     for tick in starts:
         if tick < reached and tick not in holding:
-            # One hairpin at a time.
+            # Only one hairpin applies at a time.
             continue
         known = holding.get(tick)
         row = known if known is not None else (rows[-1] if rows else None)
@@ -185,6 +185,6 @@ def _knots(holding: dict[int, float], hairpins: Sequence[Mark], quarter: int) ->
         goal = None if aim is None else holding[aim]
         if goal is None or (goal - row) * up <= 0.0:
             goal = min(max(row + up * HAIRPIN_ROWS, 0.0), float(len(LEVELS) - 1))
-        # Where another dynamic begins, it has come as far just before.
+        # The value just before the next dynamic begins.
         go(reached - (reached in holding and holding[reached] != goal), goal)
     return ticks, rows

@@ -164,7 +164,7 @@ def written_marks(
             stroke_by_hand[first : last + 1] |= mark in by_hand
         elif mark.kind in ("fingering", "position"):
             for index in range(first, last + 1):
-                # Of an ornament the neighbours have their own.
+                # The neighbouring notes of an ornament have marks of their own.
                 if notes[index].pitch == notes[first].pitch:
                     fingering[index] = mark.text
                     fingering_by_hand[index] = mark in by_hand

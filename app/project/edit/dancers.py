@@ -229,7 +229,7 @@ def vary_body_dances(project: Project, player_ids: Collection[str]) -> Project:
     """Give each of these players a different dance to the same music."""
     for player in project.players:
         if player.id in player_ids:
-            # 0 is a dance of the player's own.
+            # 0 would select the player's usual dance.
             variation = next_seed(player.id, player.parameters.dance_variation) or 1
             project = set_parameters(project, (player.id,), dance_variation=variation)
     return project

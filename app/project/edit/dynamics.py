@@ -59,7 +59,7 @@ def _shifted(
     curve: ControllerCurve, spans: Sequence[tuple[int, int]], by: float, blend_ticks: float
 ) -> ControllerCurve:
     ticks = np.array(curve.ticks, np.int64)
-    # A blend has steps of its own, whatever the curve has there.
+    # The blend has steps of its own, independent of the steps of the curve.
     ramp = np.unique(np.round(np.linspace(0.0, blend_ticks, 7)).astype(np.int64))
     edges = np.concatenate([np.concatenate((start - ramp, end + ramp)) for start, end in spans])
     places = np.unique(np.concatenate((ticks, edges[edges >= 0])))

@@ -59,7 +59,7 @@ _KEPT: Final = 1e-4
 """Resolution to which amounts and fades are stored."""
 
 
-# Changing
+# Change
 
 
 def move(project: Project, plan: PlayerPlan, event_ids: Sequence[str], ticks: int) -> Edited:
@@ -104,7 +104,7 @@ def set_fades(
             given = {"fade_in_s": fade_in_s, "fade_out_s": fade_out_s}
             fades = {name: round(max(value, 0.0), 4) for name, value in given.items() if value is not None}
         elif isinstance(event, PoseEvent | StyleEvent):
-            # Those of poses lie outside of their span, those of styles within.
+            # Ramps of poses lie outside their span, those of styles inside.
             side = -1 if isinstance(event, PoseEvent) else 1
             if fade_in_s is not None:
                 in_s = event.start_s + side * max(fade_in_s, 0.0)
@@ -144,7 +144,7 @@ def pin_fingerings(project: Project, player_id: str, labels: Mapping[str, str]) 
     return with_corrections(project, player_id, [PinFingering(note_id, label) for note_id, label in labels.items()])
 
 
-# Adding
+# Add
 
 
 def toggle_preparation(project: Project, plan: PlayerPlan, note_id: str) -> Edited:
@@ -199,7 +199,7 @@ def add_style(project: Project, player_id: str, style: str, start_tick: int, end
     return Edited(with_corrections(project, player_id, (added,)), (added.about,))
 
 
-# Taking away
+# Remove
 
 
 def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Project:
@@ -207,7 +207,7 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
     player_id = plan.player_id
     note_ids = frozenset(note.id for note in notes_of(project, player_id))
     event_ids = tuple(event_ids)
-    # Bars performed again and curves are no events of the plan.
+    # Bars performed again and curves are not events of the plan.
     added = [item for item in corrections_of(project, player_id, event_ids) if not item.has_event]
     project = take_back(project, player_id, added) if added else project
     marks = [mark for mark in player_marks(project, player_id) if mark.id in event_ids]
@@ -265,7 +265,7 @@ def give_back_player(project: Project, player_id: str) -> Project:
     return take_back(project, player_id, project.corrections.get(player_id, ()))
 
 
-# How it works
+# Helpers
 
 
 def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_ticks: int, end_ticks: int) -> Edited:
@@ -286,7 +286,7 @@ def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_
         made: Sequence[Correction]
         if isinstance(event, BreathEvent):
             if event.id in along:
-                # It goes with its breath.
+                # It moves with its breath.
                 continue
             prepared = preparations.get(event.id) if start_ticks else None
             if prepared is not None and not moves and prepared.id in event_ids:

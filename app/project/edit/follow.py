@@ -51,7 +51,7 @@ def follow_recording(project: Project, following: Following, path: str | os.Path
 
 def _leaves_no_time(project: Project, following: Following, span: UnmatchedSpan) -> bool:
     """Return whether the recording continues without a gap where it lacks bars, so that these would have no time."""
-    # Beats before the first note and after the last one are no bars that would have to wait for those left out.
+    # Beats before the first and after the last note are outside the bars to be left out.
     sounding = following.confidence >= SURE
     earlier = np.flatnonzero(sounding & (following.ticks < span.start))
     later = np.flatnonzero(sounding & (following.ticks >= span.end))

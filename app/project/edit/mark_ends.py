@@ -52,7 +52,7 @@ def carried_on(project: Project, seconds: Mapping[str, str]) -> Project:
         if kind in AFTER:
             return seconds.get(first, first), last
         end = seconds.get(last, last)
-        # One of a single note goes with the other.
+        # If the mark has a single note, both ends move.
         return (first, end) if _spans(kind) and end != first else (first, last)
 
     return _anchored(project, seconds.keys(), lambda part: ends)

@@ -233,7 +233,7 @@ def quantise(
     return _each(project, note_ids, quantised)
 
 
-# Copies to be carried elsewhere
+# Clipboard
 
 
 class CopiedNote(msgspec.Struct, frozen=True):
@@ -305,7 +305,7 @@ def paste(project: Project, part_id: str, clip: ClipboardNotes, at_tick: int) ->
     return project, tuple(note.id for notes in added.values() for note in notes)
 
 
-# How it is done
+# Helpers
 
 
 def _checked(note: Note) -> Note:

@@ -89,7 +89,7 @@ def _room(project: Project, tick: int, shift_s: float) -> _Room:
     pinned = [pin.tick for pin in _audio(project).pins]
     before = max((one for one in (0, *pinned) if one < tick), default=None)
     after = min((one for one in pinned if one > tick), default=None)
-    # A cosine is steepest in its middle; without a pin there is as much room as keeps it half as steep as it may be.
+    # A cosine is steepest in its middle; without another pin the room keeps it half as steep as allowed.
     steep = 0.5 * np.pi / _STEEPEST
     wide_s = 2.0 * steep * abs(shift_s)
     start_s = min(clock.seconds(float(tick - _REACH_BEATS * beat)), at_s - wide_s)

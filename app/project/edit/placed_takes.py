@@ -39,7 +39,7 @@ class _Placed:
         """
         if not len(self.played):
             return ticks
-        # An aligned note may pass another: a breath never runs backwards.
+        # Aligned notes may pass each other, but the breath must not run backwards.
         here = np.maximum.accumulate(self.here)
         by = np.interp(ticks, self.played, here - self.played)
         return np.asarray(ticks + by, np.float64)
@@ -185,7 +185,7 @@ def _curves(take: Take, placed: _Placed) -> tuple[ControllerCurve, ...]:
     curves = []
     for kind, curve in take.played.curves.items():
         ticks = np.rint(placed.moved(take.tempo_map.ticks(curve.times_s))).astype(np.int64)
-        # What was sent before the piece holds at its beginning; of several at one tick the last.
+        # Values sent before the piece apply at its beginning; the last of several at one tick counts.
         ticks, values = np.maximum(ticks[ticks <= LAST_TICK], 0), curve.values[ticks <= LAST_TICK]
         last = np.append(ticks[1:] != ticks[:-1], True)[: len(ticks)]
         if len(ticks):

@@ -142,7 +142,7 @@ def randomise(project: Project, player_ids: Collection[str], spread: float) -> P
     chosen = [player for player in project.bodies if player.id in player_ids]
     if not chosen:
         return project
-    # The seeds of before are the dice of now: the same ensemble gives the same result, pressed again another.
+    # The current seeds determine the next ones: the same ensemble gives the same result, and pressing again another.
     roll = sum(player.parameters.seed for player in chosen) % 2**63
     values: dict[str, dict[str, Value]] = {player.id: {} for player in chosen}
     for name, parameter in PARAMETERS.items():

@@ -81,7 +81,7 @@ def move_take(project: Project, player_id: str, take_id: str, before: int) -> Pr
     return _with(project, player_id, msgspec.structs.replace(recorded, takes=(*first, take, *last)))
 
 
-# The comp
+# Comp
 
 
 def comp(project: Project, player_id: str, take_id: str, start_tick: int, end_tick: int) -> Project:
@@ -111,7 +111,7 @@ def comp_whole(project: Project, player_id: str, take_id: str) -> Project:
     if take_id == BEFORE:
         return comp(project, player_id, take_id, 0, LAST_TICK)
     take = recorded_with(project, player_id, take_id).take(take_id)
-    # A little early is still the first beat; what was played before the piece begins is left out.
+    # A note played slightly early belongs to the first beat; earlier notes are left out.
     slack = project.score.ticks_per_quarter // 8
     start, end = round(take.start_tick), round(take.end_tick)
     return comp(project, player_id, take_id, max(start, 0) if start <= slack else start, end)
@@ -152,7 +152,7 @@ def set_cleaning(project: Project, player_id: str, take_id: str, cleaning: Clean
     return project
 
 
-# A take without a score
+# Takes without a score
 
 
 def beats_of(project: Project, player_id: str, take_id: str) -> FloatArray:
@@ -199,7 +199,7 @@ def _require_free(project: Project, player_id: str) -> None:
             raise AppError("take.not_free", part=part.name)
 
 
-# How it is done
+# Helpers
 
 
 def _with(project: Project, player_id: str, recorded: PlayerTakes) -> Project:
@@ -227,7 +227,7 @@ def _replaced(
     """
     part = project.part(project.player(player_id))
     outside = [note for note in part.notes if not start_tick <= note.onset_tick < end_tick]
-    # A note that was moved out of the span by hand is there already.
+    # A note moved out of the span by hand already exists.
     known = {note.id for note in outside} | _others(project, part.id)
     inside = [note for note in requested if note.id not in known]
     notes = _fitted([note for note in outside if note.onset_tick < start_tick], inside)
@@ -278,9 +278,9 @@ def _spliced(
         ticks, values = _steps(old.get(kind))
         new_ticks, new_values = _steps(new.get(kind))
         first, last = np.searchsorted(ticks, [start_tick, end_tick])
-        # Where a span begins and where it ends a value holds that was said before.
+        # At both ends of a span the last value before it applies.
         from_index, to_index = np.searchsorted(new_ticks, [start_tick + 1, end_tick])
-        # Where nothing was said before, what a take says must not hold for what was played before it.
+        # If no value was set before, the take's values must not affect notes before it.
         silent = [(0, 0.0)] if not len(ticks) and start_tick > 0 else []
         goes_on = [(end_tick, _held(ticks, values, end_tick))] if end_tick < LAST_TICK else []
         spliced = (
@@ -294,7 +294,7 @@ def _spliced(
         all_ticks = np.concatenate([np.asarray(part, np.int64) for part, _ in spliced])
         all_values = np.concatenate([np.asarray(part, np.float64) for _, part in spliced])
         kept = np.append(True, all_values[1:] != all_values[:-1])
-        # A controller that never says anything is none.
+        # A controller without any values is omitted.
         if all_values.any():
             result.append(ControllerCurve(kind, tuple(all_ticks[kept].tolist()), tuple(all_values[kept].tolist())))
     return tuple(result)

@@ -147,7 +147,7 @@ def set_pickup(project: Project, ticks: int) -> Project:
     score = project.score
     if ticks == score.pickup_ticks:
         return project
-    # What the first whole bar has is the piece's metre, whatever a file gave the pickup for itself.
+    # The metre of the first complete bar is the metre of the piece; a pickup may have one of its own.
     whole = score.metres[1] if score.pickup_ticks else score.metres[0]
     _check_pickup(score, ticks, whole.numerator, whole.denominator)
     later = [metre for metre in score.metres if metre.tick > max(ticks, score.pickup_ticks)]

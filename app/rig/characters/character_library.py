@@ -128,10 +128,10 @@ def _bundled() -> Mapping[str, CharacterSource]:
 
 def _own_source(path: Path) -> Read[CharacterSource]:
     """Read the source of a user's character by the path of its entry. Raises FileError."""
-    if not path.stem.isprintable():  # Bytes that are no UTF-8 are not printable either.
+    if not path.stem.isprintable():  # bytes that are not UTF-8 are not printable either
         raise FileError("character.odd_name", file=str(path))
     if path.stem in our_characters():
-        # What is known of ours beforehand, their size and their holds, would not be true of another.
+        # Known sizes and holds of the bundled character would not apply to another one with its id.
         raise FileError("character.taken", file=str(path), id=path.stem)
     entry = read_entry(path)
     if entry.person is not None:
@@ -298,7 +298,8 @@ def add_character(
             stream.write(content)
         if suffix == ".fbx":
             _keep_images(path, media_folder(folder / f"{id}{suffix}"))
-        # A file without a description is no one: what fails between the two leaves no half of a character.
+        # The description is written last: a file without one is not a character, so a failure in between leaves no half
+        # of one.
         faces = {name: dict(parts) for name, parts in (morphs or {}).items()}
         write_entry(id, CharacterEntry(f"{id}{suffix}", title, dict(joints or {}), faces, height_m, list(hidden)))
         return id
@@ -306,7 +307,7 @@ def add_character(
 
 def _keep_images(path: Path, folder: Path) -> None:
     """Copy into a folder the images that an FBX file uses and that are next to it. Raises FileError."""
-    from app.rig.characters.figure_fbx import fbx_images  # starts a process, for FBX files alone
+    from app.rig.characters.figure_fbx import fbx_images  # starts a process, only for FBX files
 
     images = fbx_images(path)
     if not images:

@@ -101,7 +101,7 @@ def _shapes(figure: Figure, table: FaceNames) -> dict[str, dict[str, float]]:
     if table.of == "expressions":
         holders = {morph_key(name): dict(weights) for name, weights in figure.expressions.items() if weights}
     else:
-        # Several morphs may be one: those of eyes and lashes carry their mesh's name.
+        # Several morphs may form one expression: those of eyes and lashes contain the name of their mesh.
         holders = {
             name: dict.fromkeys(morphs, 1.0) for name, morphs in _named(figure.morph_names, known).items() if morphs
         }
@@ -129,14 +129,15 @@ def _named(morphs: Iterable[str], known: set[str]) -> dict[str, list[str]]:
                 affixes[key[:at], key[at + len(name) :]].add(name)
     if not affixes:
         return {}
-    # What stands before may differ from mesh to mesh; what stands after is the maker's, the rest are correctives.
+    # The prefix may differ between meshes; the suffix is chosen by the exporter, and the remaining morphs are
+    # correctives.
     _, after = min(affixes, key=lambda affix: (-len(affixes[affix]), len(affix[0] + affix[1]), affix))
     before = {start for start, end in affixes if end == after and len(affixes[start, end]) >= LEAST_ALIKE}
     found: dict[str, list[str]] = defaultdict(list)
     for morph, key in keys.items():
         inner = [key[len(start) : len(key) - len(after)] for start in before if key.startswith(start)]
         named = [name for name in inner if name in known] if key.endswith(after) else []
-        # The longest name is the one meant: an eye's blink, not a blink.
+        # The longest name that fits is meant: "eye blink" rather than "blink".
         name = key if key in known else max(named, key=lambda name: (len(name), name), default="")
         if name:
             found[name].append(morph)

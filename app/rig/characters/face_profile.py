@@ -52,7 +52,7 @@ def nose_base_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float | No
     if out_m < NOSE_OUT * long_m or not len(below):
         return None
     first = below[np.argmax(high[below])]
-    # Its underside is level, and on a face of few vertices the next one below is that of the lips or the chin.
+    # The underside of a nose is level; on a face with few vertices the next one below belongs to the lips or the chin.
     base_m = float(high[(high > high[first]) & (high <= high[tip])].min())
     return base_m if float(high[tip]) - base_m <= NOSE_LONG * long_m else None
 

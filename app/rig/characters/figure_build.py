@@ -261,7 +261,7 @@ def _at_rest(part: FigurePart, above: Sequence[int]) -> Mesh:
     weights = np.maximum(mesh.weights.astype(np.float64), 0.0)
     total = weights.sum(axis=1)
     bones = np.array([max(above[node], 0) for node in part.nodes], dtype=np.int32)
-    # A vertex that nothing moves goes with the bone all others hang from, so that it is not left behind.
+    # A vertex without weights follows the root bone, so that it is not left behind.
     weights[total <= 0.0] = np.eye(1, weights.shape[1])
     weights /= weights.sum(axis=1, keepdims=True)
     joints = np.where(total[:, None] > 0.0, mesh.joints, int(np.argmin(bones)))

@@ -191,7 +191,8 @@ def _morphs(file: str, mesh: FbxMesh, points: IntArray) -> tuple[Morph, ...]:
     ranked = points[order]
     found: dict[str, Morph] = {}
     last: dict[str, int] = {}
-    # A point is a vertex for each normal and texture coordinate it has: that may be any number, but not everywhere.
+    # A point becomes a vertex for each of its normals and texture coordinates; the number is unlimited for single
+    # points only.
     left = FREE_MOVES + MOST_VERTICES_OF_POINT * sum(len(morph.points) for morph in mesh.morphs)
     for morph in mesh.morphs:
         touched, place = np.unique(morph.points, return_inverse=True)

@@ -204,7 +204,7 @@ def _add_unnamed(tree: Tree, bones: dict[str, int]) -> None:
     shape = joints_by_shape(tree)
     digits = [sum(joint.startswith(side) and FINGER.search(joint) is not None for joint in shape) for side in SIDES]
     if len(set(digits)) > 1 or any(side + "MiddleProximal" not in shape for side in SIDES):
-        # Two chains, or other ones on the other hand, may be hair or a sleeve.
+        # Finger chains that differ from those of the other hand, or only two of them, may be hair or a sleeve.
         shape = {joint: bone for joint, bone in shape.items() if not FINGER.search(joint)}
     if any(len(tree.children[bones[side + "Foot"]]) != 1 for side in SIDES if side + "Foot" in bones):
         shape = {joint: bone for joint, bone in shape.items() if not joint.endswith("Toes")}
@@ -346,7 +346,7 @@ def _by_names(figure: Figure, tree: Tree) -> _Found:
                 for bone, key in enumerate(keys):
                     if key.startswith(prefix) and key.endswith(suffix) and len(key) >= len(prefix) + len(suffix):
                         bones_of.setdefault(key[len(prefix) : len(key) - len(suffix)], []).append(bone)
-                # Of bones with one name the body's is the one that most hangs on.
+                # Of several bones with one name the one with most descendants belongs to the body.
                 place = {
                     key: min(bones, key=lambda bone: (-tree.below[bone], figure.bone_names[bone]))
                     for key, bones in bones_of.items()
@@ -363,7 +363,7 @@ def _affixes(keys: list[str], known: set[str]) -> list[tuple[str, str]]:
     """
     votes: Counter[tuple[str, str]] = Counter()
     names = [name for name in known if len(name) >= SHORTEST_AFFIXED]
-    # Most keys of a figure with thousands of bones hold no known name.
+    # In a figure with thousands of bones most names contain no known word.
     any_name = re.compile("|".join(map(re.escape, names)))
     for key in set(keys):
         if not any_name.search(key):
@@ -385,7 +385,7 @@ def _found(profile: str, tree: Tree, named: Mapping[str, int | None]) -> _Found:
     column = [bone for joint, bone in named.items() if bone is not None and joint.startswith("spine.")]
     column = [bone for bone in column if bone not in bones.values()]
     bones |= spread_spine(tree, sorted(set(column), key=lambda bone: (tree.depth(bone), column.index(bone))))
-    # A joint above one that it should be below is a mistake of the table, not of the figure.
+    # If the order of two joints is reversed, the table is wrong and not the figure.
     for joint in _joints():
         top = _joint_above(joint, bones) if joint in bones else None
         if top is not None and (bones[joint] == bones[top] or bones[joint] in tree.above[bones[top]]):

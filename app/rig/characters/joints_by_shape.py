@@ -134,7 +134,8 @@ class _Halves:
         places, depths = points[used], np.array([tree.depth(bone) for bone in used])
         for at, bone in enumerate(used):
             far = np.linalg.norm(places - mirrored[bone], axis=1)
-            # Of several at about one place, the one as deep in the tree; the bone itself before others.
+            # Among bones at about the same position, one at the same depth of the tree is preferred, and the bone
+            # itself to others.
             steps = np.round(far / self.height, 2)
             near = np.flatnonzero(steps == steps.min())
             unlike = np.abs(depths[near] - depths[at])
@@ -192,7 +193,7 @@ def joints_by_shape(tree: Tree) -> dict[str, int]:
     arms = [bone for bone in ends if not beside & (tree.above[bone] | {bone})]
     if not arms:
         return joints
-    # Wings reach farther than arms and hang from the same bone, but hold no fingers; a skirt hangs from the hips.
+    # Wings are longer than arms and attached to the same bone, but have no fingers; a skirt is attached to the hips.
     tip = max(
         arms,
         key=lambda bone: (
@@ -371,7 +372,7 @@ def _hand(halves: _Halves, side: str, path: list[int]) -> tuple[list[int], int, 
     tree, height = halves.tree, halves.height
     hand = _hand_of_fingers(halves, path)
     if hand is None:
-        # No fingers: the bone that makes the best arm of those before it.
+        # Without fingers: the bone before the end that gives the best arm.
         ends = path[2:]
         if not ends:
             return [], path[-1], {}
@@ -462,7 +463,8 @@ def fingers(tree: Tree, side: str, hand: int, palms: Sequence[int] = ()) -> dict
     for path in paths:
         chain = [bone for bone in path if bone in tree.skinned and shared[bone] == 1]
         if len(chain) > 3:
-            # Of more than three the first is a metacarpal, the longest; or the last is no more than the fingertip.
+            # Of more than three bones the first is a metacarpal if it is the longest; otherwise the last is only a
+            # fingertip.
             lengths = [tree.distance(one, other) for one, other in pairwise(chain)]
             chain = chain[-3:] if lengths[0] >= max(lengths[1:]) else chain[:3]
         if len(chain) >= 2:
@@ -488,7 +490,7 @@ def spread_spine(tree: Tree, chain: Sequence[int]) -> dict[str, int]:
         return dict(zip(("spine", "chest"), chain, strict=False))
     first, last = chain[0], chain[-1]
     off = {bone: abs(tree.distance(first, bone) - tree.distance(bone, last)) for bone in chain[1:-1]}
-    # Of two as near to the middle the lower one.
+    # Of two bones equally near to the middle the lower one.
     near = min(off.values()) + ALIKE * tree.distance(first, last)
     middle = next(bone for bone in off if off[bone] <= near)
     return {"spine": first, "chest": middle, "upperChest": last}
@@ -504,7 +506,7 @@ def _head(halves: _Halves, chest: int) -> dict[str, int]:
         higher = [child for child in central if up[child][1] > UPWARDS * float(np.linalg.norm(up[child]))]
         if not higher or len(chain) == 4:
             break
-        # The way to the head is the one that most hangs on.
+        # The branch with most descendants leads to the head.
         bone = max(higher, key=lambda child: (tree.below[child], -child))
         chain.append(bone)
     while len(chain) > 1 and chain[-1] not in tree.skinned:

@@ -118,7 +118,7 @@ def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
     on_fingers = [int((skin.weights[:, fingers].sum(axis=1) > 0.5).sum()) for skin in skins]
     if not any(counts):
         return {}
-    # Rings, nails and sleeves hang on a hand too; most of its skin is the hand.
+    # Rings, nails and sleeves are attached to a hand too; the mesh with most vertices on it is the hand.
     skin = skins[max(range(len(skins)), key=lambda place: (on_fingers[place], counts[place]))]
     hand = _own(skin, [wrist, *fingers], 0.5)
     places: dict[str, tuple[_Skin, IndexArray]] = {}
@@ -133,18 +133,18 @@ def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
             bone = rest[following] - rest[before]
             length = float(np.linalg.norm(bone))
             if length < COINCIDE_M:
-                # A finger of two bones: the joint it lacks lies on the next one, and points as the finger does.
+                # In a finger of two bones the missing joint is placed on the next bone and points along the finger.
                 bone = rest[skeleton.index(names[finger][2])] - rest[skeleton.index(names[finger][0])]
                 length = float(np.linalg.norm(bone))
             if length < COINCIDE_M:
                 continue
             bone /= length
-            # Turning about the flexion axis takes the bone to the palm, about the sideways axis to the thumb's side.
+            # Rotating about the flexion axis moves the bone to the palm, about the sideways axis towards the thumb.
             axes = profile.joint_axes(names[finger][order])
             palmar, thumbward = np.cross(axes.flexion, bone), np.cross(axes.sideways, bone)
             reach = length
             if order == 2:
-                # A fingertip is about as long as the phalanx before it, where no skin says so.
+                # Without skin to measure, a fingertip is assumed as long as the phalanx before it.
                 reach = float(((around.positions[own] - rest[joint]) @ bone).max()) if len(own) else 0.9 * length
             middle = rest[joint] + bone * reach * BARE_MIDDLE[order]
             for place, direction, count in (("pad", palmar, PAD_VERTICES), ("side", thumbward, SIDE_VERTICES)):
@@ -219,7 +219,7 @@ class _Head:
         heights = [skin.positions[rows, 1] for skin in skins if len(rows := _own(skin, joints, 0.5))]
         if not heights:
             return cls(joints, rest[head], None, 1.0)
-        # Where in a head its joint is differs from rig to rig.
+        # The position of the joint within a head differs between rigs.
         low_m, high_m = np.percentile(np.concatenate(heights), [0.5, 99.5])
         return cls(joints, rest[head], None, float(high_m - low_m) / HEAD_M)
 
@@ -264,7 +264,7 @@ def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
     if not len(lower) or not len(upper):
         return {}
     gaps = np.linalg.norm(skin.positions[upper][:, None] - skin.positions[lower][None], axis=2)
-    # The foremost place where the lips all but touch: behind it are the insides of the mouth.
+    # The foremost position at which the lips nearly touch: behind it is the inside of the mouth.
     score = gaps - 0.5 * (skin.positions[upper, 2][:, None] + skin.positions[lower, 2][None])
     first, second = np.unravel_index(np.argsort(score, axis=None, kind="stable")[:LIP_VERTICES], gaps.shape)
     contact = np.unique(np.concatenate([upper[first], lower[second]]))
@@ -279,21 +279,21 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
     """Return the landmarks of the lips by name on a face without morphs: at a share of the way from eyes to chin, in
     the notch of the profile if there is one."""
     profiles = [_profile(skin, head) for skin in skins]
-    # Hair, lashes and teeth hang on the head too: the face covers most of its front's lower half.
+    # Hair, lashes and teeth are attached to the head too: the face covers most of the lower half of its front.
     place = max(range(len(skins)), key=lambda number: _covered(skins[number], profiles[number], head), default=-1)
     if place < 0 or len(profiles[place]) < 3:
         return {}
     skin, front = skins[place], profiles[place]
     at = skin.positions[front]
-    # The chin: from there down the profile goes back to the neck.
+    # The chin, below which the profile recedes to the neck.
     foremost_m, middle_m = float(at[:, 2].max()), float(skin.positions[_own(skin, head.joints, 0.5), 2].mean())
     forward = at[:, 2] > foremost_m - 0.65 * (foremost_m - middle_m)
-    if not forward.any():  # Nothing lies before the middle: it is no face.
+    if not forward.any():  # no vertex lies in front of the middle, so it is not a face
         return {}
     forward &= at[:, 1] >= lowest_of_face_m(at, forward, float(head.place[1]))
     front, at = front[forward], at[forward]
     chin_m = float(at[:, 1].min())
-    # Eyes are half way up a head, wherever it has none.
+    # Without eye joints the eyes are assumed half way up the head.
     top_m = float(skin.positions[_own(skin, head.joints, 0.5), 1].max())
     eyes_m = head.eyes_m if head.eyes_m is not None else (chin_m + top_m) / 2.0
     requested_m = notch_m(at, eyes_m, chin_m)
@@ -301,7 +301,7 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
     if base_m is not None and requested_m > base_m - (base_m - chin_m) / 6.0:
         requested_m = base_m - (base_m - chin_m) / 3.0
     if base_m is not None:
-        # None of the nose itself, if there is anything else near.
+        # The nose itself is excluded, if anything else is near.
         under = at[:, 1] < base_m
         if under.any() and np.abs(at[under, 1] - requested_m).min() < (eyes_m - chin_m) / 4.0:
             front, at = front[under], at[under]
@@ -332,7 +332,7 @@ def _profile(skin: _Skin, head: _Head) -> IndexArray:
     near = own[ahead & (off < MIDLINE_M * head.size)]
     if len(near) < 3:
         near = own[ahead & (off < 3.0 * MIDLINE_M * head.size)]
-    # Not the inside of the mouth, nor what lies behind the skin.
+    # Neither the inside of the mouth nor vertices behind the skin.
     at = skin.positions[near]
     beside = np.abs(at[:, 1][:, None] - at[:, 1][None]) < PATCH_M * head.size
     outer = np.where(beside, at[:, 2][None], -np.inf).max(axis=1, initial=-np.inf)

@@ -91,7 +91,7 @@ def read_character(
     if set(REQUIRED_JOINTS) <= set(found.bones):
         facing = facing_ahead(upright(figure, found.bones), found.bones)
         if facing is not figure:
-            # Which side is left depends on where ahead is.
+            # Left and right depend on the forward direction.
             figure, found = facing, map_joints(facing, joints)
     return CharacterFigure(figure, found, map_morphs(figure, morphs))
 
@@ -104,7 +104,7 @@ def _ours(source: GltfSource, id: str) -> Character:
     def way(node: int) -> tuple[int, ...]:
         return (node,) if node == root else (*way(nodes[node].parent), node)
 
-    # Children follow their parent closely, as the user would list them.
+    # Depth first, with children directly after their parent.
     joints = sorted((root, *skin.joints), key=way)
     joint_of = {node: joint for joint, node in enumerate(joints)}
     parents = tuple(joint_of.get(nodes[node].parent, -1) for node in joints)
@@ -112,7 +112,7 @@ def _ours(source: GltfSource, id: str) -> Character:
     offsets[1:] -= offsets[list(parents[1:])]
     skeleton = Skeleton(tuple(nodes[node].name for node in joints), parents, offsets)
     table = np.array([joint_of[node] for node in skin.joints], dtype=np.int32)
-    # The root, which the skin does not name, is as if bound at rest.
+    # The skin does not name the root, so it is treated as bound in its rest pose.
     joint_from_mesh = np.tile(np.eye(4), (len(joints), 1, 1))
     joint_from_mesh[:, :3, 3] = -rest_positions(skeleton)
     joint_from_mesh[table] = skin.joint_from_mesh_bind

@@ -36,7 +36,7 @@ def read_figure(path: Path) -> Figure:
         if start.startswith(MAGIC) or start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
             return gltf_figure(path)
         if start.startswith(b"Kaydara FBX") or path.suffix.lower() == ".fbx":
-            # Reads by another process; our own characters are GLB files.
+            # Starts another process; bundled characters are GLB files.
             from app.rig.characters.figure_fbx import fbx_figure
 
             return fbx_figure(path)

@@ -90,7 +90,7 @@ def upright(figure: Figure, bones: Mapping[str, int]) -> Figure:
     if min(np.linalg.norm(up), np.linalg.norm(left)) < 1e-6:
         return figure
     frame = np.column_stack([_unit(left), _unit(up), np.cross(_unit(left), _unit(up))])
-    from scipy.spatial.transform import Rotation  # heavy; figures are read seldom
+    from scipy.spatial.transform import Rotation  # slow to import; figures are rarely read
 
     turns = Rotation.create_group("O").as_matrix()
     turn = turns[int(np.argmax(np.einsum("gij,ij->g", turns, frame.T)))]
@@ -285,7 +285,7 @@ class _Pose:
                 return None
             expected = quaternion.rotate(after, quaternion.rotate(quaternion.conjugate(before), way_or_none))
             last_way = way_or_none
-        # No finger's last bone is bent by more than a right angle.
+        # The last bone of a finger is never bent by more than a right angle.
         return expected if expected is not None and float(expected @ last_way) > 0.0 else None
 
     def _finger(
@@ -343,7 +343,7 @@ class _Pose:
         level = np.array([1.0, 0.0, 1.0])
         ways = [(end - foot) * level for end in ends if end is not None]
         way = max(ways, key=lambda w: float(np.linalg.norm(w)), default=np.zeros(3))
-        # A foot that points aside or back is a bone that points elsewhere.
+        # A bone that points sideways or backwards is not the direction of the foot.
         return _unit(way) if np.linalg.norm(way) > 0.02 and way[2] > 0.5 * np.linalg.norm(way) else AHEAD
 
 

@@ -21,8 +21,9 @@ from metadata.model import Body
 
 Range = tuple[float, float]
 
-# Of grown-ups, metres: from the wrist to the last joint of the middle finger, across the knuckles, upper and lower arm,
-# height of the hips, between the eyes. Our woman and man; of arms, legs and faces a little beyond either.
+# Ranges of adults in metres: from the wrist to the last joint of the middle finger, across the knuckles, upper and
+# lower arm, height of the hips, distance of the eyes. They include both bundled adults, for arms, legs and faces with a
+# small margin.
 HAND_M, KNUCKLES_M, ARM_M, LEGS_M, EYES_M = (0.155, 0.173), (0.058, 0.070), (0.45, 0.57), (0.86, 1.06), (0.057, 0.064)
 
 _Value = TypeVar("_Value")

@@ -37,7 +37,7 @@ class Upright:
 
 def carriage_rotation(pitch_down_deg: float, yaw_left_deg: float, roll_left_deg: float) -> FloatArray:
     """Return the rotation (4,) of an instrument in the player's frame for the angles of a `Carriage`."""
-    # Left is +X: the bell (+Z) goes left about +Y, down about +X, and up (+Y) leans left about -Z.
+    # Left is +X: the bell (+Z) turns left about +Y and down about +X; the top (+Y) leans left about -Z.
     yaw = quaternion.from_axis_angle([0.0, 1.0, 0.0], np.radians(yaw_left_deg))
     pitch = quaternion.from_axis_angle([1.0, 0.0, 0.0], np.radians(pitch_down_deg))
     roll = quaternion.from_axis_angle([0.0, 0.0, -1.0], np.radians(roll_left_deg))

@@ -105,7 +105,7 @@ def fingers_at_targets(asked: Sequence[ReachTarget]) -> list[FloatArray]:
             np.concatenate([one.requested_m for one in together]),
             np.repeat([one.stay_m for one in together], counts),
         )
-        # A hand that rests, or has come where it goes, asks for the same frame after frame.
+        # While a hand rests or has arrived, consecutive frames are equal.
         firsts, same = distinct_rows(rows)
         each, *once = (values[firsts] for values in rows)
         solved = _brought(_Rows.of(chains, each), *once)[same]
@@ -135,7 +135,7 @@ def distinct_rows(columns: Sequence[npt.NDArray[Any]]) -> tuple[IndexArray, Inde
         bits = values.view(np.uint64)
         sums = bits @ _factors(bits.shape[1])
         _, firsts, same = np.unique(sums, return_index=True, return_inverse=True)
-        # Of equal rows the sums are equal; of others hardly ever.
+        # Equal rows have equal sums; others almost never do.
         if len(firsts) < count and np.array_equal(bits, bits[firsts[same]]):
             return firsts, same
     each = np.arange(count)
@@ -180,11 +180,11 @@ def _brought(
         axes = quaternion.rotate(above[each, joints], _axes(chains, angles)[each, joints, kinds])
         slopes = quaternion.cross(axes, tip[:, None] - places[each, joints]) * moves
         now = angles[each, joints, kinds]
-        # Back to where it was first, as much as that is asked, then towards the place.
+        # First back to the initial position, weighted as required, then towards the target.
         back = np.where(stay_m[:, None] > 0.0, start - now, 0.0)
         off = off - np.einsum("kdi,kd->ki", slopes, back)
         step = back + _step(slopes, off, stiff)
-        # What would leave its range stands still, and the other joints make up for it.
+        # A joint at its limit stays, and the other joints compensate.
         for _ in range(2):
             stuck = (now + step < low) | (now + step > high)
             stand = np.where(stuck, np.minimum(np.maximum(now + step, low), high) - now, 0.0)
@@ -204,7 +204,8 @@ def _axes(chains: _Rows, angles: FloatArray) -> FloatArray:
     axis = chains.axes
     swing = angles[..., 0, None] * axis[:, :, 0] + angles[..., 1, None] * axis[:, :, 1]
     angle = np.maximum(np.sqrt(np.einsum("kni,kni->kn", swing, swing)), 1e-9)[..., None, None]
-    # Flexion and sideways are one turn about a common axis: what either adds is turned by half of it, nearly.
+    # Flexion and sideways bending are one rotation about a common axis; each addition acts about an axis rotated by
+    # half of it, approximately.
     once = quaternion.cross(swing[:, :, None], axis)
     twice = quaternion.cross(swing[:, :, None], once)
     result: FloatArray = axis + (1.0 - np.cos(angle)) / angle**2 * once + (angle - np.sin(angle)) / angle**3 * twice

@@ -262,7 +262,7 @@ def raised_way(
     near, far = table.stations[first], table.stations[second]
     if table.chain is None or min(near.tip_joint, far.tip_joint) < 0 or not np.any(away_m):
         return rotations
-    # What touches farther out is lifted, or it would dip into what the inner joints are lifted over.
+    # Contacts farther out on the finger are lifted too, or they would dip into the body below the lifted inner joints.
     outer = max(near, far, key=lambda station: station.tip_joint)
     tips = np.broadcast_to(outer.tip_m, (len(share), 3))
     requested = _tip(table, rotations, tips, outer.tip_joint) + np.multiply.outer(np.sin(np.pi * share), away_m)

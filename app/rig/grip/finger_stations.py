@@ -142,7 +142,7 @@ def kinds_of_notes(
     kinds = []
     held = list(notes)
     for controls, fingers in held:
-        # By identity: notes of one fingering share its tables.
+        # Compared by identity: notes with the same fingering share its tables.
         kind = known.setdefault((id(controls), id(fingers)), len(at_work))
         if kind == len(at_work):
             at_work.append(fingers_at_work(instrument, controls, fingers))
@@ -223,7 +223,7 @@ def aside_m(contact: Contact, instrument: InstrumentMap, values: npt.ArrayLike) 
 def _aside(contact: Contact, control: Control, instrument: InstrumentMap) -> FloatArray:
     hand = contact.part.split(".")[0]
     seed = next(seed for seed in instrument.hands if seed.hand == hand)
-    # Half of a hole, or one of two that lie side by side, is opened towards the palm; that of a plate along the finger.
+    # A half hole, or one of two holes side by side, is opened towards the palm; a plate is opened along the finger.
     back = np.asarray(seed.palm_normal if control.node is None else seed.finger_direction) * -1.0
     normal = np.asarray(contact.normal)
     along = back - normal * float(back @ normal)

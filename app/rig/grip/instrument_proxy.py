@@ -212,9 +212,8 @@ def _candidates(
     a, span, hull_m = a[members] - middle, span[members], some.hulls[members, 6]
     length = np.sqrt(length2[members])
     unit = span / np.maximum(length, 1e-12)[:, None]
-    # In single precision, with as much to spare: a pair too many is found far in `inside`. What belongs to a ball and
-    # what to a body are multiplied at once: along the hull's axis, and the distance squared to its start less that of
-    # touching.
+    # In single precision with a margin: superfluous pairs are rejected in `inside`. One product of ball and body gives
+    # both the position along the hull's axis and the squared distance to its start minus that of contact.
     ball2, start2 = _dot(off, off), _dot(a, a)
     spare = np.float32(4e-6 * (ball2.max(initial=0.0) + start2.max(initial=0.0) + np.square(length.max(initial=0.0))))
     balls = np.column_stack([off, np.ones(len(off)), ball2 - np.square(radius_m), radius_m]).astype(np.float32)
@@ -239,7 +238,7 @@ def distances(some: Bodies, local_m: npt.NDArray[Any], body: IndexArray) -> npt.
     for rows, measure in _kinds(some):
         hit = np.flatnonzero((body >= start) & (body < start + len(rows)))
         if len(hit):
-            # One number after another: arithmetic on whole columns is faster where they lie together.
+            # One component at a time: arithmetic on whole columns is faster if they are contiguous.
             row = rows.T.astype(local_m.dtype).take(body.take(hit) - start, axis=1)
             result[hit] = measure(row.T, local_m.T.take(hit, axis=1).T)
         start += len(rows)
@@ -265,7 +264,7 @@ def _taper(row: FloatArray, point: FloatArray) -> FloatArray:
     off = point - a
     along = _dot(off, span) / length
     across = np.sqrt(np.maximum(_dot(off, off) - along * along, 0.0))
-    # In the plane of the axis: to the nearer end disc ...
+    # In the plane of the axis: distance to the nearer end disc ...
     end_radius = np.where(along < 0.5 * length, wide, narrow)
     cap_x = np.maximum(across - end_radius, 0.0)
     cap_y = np.abs(along - 0.5 * length) - 0.5 * length

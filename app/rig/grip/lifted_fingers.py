@@ -149,7 +149,7 @@ def _from_knuckle(station: StationTable, finger: _Finger, amount: float) -> Floa
     middle_rad = middle + np.clip(np.clip(middle, *CURVED_RAD) - middle, -MOST_RAD[0], MOST_RAD[0])
     outer_rad = outer + np.clip(OUTER_SHARE * middle_rad - outer, -MOST_RAD[1], MOST_RAD[1])
     rotations = station.rotations
-    # Half a hole is covered by the pose that was solved for it; above that, bent towards ease as it rises.
+    # A half hole is covered by the pose solved for it; above that height the finger relaxes as it rises.
     share = np.square(np.clip(1.0 - 2.0 * station.values, 0.0, 1.0))
     for joint, eased_rad in ((1, middle_rad), (2, outer_rad)):
         solved_rad = finger.bent_rad(waiting[joint], joint)

@@ -111,7 +111,7 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
         }
         jaw = mouth.jaw
         if embouchure.lips_apart_m > 0.0:
-            # Whatever the face's weights are: a hold is not fitted again for them.
+            # Independent of the face's weights, so that holds need not be fitted again when they change.
             usual_m = _in_head(character, character.landmarks["lips.contact"])[0] - 0.5 * embouchure.lips_apart_m * up
     return Lips(
         contact_rest_m=contact_m,
@@ -158,7 +158,7 @@ def _in_head(character: Character, place: Landmark) -> tuple[FloatArray, dict[st
 
 @lru_cache(maxsize=64)
 def _of_head(character: Character, mesh: str, vertices: tuple[int, ...]) -> tuple[FloatArray, dict[str, FloatArray]]:
-    # Most instruments are at the same places.
+    # Most instruments use the same landmarks.
     positions, deltas = _skin(character, Landmark(mesh, np.array(vertices, dtype=np.int32)))
     moved = {name: delta.mean(axis=0) for name, delta in deltas.items()}
     moving = {name: delta for name, delta in moved.items() if np.abs(delta).max() > 1e-6}
@@ -241,7 +241,7 @@ class _Mouth:
         for _ in range(ROUNDS):
             opened = shape + jaw * self.deltas_m[self.jaw]
             height = opened @ up
-            # As far out as the lips are, each for itself: the jaw takes the lower one back.
+            # Depth of each lip separately: the jaw takes the lower one back.
             depth = (opened - self.seam_m) @ ahead
             upper, lower = (
                 self._edge(height * sign, depth, own) for sign, own in ((1.0, self.upper), (-1.0, self.lower))

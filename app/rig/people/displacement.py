@@ -43,7 +43,7 @@ class Attaching:
     """Binds meshes to the V base vertices (V, 3) of a body."""
 
     def __init__(self, base_m: FloatArray) -> None:
-        from scipy.spatial import cKDTree  # heavy; people are made seldom
+        from scipy.spatial import cKDTree  # slow to import; people are rarely made
 
         self._tree = cKDTree(base_m)
 

@@ -102,7 +102,7 @@ def _normals(points: FloatArray, closed: bool) -> FloatArray:
     flat = length[..., 0] < 1e-12
     found = np.where(flat[..., None], 0.0, found / np.maximum(length, 1e-12))
     for row in np.flatnonzero(flat.all(axis=1)):
-        # The middle of a cap looks as what is around it does on the whole.
+        # The centre of a cap gets the mean direction of its surroundings.
         mean = found[row - 1 if row else 1].mean(axis=0)
         found[row] = mean / max(float(np.linalg.norm(mean)), 1e-12)
     return found

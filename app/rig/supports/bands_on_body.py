@@ -217,7 +217,7 @@ def _free_part(
         ways = [np.repeat(way[None], _FREE, axis=0) for way in across]
     else:
         middle = beyond[0][0][1:]
-        # Where the strings meet there is no way from one to another: the band keeps the one it came with.
+        # Where the strings meet, the direction between them is undefined: the band keeps the previous one.
         ways = [
             _unit((1.0 - t) * _unit(line[1:] - middle) + t * way)
             for (line, _), way in zip(beyond[1:], across, strict=True)
@@ -277,7 +277,7 @@ def _resampled(string: TautString, first: float, last: float, count: int) -> tup
     directions outwards there, both (R, 3)."""
     at, asked = _lengths(string.points_m), np.linspace(first, last, count)
     points = np.stack([np.interp(asked, at, string.points_m[:, axis]) for axis in range(3)], axis=1)
-    # Corners of the hull are those of triangles; what bends evenly is left as it is.
+    # Corners of the hull come from single triangles and are smoothed; even curves do not change.
     points[1:-1] = evened(points, _EVEN, 2)[1:-1]
     ways = _smoothed(np.stack([np.interp(asked, at, string.outwards[:, axis]) for axis in range(3)], axis=1))
     return points, _unit(ways)

@@ -106,7 +106,7 @@ def _back(
     tall, thick = 0.5 * (high - low), 0.028 * size
     middle = np.array([0.0, low + tall, z - _LEAN * (low + tall - top)])
     lean = np.array([0.0, 1.0, -_LEAN]) / np.hypot(1.0, _LEAN)
-    # Columns: across, the way its front looks, and the way down.
+    # Columns: sideways, the direction of the front, and downwards.
     turn = np.stack([[1.0, 0.0, 0.0], np.cross([1.0, 0.0, 0.0], lean) * -1.0, -lean], axis=1)
     turn[:, 1] = np.cross(turn[:, 2], turn[:, 0])
     rounding = 0.45 * thick

@@ -115,7 +115,7 @@ def _lowered(strap: Strap, carried: FloatArray, end: FloatArray) -> FloatArray:
     way = strap.low_m - strap.hook_m
     usual = carried[..., :3] @ strap.hook_m + carried[..., 3]
     gone = ((end - usual) * (carried[..., :3] @ way)).sum(axis=-1) / max(float(way @ way), 1e-9)
-    # A straight band is in the body's way soon after it leaves its place.
+    # A straight band would soon run into the body after it leaves its attachment.
     share = np.clip(gone, 0.0, 1.0)[:, None]
     found: FloatArray = share * (2.0 - share)
     return found
@@ -130,7 +130,8 @@ def _bow(strap: Strap, leg: StrapLeg, chord: FloatArray, body: FloatArray, lower
     out = body @ leg.out
     out = out - chord * (out * chord).sum(axis=-1, keepdims=True) / way**2
     out /= np.maximum(np.linalg.norm(out, axis=-1, keepdims=True), 1e-6)
-    # A shallow parabola of sag s over a chord c is c + 8 s^2 / 3 c long; its control point is twice as far out.
+    # A shallow parabola with sag s over a chord c has the length c + 8 s^2 / 3 c; its control point is at twice the
+    # sag.
     sag = np.sqrt(np.maximum(length / way - 1.0, 0.0) * 3.0 / 8.0)
     bowed: FloatArray = np.maximum(2.0 * np.minimum(sag, _MOST_SLACK) * way, lowered * leg.low_bow_m) * out
     return bowed

@@ -51,7 +51,7 @@ class PosedTrunk:
 
     @cached_property
     def _tree(self) -> cKDTree:
-        from scipy.spatial import cKDTree  # heavy: few pieces have straps
+        from scipy.spatial import cKDTree  # slow to import; few pieces have straps
 
         return cKDTree(self.vertices_m)
 
@@ -146,7 +146,7 @@ def taut_string(trunk: PosedTrunk, start_m: FloatArray, via_m: FloatArray, end_m
     cut = _cut(trunk.corners_m, start_m, np.cross(along, up))
     side = 1.0 if via_m[0] >= 0.0 else -1.0
     flat = np.stack([(cut - start_m) @ along, (cut - start_m) @ up], axis=1)
-    # Behind, the other shoulder is another string's; before, both may go to one side.
+    # Behind the body the other shoulder belongs to the other string; in front both may run on one side.
     kept = (side * cut[:, 0] >= -_MIDLINE_M) | (flat[:, 0] > _BEFORE * ((end_m - start_m) @ along))
     flat = flat[kept]
     if len(flat) < 3:
@@ -187,9 +187,9 @@ def _outer_path(points: FloatArray) -> FloatArray | None:
         return None
     end = np.flatnonzero(ring == 1)
     if not len(end):
-        # The free end is within the body: the string goes over the skin as far as that.
+        # The free end is inside the body: the string ends where it leaves the skin.
         return None
-    ring = np.roll(ring, -int(end[0]))  # counter-clockwise from the end: over the top to the beginning
+    ring = np.roll(ring, -int(end[0]))  # counter-clockwise from the end, over the top to the beginning
     outline = points[ring]
     begin = int(np.argmin(np.linalg.norm(outline - points[0], axis=1)))
     if begin < 1:

@@ -105,7 +105,7 @@ def metres_of(
                 found[-1].denominator,
             )
         ):
-            # The last bar, which the pickup makes whole.
+            # The last bar, which is complete together with the pickup.
             continue
         found.append(Metre(tick, *(fitting or metre)))
         aligned = False

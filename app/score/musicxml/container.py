@@ -57,7 +57,7 @@ def is_musicxml(path: Path) -> bool:
         try:
             start = stream.read(_START)
         except OSError:
-            # The reader of the file raises the reason.
+            # Reading the file raises the error.
             return False
     if start.startswith((b"MThd", b"RIFF")):
         return False
@@ -156,7 +156,7 @@ def _decoded(content: bytes) -> str:
             encoding = codecs.lookup(name).name
         except LookupError:
             encoding = "utf-8"
-        # What begins with readable letters is in no encoding of several bytes, whatever it declares.
+        # Content that begins with ASCII letters has no multi-byte encoding, whatever it declares.
         if encoding.startswith(("utf-16", "utf-32")) or encoding.replace("_", "-") in _NO_LETTERS:
             encoding = "utf-8"
     try:

@@ -27,7 +27,7 @@ _MOST_TIMES: Final = 64
 """Greatest number of repetitions of one section."""
 _MUTES: Final = {"off": "open", "stop-hand": "hand"}
 _JUMPS: Final = (
-    # "Tacet on D.S." says what is different then, and jumps nowhere.
+    # "Tacet on D.S." describes the repetition and is not a jump.
     ("da_capo", re.compile(r"(?<!\bon )(?:\bd\.?\s*c\b|\bda\s+capo\b)", re.IGNORECASE)),
     ("dal_segno", re.compile(r"(?<!\bon )(?:\bd\.?\s*s\b|\bdal\s+segno\b)", re.IGNORECASE)),
     ("to_coda", re.compile(r"^\W*to\s+coda\b", re.IGNORECASE)),
@@ -50,7 +50,7 @@ def read_direction(one: Element, cursor: Time, division: Time, bar: Bar, place: 
     at = moved if offset is not None and offset.get("sound") == "yes" else cursor
     for kind in one.iterfind("direction-type"):
         for item in kind:
-            # The end of a hairpin stands between notes where it is moved; everything else at its note.
+            # The end of a hairpin may be moved between notes; everything else applies at its note.
             yield from _typed(item, moved if item.tag == "wedge" else at, bar, place)
     if sound is not None:
         yield from read_sound(sound, at, bar, place)

@@ -75,7 +75,7 @@ def _level(text: str) -> float | None:
             return float(levels[min(len(text), len(levels)) - 1])
     if text == "pf":
         return float(_LOUD[0])
-    # "fp", "sfp", "sffpp": what it falls to.
+    # "fp", "sfp", "sffpp": the final dynamic.
     soft = len(text) - len(text.rstrip("p"))
     return float(_SOFT[min(soft, len(_SOFT)) - 1]) if soft else None
 

@@ -89,7 +89,7 @@ def ticks_per_quarter(root: Element) -> int:
     """Return the smallest number of ticks per quarter for which all times of a score are whole, up to a limit."""
     common = 1
     for text in {(one.text or "").strip() for one in root.iter("divisions")}:
-        # Others are refused, or made whole, where they stand.
+        # Others are refused or completed by the caller.
         if text.isascii() and text.isdigit() and len(text) < _MOST_DIGITS:
             common = math.lcm(common, int(text) or 1)
         if common > _MOST_DIVISIONS:
@@ -128,7 +128,7 @@ def read_measures(part: WrittenPart, bars: list[Bar], ticks: int, place: Place) 
         Semitones by which the part initially sounds higher than written; None if the file gives none.
     """
     state = _State(ticks, ticks)
-    # A program writes the divisions of the first measure behind its notes.
+    # Some programs write the divisions of the first measure after its notes.
     heads = (one for _, content in part.measures[:1] for one in content.iterfind("attributes"))
     first = next((one for one in heads if one.find("divisions") is not None), None)
     if first is not None:
@@ -304,7 +304,7 @@ def _tone(part: WrittenPart, found: dict[str, Element], chord: Chord, state: _St
         raise place.bad("pitch", step)
     alter = place.number(pitch, "alter")
     if alter is None:
-        # Of a note that is written by hand the sign alone may stand.
+        # A note entered by hand may have only the sign.
         alter = _SIGNS.get(_said(found.get("accidental"), ""), 0)
     shift = state.shift.get(chord.staff, state.shift.get("", 0))
     natural = 12 * (int(octave) + 1) + _STEPS[step]
@@ -342,7 +342,7 @@ def _notations(written: Element, chord: Chord, tone: Tone | None, measure: Measu
             if one.get("type") in ("start", "stop"):
                 chord.slurs.append((one.get("type", ""), one.get("number", "1")))
         elif tag == "tied" and tone is not None:
-            # A tie that is drawn sounds, whether it is said to or not.
+            # A drawn tie sounds, even without a tie element.
             tone.tie_start = tone.tie_start or one.get("type") in ("start", "continue")
             tone.tie_stop = tone.tie_stop or one.get("type") in ("stop", "continue")
         elif tag == "articulations":
@@ -395,7 +395,7 @@ def _ornaments(written: Element, chord: Chord, tone: Tone | None) -> None:
         elif tag == "accidental-mark" and tone is not None:
             alter = _SIGNS.get((one.text or "").strip())
             if alter is not None and one.get("placement") != "below":
-                # The neighbour that stands in no key.
+                # The neighbour note outside the key.
                 natural = tone.upper if tone.upper in (1, 2) else 2
                 tone.upper = max(1, min(3, natural + alter - (natural == 2 and alter > 0)))
 

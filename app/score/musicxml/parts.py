@@ -90,7 +90,7 @@ def written_parts(root: Element, place: Place) -> list[WrittenPart]:
         for number, measure in enumerate(root.iterfind("measure")):
             for part in measure.iterfind("part"):
                 own = found.setdefault(part.get("id", ""), WrittenPart(part.get("id", "")))
-                # A part that is not in every measure rests there.
+                # A part without content in a measure rests there.
                 count += number + 1 - len(own.measures)
                 _require_few(count, place)
                 own.measures += [(measure, Element("part"))] * (number - len(own.measures))
@@ -136,7 +136,7 @@ def _text(element: Element | None) -> str:
     pieces: list[str] = []
     for one in element.iter():
         said = (one.text or "").strip() if one.tag != "accidental-text" else _SIGNS.get((one.text or "").strip(), "")
-        # The key of an instrument stands right beside its sign.
+        # The accidental of an instrument's key follows its letter directly.
         pieces.append(said if one.tag == "accidental-text" or not pieces or not said else f" {said}")
     return " ".join("".join(pieces).split())
 
@@ -173,10 +173,10 @@ def said_instrument(part_name: str, instrument: PartInstrument, transposition: i
     names = [found for text in (part_name, instrument.name) if text and (found := words.by_name(text)) is not None]
     named = next((found for found in names if not found.vague), None)
     if said is None or (said.kind == "other" and named is not None and named.kind == "wind"):
-        # A piano is what many programs write where nothing is known.
+        # Many programs write a piano if the instrument is unknown.
         return None
     if named is not None and words.is_kind(named, said):
         return named
-    # At concert pitch the whole score may be written; a size has its key already.
+    # The whole score may be written at concert pitch; a named size already has its key.
     key = _KEYS.get((transposition or 0) % 12)
     return (words.within(f"in {key}", said) if key and said.kind == "wind" and not said.sort_of else None) or said

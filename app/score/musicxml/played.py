@@ -76,10 +76,10 @@ def played_part(measures: Sequence[Measure], visits: Sequence[Sequence[Time]]) -
                 last[chord.voice] = one
                 chords.append(one)
             elif any(kind in ("breath", "caesura") for kind, _ in chord.marks) and chord.voice in last:
-                # Some programs write a breath after a rest: it belongs to the note before.
+                # Some programs write a breath after a rest; it belongs to the note before.
                 before = last[chord.voice]
                 before.chord = _breathing(before.chord, chord)
-    # Stable: grace notes stay before the note that they lead to.
+    # A stable sort keeps grace notes before the note they lead to.
     chords.sort(key=attrgetter("onset"))
     directions.sort(key=lambda row: row[0])
     _join_ties(chords)
@@ -116,7 +116,7 @@ def _tied(waiting: list[PlayedNote], chord: PlayedChord) -> PlayedNote | None:
     """Find the waiting note that a tie connects to a chord: it must end where the chord begins; of several, one of the
     same voice.
     """
-    # Later chords begin no earlier: what has ended is tied to nothing any more.
+    # Later chords begin no earlier, so notes that have ended cannot be tied any more.
     waiting[:] = [note for note in waiting if note.end >= chord.onset - 1][-_MOST_OPEN:]
     near = [note for note in waiting if note.end <= chord.onset + 1]
     return max(near, key=lambda note: note.chord.voice == chord.chord.voice, default=None)
@@ -141,7 +141,7 @@ def _slurs(measures: Sequence[Sequence[PlayedChord]]) -> list[tuple[PlayedChord,
                     open_[number].remove(first)
                     found.append((first, chord))
                 elif number in numbers["start"]:
-                    # A slur from a note to itself is drawn to nowhere.
+                    # A slur from a note to itself has no end.
                     numbers["start"].remove(number)
                 else:
                     early.setdefault(number, []).append(chord)

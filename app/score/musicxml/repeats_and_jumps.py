@@ -57,19 +57,19 @@ def _explain(bars: Sequence[Bar]) -> None:
         if "segno" in said and not any(one.segno for one in bars):
             bar.segno = _ANY
     if any(bar.da_capo for bar in bars) and not any(bar.fine or bar.to_coda for bar in bars):
-        # A minuet is played again without its trio.
+        # After the trio a minuet is repeated without it.
         trio = next((place for place, bar in enumerate(bars) if "trio" in bar.said), 0) or _unnamed_trio(bars)
         if trio:
             bars[trio - 1].fine = True
     is_open = False
     for bar, following in pairwise(bars):
         if following.backward and not bar.backward and not (following.da_capo or following.dal_segno):
-            # Words that are wide stand a measure early: the repetition comes first.
+            # Wide text is often placed one measure early: the repeat comes first.
             following.da_capo, bar.da_capo = bar.da_capo, False
             following.dal_segno, bar.dal_segno = bar.dal_segno, ""
         is_open = is_open or bool(bar.ending_start)
         if bar.ending_stop and not is_open and following.ending_start:
-            # A bracket without its beginning.
+            # The bracket lacks its beginning.
             bar.ending_start = frozenset(range(1, min(following.ending_start)))
         is_open = is_open and not bar.ending_stop
     signs = [bar for bar in bars if "coda" in bar.said]
@@ -132,7 +132,7 @@ class _Player:
         if not numbers or group is None or (self.turn in numbers and not self.jumped):
             return False
         if self.jumped or self.turn > max(group.numbers):
-            # The last ending, unless that leads back too.
+            # The last ending, unless it repeats too.
             return max(group.numbers) not in numbers or (group.leads_back and not self.jumped)
         return self.turn in group.numbers
 

@@ -157,7 +157,7 @@ def _kinds(part: WrittenPart, played: PlayedPart, transposition: int | None) -> 
         while place < len(changes) and changes[place][0] <= note.onset:
             current = changes[place][1]
             place += 1
-        # Where notes name their instruments, words add nothing.
+        # If notes name their instruments, words are ignored.
         said = len(instruments) > 1 and note.tone.instrument in instruments
         kinds[id_of(note)] = _STRUCK if note.tone.struck else ids[note.tone.instrument] if said else current
     return kinds
@@ -266,7 +266,7 @@ def _marks(played: PlayedPart, prefix: str, spans: Sequence[Mark]) -> list[Mark]
             if one is not other:
                 found.append(Mark("slur", first(one), last(other)))
     dynamics = [Mark("dynamic", tick=tick, text=one.text) for tick, one in played.directions if one.kind == "dynamic"]
-    # Of several in one place the last one counts.
+    # The last of several marks in one place applies.
     return list({mark.id: mark for mark in (*found, *dynamics, *spans)}.values())
 
 

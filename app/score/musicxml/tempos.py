@@ -143,7 +143,7 @@ def _changes(events: Sequence[TempoEvent], end_tick: int, quarter: int) -> list[
                 at = event.tick + (end - event.tick) * step // steps
                 changes.append((at, tempo + (goal - tempo) * (step + 1) / steps))
             if not near and end < end_tick:
-                # Nothing says how it goes on: as before.
+                # Without a further indication the former tempo returns.
                 changes.append((end, steady))
     return list({tick: (tick, tempo) for tick, tempo in sorted(changes, key=lambda row: row[0])}.values())
 

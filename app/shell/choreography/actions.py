@@ -38,7 +38,7 @@ def show_choreography(editor: Editor) -> None:
 
 def learn_choreography(editor: Editor) -> None:
     """Open the dialog that learns a choreography from motion and music, or bring it to the front."""
-    from widgets.dialogs.choreography.learn import LearnDialog  # it brings the readers of motion with it
+    from widgets.dialogs.choreography.learn import LearnDialog  # imports the readers of motion files
 
     def make() -> LearnDialog:
         dialog = LearnDialog(editor.session, Path(editor.files.folder), editor.window)

@@ -11,7 +11,7 @@ from widgets.common.controls import named
 def choice_menu() -> QMenu:
     """Return a menu of the editor's window that is deleted when it closes."""
     windows = (window for window in QApplication.topLevelWidgets() if isinstance(window, QMainWindow))
-    # Not of the palette, which may be what asks: it is about to close.
+    # Not a child of the command palette, which is about to close.
     menu = named(QMenu(next(windows, QApplication.activeWindow())), "choice")
     menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     return menu

@@ -79,7 +79,7 @@ def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
     return [(plan, start, end) for player_id, start, end in found if (plan := session.plans.get(player_id)) is not None]
 
 
-# Adding
+# Add
 
 
 def choose_gesture(session: Session) -> None:
@@ -128,7 +128,7 @@ def _choose_style(session: Session, name: str, regions: bool) -> None:
     add_styles(session, name, bars_of(session, session.players, tick))
 
 
-# Taking away
+# Remove
 
 
 def delete(session: Session) -> None:
@@ -146,7 +146,7 @@ def delete(session: Session) -> None:
             if player_id in plans:
                 project = remove(project, plans[player_id], ids)
             else:
-                # Marks are the project's: they go while the plans are being made, too.
+                # Marks belong to the project and can be removed while plans are being made.
                 marks = [mark for mark in player_marks(project, player_id) if mark.id in ids]
                 project = remove_marks(project, player_id, marks)
         return project
@@ -168,7 +168,7 @@ def return_to_generated(session: Session) -> None:
             project = give_back(project, player_id, events.get(player_id, ()), notes.get(player_id, ()))
         return project
 
-    # A note is where its fingering is.
+    # Selecting a note selects its fingering.
     chosen = [*session.selection.events]
     chosen += [EventKey(player_id, str(EventId("fingering", id))) for player_id, ids in notes.items() for id in ids]
     session.attempt(edit_at_events(session, "edit.give_back", chosen), edit)

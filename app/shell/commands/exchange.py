@@ -69,7 +69,7 @@ def reimport_from(editor: Editor, path: Path) -> None:
     def done(found: tuple[Reimport, PartChanges]) -> None:
         outcome, changes = found
         if session.project is not project:
-            # Edited meanwhile: what was worked out is of another piece.
+            # The piece was edited meanwhile, so the result does not apply any more.
             reimport_from(editor, path)
             return
         from widgets.dialogs.reimport_midi import ReimportDialog
@@ -132,7 +132,7 @@ def export_midi(editor: Editor) -> None:
         return write_piece(project, target, all_maps())
 
     def done(warnings: tuple[Message, ...]) -> None:
-        # The path is for the list of notices, which can show it in its folder.
+        # The path lets the list of notices show the file in its folder.
         written: dict[str, Argument] = {"file": target.name, "path": str(target)}
         if warnings:
             first = message_text(warnings[0], session)
@@ -150,7 +150,7 @@ def export_midi(editor: Editor) -> None:
 def export_files(editor: Editor) -> None:
     """Open the dialog for exporting animation files, and start the export when it is confirmed."""
     folder = editor.settings.export_folder or str(Path(editor.files.folder) / "export")
-    from widgets.dialogs.export_files import ExportDialog  # it brings all formats with it
+    from widgets.dialogs.export_files import ExportDialog  # imports all file formats
 
     unreal = editor.settings.unreal_project
     piece = editor.session.project.source or str(editor.files.path)

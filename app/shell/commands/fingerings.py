@@ -82,7 +82,7 @@ def type_fingering(session: Session, sign: str, now_s: float | None = None) -> N
         session.document.cancel_gesture(typed.gesture)
         _offer(session, notes, typed.text, is_refused=not begun)
         typed.text = typed.text if begun else ""
-    # The time the program needs to show a sign is not a pause between two.
+    # Time spent drawing a sign does not count as a pause between two keys.
     typed.at_s = time.monotonic() if now_s is None else now_s
 
 

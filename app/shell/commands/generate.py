@@ -83,7 +83,7 @@ def _has_bars(session: Session) -> bool:
 
 
 def _has_varied_bars(session: Session) -> bool:
-    # Whose notes are selected is asked last: it means a look at every note of the score.
+    # Checked last, because finding the players of selected notes examines the whole score.
     if not _has_bars(session) or not any(generation.variations(session.project, own) for own in session.players):
         return False
     span = selected_ticks(session)

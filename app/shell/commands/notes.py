@@ -24,7 +24,7 @@ MIME_TYPE = "application/x-suisou-notes+json"
 VELOCITY_STEP = 8
 
 
-# Selecting
+# Select
 
 
 def select_all(session: Session) -> None:
@@ -91,7 +91,7 @@ def select_span(session: Session) -> None:
     session.select(Selection(found))
 
 
-# Editing
+# Edit
 
 
 def _edit(session: Session, id: str, edit: Callable[[Project, frozenset[str]], Project]) -> None:
@@ -227,7 +227,7 @@ def change_velocity(session: Session, by: int) -> None:
     _edit(session, "edit.change_velocity", lambda project, ids: notes.change_velocity(project, ids, by))
 
 
-# The clipboard
+# Clipboard
 
 
 def copy(session: Session) -> None:

@@ -79,7 +79,7 @@ def show_rules(editor: Editor) -> None:
             there.raise_()
             there.activateWindow()
             return
-    # Beside the window: what is previewed is looked at there.
+    # Beside the window, in which the preview is shown.
     RulesDialog(editor.session, editor.window).show()
 
 

@@ -163,7 +163,7 @@ def _go(session: Session, time_s: float) -> None:
 
 def _bar(session: Session) -> int:
     score = session.project.score
-    # A moment that was reached by its bar line is in that bar, however it was rounded.
+    # A playhead moved to a bar line is in that bar, regardless of rounding.
     return score.metre_map.bar_of_tick(floor(score.tempo_map.ticks(session.playhead_s + _NEAR_S)))
 
 

@@ -29,7 +29,7 @@ def _shown(ghosts: Ghosts, icon: str) -> Action:
         return session.timeline_view is not None and session.timeline_view.ghosts is ghosts
 
     def enabled(session: Session) -> bool:
-        # Each of several stacked rolls shows one player alone.
+        # Each of several stacked rolls shows one player only.
         return session.timeline_view is not None and not session.timeline_view.stacking
 
     run = on_timeline(lambda view: view.set_ghosts(ghosts))

@@ -78,7 +78,7 @@ ACTIONS: tuple[Action, ...] = (
         checked=lambda session: session.viewport.follows_selection,
     ),
     *map(_follow, FOLLOWS),
-    # From the timeline too: poses are put there in the picture and timed below it.
+    # Also in the timeline: poses are set in the viewport and timed below.
     replace(
         _row(
             "pose",

@@ -61,7 +61,7 @@ def facts_of(project: Project, plans: Mapping[str, PlayerPlan], is_playing: bool
 
 
 def _has_moved_breath(then: TourFacts, now: TourFacts) -> bool:
-    # One that was only made deeper begins where a breath began before.
+    # A breath that was only made deeper begins at the same tick as before.
     return bool(now.breaths - then.breaths - then.breath_ticks)
 
 
@@ -122,7 +122,7 @@ class TourProgress:
         if STOPS[self.stop](self.arrival, now):
             return replace(self, done=self.done | {self.stop})
         if now.breaths == self.arrival.breaths and now.breath_ticks != self.arrival.breath_ticks:
-            # Plans may come after the arrival, and be made again for other reasons than a breath set by hand.
+            # Plans may arrive later, and be made again for other reasons than an edited breath.
             return replace(self, arrival=replace(self.arrival, breath_ticks=now.breath_ticks))
         return self
 

@@ -153,7 +153,7 @@ class FirstSteps(QObject):
         """
         if self.progress is not None:
             self._arrive()
-            # As by Tab: then Space presses the button, and does not play.
+            # Focused as if by Tab, so that Space presses the button and does not start playback.
             self.bubble.next.setFocus(Qt.FocusReason.TabFocusReason)
             return
         self._waits_for_piece = True
@@ -169,7 +169,7 @@ class FirstSteps(QObject):
         if had_keys:
             self._window.timeline.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    # The piece
+    # Piece
 
     def _changed(self, change: Change) -> None:
         if not change.opened:
@@ -180,7 +180,7 @@ class FirstSteps(QObject):
         if self.progress is not None:
             self.end()
         if waited and is_example:
-            # Panels are shown once the file says that it is open.
+            # Panels are shown after the file reports that it is open.
             QTimer.singleShot(0, self, self._start)
 
     def _opened(self) -> None:
@@ -227,7 +227,7 @@ class FirstSteps(QObject):
         else:
             self._place()
 
-    # Looks
+    # Appearance
 
     def _show(self) -> None:
         progress = self.progress

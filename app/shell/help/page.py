@@ -64,7 +64,7 @@ class GuidePage(QTextBrowser):
         self._pictures: dict[str, QImage] = {}
         self._apply_size()
 
-    # The guide
+    # Guide
 
     @property
     def guide(self) -> Guide | None:
@@ -116,7 +116,7 @@ class GuidePage(QTextBrowser):
                 cursor = self.document().find(word, cursor)
         self.setExtraSelections(marked)
 
-    # Looks
+    # Appearance
 
     def zoom(self, steps: int) -> None:
         """Make the font larger or smaller by steps; 0 restores the default size."""
@@ -183,7 +183,7 @@ class GuidePage(QTextBrowser):
         if self._pictures:
             self.document().markContentsDirty(0, self.document().characterCount())
 
-    # Place
+    # Position
 
     def _block_at_top(self) -> QTextBlock:
         return self.cursorForPosition(QPoint(MARGIN_PX, self.fontMetrics().height())).block()

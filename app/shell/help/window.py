@@ -100,7 +100,7 @@ class HelpWindow(Retranslated, QDialog):
         ):
             QShortcut(QKeySequence(keys), self, run)
         self.resize(SIZE.boundedTo(parent.screen().availableSize() - QSize(40, 80)))
-        # Over the players and the inspector: the timeline and its keys stay in sight.
+        # Over the players and the inspector, so that the timeline stays visible.
         corner = parent.frameGeometry().topRight()
         self.move(max(corner.x() - self.width() - 24, parent.screen().availableGeometry().left()), corner.y() + 60)
         session.theme_changed.connect(self._apply_theme)
@@ -110,7 +110,7 @@ class HelpWindow(Retranslated, QDialog):
         self.retranslate()
         self._apply_theme()
 
-    # Places
+    # Sections
 
     def read(self, name: str, section: str | int = "") -> None:
         """Open a guide at a section, and raise the window.
@@ -253,7 +253,7 @@ class HelpWindow(Retranslated, QDialog):
         else:
             self.close()
 
-    # Looks
+    # Appearance
 
     def retranslate(self) -> None:
         self._fill_contents()
@@ -277,5 +277,5 @@ class HelpWindow(Retranslated, QDialog):
         if window is not None and window is not own and window.modality() != Qt.WindowModality.NonModal:
             own.setTransientParent(window)
         elif window is editor or own.transientParent() is None:
-            # Without one the program would not end with the editor's window.
+            # Without a parent window the program would not end with the editor's window.
             own.setTransientParent(editor)

@@ -92,7 +92,7 @@ class ImportAnswers(Answers):
         dialog = QApplication.activeModalWidget()
         buttons = dialog.findChild(QDialogButtonBox) if isinstance(dialog, QDialog) else None
         if buttons is not None:
-            # Not enabled before there is something to agree to.
+            # Disabled until there is something to confirm.
             buttons.button(QDialogButtonBox.StandardButton.Ok).click()
 
 

@@ -57,7 +57,7 @@ class Frames:
         self.session.select(Selection(frozenset(self.ids[number : number + 1])))
 
     def play(self, number: int) -> None:
-        # What is heard is never just at a frame.
+        # Sound positions are never exactly at a frame.
         self.session.set_playhead(self.start_s + (number + 0.4) / 60.0)
 
 

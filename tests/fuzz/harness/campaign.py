@@ -228,7 +228,7 @@ def _attack(child: Child, kind: str, seconds: float, seed: int, tally: Tally) ->
     ahead = spec.seeds()[::-1]
     while ahead or time.monotonic() < end_s:
         seeds = pool if pool and chance.random() < 0.3 else good
-        # What is good comes first and as it is; what was found before, which test_found reads, as mutants alone.
+        # Valid inputs come first, unchanged; inputs found earlier, which test_found reads, only as mutants.
         data = ahead.pop() if ahead else mutated(seeds, chance, spec.structured)
         result = child.run(kind, data)
         costly = tally.add(data, result)

@@ -36,18 +36,18 @@ MOST_DATA_BYTES = 2 * 2**30
 
 def main() -> None:
     answers = os.fdopen(os.dup(1), "w")
-    # What a library prints is no answer.
+    # Output printed by a library is not an answer.
     os.dup2(2, 1)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     faulthandler.enable()
     faulthandler.register(signal.SIGXCPU, all_threads=True, chain=True)
     names: list[str] = json.loads(sys.stdin.readline())
     for name in names:
-        # What is loaded or made once is no file's cost.
+        # Modules loaded and objects created once are not attributed to any file.
         kind = KINDS[name]
         for data in kind.seeds()[:2]:
             _run(name, data)
-    # Of what is there now nothing is garbage: looking through it again and again would take longer than the readers.
+    # Existing objects are exempt from garbage collection, which would take longer than the readers.
     gc.collect()
     gc.freeze()
     data_bytes = status_kb("VmData") * 1024

@@ -149,7 +149,7 @@ def test_speer_names_voices_only_so_the_title_and_ranges_decide() -> None:
         ("Tenoru", "trombone"),
         ("Tenoru", "trombone"),
     ]
-    assert sum(warning.id == "score.instrument_from_title" for warning in score.warnings) == 4  # One for each track.
+    assert sum(warning.id == "score.instrument_from_title" for warning in score.warnings) == 4  # one for each track
 
 
 def test_the_bundled_quartet_is_what_its_script_makes(tmp_path: Path) -> None:

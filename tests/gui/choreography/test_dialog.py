@@ -58,7 +58,7 @@ def dialog(session: Session, qtbot: QtBot, files: tuple[Path, Path]) -> Choreogr
     session.apply(Message("edit.add_dancer"), project)
     session.set_performance(Performance(session.project))
     made = ChoreographyDialog(session)
-    # It deletes itself when it is closed.
+    # The dialog deletes itself when it is closed.
     qtbot.addWidget(made)
     show_in_front(made)
     return made

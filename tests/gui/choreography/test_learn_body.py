@@ -115,7 +115,7 @@ def test_corrections_are_taken_back(dialog: LearnDialog, folder: Path) -> None:
     assert dialog.drafts[0].joints == {joint: ""}
     QTest.mouseClick(child(dialog, QPushButton, "body_reset"), Qt.MouseButton.LeftButton)
     assert dialog.drafts[0].joints == {}
-    # Of another motion the bones are others.
+    # Another motion has other bones.
     give(dialog, joint, bone)
     dialog.form._change(motion=folder / "swings.bvh")
     assert dialog.drafts[0].joints == {}

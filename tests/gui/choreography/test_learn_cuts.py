@@ -100,7 +100,7 @@ def test_a_cut_that_is_dragged_is_in_the_choreography(dialog: LearnDialog, folde
     assert cuts == requested
     assert model.sources[0].cuts_given
     assert not child(dialog, QToolButton, "cut_redo").isEnabled()
-    # One drag is one step.
+    # A drag is one step.
     QTest.mouseClick(child(dialog, QToolButton, "cut_undo"), Qt.MouseButton.LeftButton)
     assert plot(dialog).cuts == FOUND
     assert dialog.drafts[0].cuts is None

@@ -215,7 +215,7 @@ def test_a_bad_pair_is_named_and_the_others_stay(
     press(dialog, "learn_music_choose")
     assert child(dialog, QPushButton, "learn_start").isEnabled()
     assert dialog.drafts[0].offset_s == 1.0
-    # What only learning finds is reported too, and nothing is lost.
+    # Problems found only while learning are reported too, and nothing is lost.
     select(dialog, 0)
     type_number(dialog, "learn_states", "900")
     press(dialog, "learn_start")
@@ -296,6 +296,6 @@ def test_a_finished_choreography_can_be_used(session: Session, dialog: LearnDial
     with qtbot.waitSignal(dialog.used) as signal:
         press(dialog, "learn_use")
     assert signal.args == [folder / "choreography.choreography"]
-    # Another seed is another choreography.
+    # A different seed gives a different choreography.
     type_number(dialog, "learn_states", "3")
     assert not child(dialog, QPushButton, "learn_use").isVisible()

@@ -112,7 +112,7 @@ def test_motion_and_music_play_together_from_the_offset_on(
     assert hits_s(devices)[0] == pytest.approx(1.0 + FIRST_HIT_S, abs=0.03)
     assert place(dialog) == pytest.approx(2.0, abs=0.1)
     assert drawn_at(dialog, place(dialog))
-    # Another offset is heard at once, in the sound that goes on.
+    # A changed offset is heard at once, without interrupting the sound.
     type_number(dialog, "learn_offset", "1.25")
     elapse(1.5)
     late = [at for at in hits_s(devices) if at > 2.4]
@@ -197,7 +197,7 @@ def test_no_offset_beyond_the_clip_is_offered(dialog: LearnDialog, tmp_path: Pat
         QTest.keyClick(number, Qt.Key.Key_PageUp)
     number.setValue(1000.0)
     assert number.value() <= 8.5
-    # One that was set stays, is shown as it is, and is reported, when the motion becomes shorter.
+    # A cut that was set stays, is displayed unchanged and is reported when the motion becomes shorter.
     type_number(dialog, "learn_fps", "160")
     assert dialog.drafts[0].offset_s == pytest.approx(8.4)
     assert number.value() == pytest.approx(8.4)

@@ -156,7 +156,7 @@ def test_no_reason_of_a_plan_holds_the_id_of_a_text(session: Session) -> None:
         said = [event.reason for event in plan.fingerings] + [event.reason for event in plan.breaths]
         said += [event.reason for event in plan.cues] + [event.reason for event in plan.gestures]
         reasons |= {reason.id: (reason, plan.player_id) for reason in said}
-    # Those of breaths in rests say why these were breathed in by a text of its own.
+    # Texts of breaths in rests contain a reason of their own.
     assert any("why" in reason.arguments for reason, _ in reasons.values())
     for code in LANGUAGES:
         with speaking(code):

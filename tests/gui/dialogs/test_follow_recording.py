@@ -23,7 +23,7 @@ from widgets.dialogs.follow_recording import FollowRecordingDialog
 @pytest.fixture
 def dialog(qtbot: QtBot) -> FollowRecordingDialog:
     result = FollowRecordingDialog(Session(quartet(), ImmediateTasks()))
-    # It is gone when it closes, which qtbot would do once more.
+    # Closing would delete the dialog, and qtbot would delete it again.
     result.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
     qtbot.addWidget(result)
     result.open()

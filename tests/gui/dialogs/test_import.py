@@ -210,7 +210,7 @@ def test_what_comes_of_the_choices_is_worked_out_beside_the_window(qt_app: QAppl
     QApplication.processEvents()
     tasks.work(0)
     assert (len(dialog.rows), agree.isEnabled(), summary.text()) == (4, True, "Players: 3")
-    # There is room for what came after the dialog was shown.
+    # The dialog has room for rows added after it was shown.
     QApplication.processEvents()
     columns = [place for place in range(dialog._table.columnCount()) if not dialog._table.isColumnHidden(place)]
     header = dialog._table.horizontalHeader()
@@ -295,7 +295,7 @@ def test_an_unknown_name_is_asked_about(qt_app: QApplication, qtbot: QtBot, tmp_
     assert "Lead" in dialog.findChild(QLabel, "import_summary").text()
     QTest.mouseClick(play, Qt.MouseButton.LeftButton)
     assert ok.isEnabled()
-    # Whoever answers wants it played.
+    # Choosing an instrument selects the track to be played.
     choose(dialog, "instrument_0", "trumpet_Bb")
     assert (play.isChecked(), ok.isEnabled()) == (True, True)
     assert [part.map_id for part in imported(dialog).score.parts] == ["trumpet_Bb", "flute"]
@@ -441,7 +441,7 @@ def test_names_are_read_again_in_the_encoding_that_is_chosen(
     box = child(dialog, QComboBox, "import_encoding")
     assert box.isEnabled()
     assert (box.itemText(0), box.itemData(0)) == ("Automatic", None)
-    # What was chosen before stays chosen.
+    # The former choice is kept.
     choose(dialog, "instrument_2", "trumpet_Bb")
     assert names(dialog)[1] != "低音管"
     place = box.findData("euc_jp")
@@ -562,7 +562,7 @@ def test_each_player_of_a_split_track_has_an_instrument_of_its_own(
     project = imported(dialog)
     assert [part.map_id for part in project.score.parts] == ["flute", "clarinet_Bb"]
     assert [player.instrument_id for player in project.players] == ["flute", "clarinet_Bb"]
-    # It is decided once: the same file read again says nothing new.
+    # The decision is kept: reading the same file again reports nothing new.
     kept = import_project(contents, dialog.rows, bundled_maps(), str(path))
     assert reimported(kept, path, bundled_maps()).project is kept
     # The part's instrument is the other player's; one player needs no lists.
@@ -603,11 +603,11 @@ def test_the_instruments_of_a_split_track_lie_below_one_another(
             height >= LEAST_TARGET_PX for _, height in rows
         )
 
-    # What the tracks become is known only after the dialog is shown.
+    # The result of the tracks is known only after the dialog is shown.
     work()
     assert len(places()) == 3
     assert is_apart(places()), places()
-    # One player's row is as low as before.
+    # The row of a single player is as low as before.
     choose(dialog, "split_0", "never")
     work()
     assert len(places()) == 1
@@ -627,7 +627,7 @@ def test_notes_left_out_do_not_read_as_a_lost_part(qt_app: QApplication, qtbot: 
     assert text.startswith("Flute: 2 notes that overlap others are left out, the first at 1.1.000 (F4)")
     assert "will not be played" not in text
     assert "All other notes of the part are played." in text
-    # It says what can be done, and that works.
+    # The text describes a remedy, and the remedy works.
     assert "Overlapping notes to Split among players" in text
     choose(dialog, "split_0", "every")
     assert reported.count() == 0 or "left out" not in reported.item(0).text()

@@ -150,7 +150,7 @@ def test_what_cannot_be_is_reported_beside_it_and_changes_nothing(page: Page) ->
     assert "flat" in page.problem.text()
     assert page.labels(D5) == before
     assert not page.button("undo").isEnabled()
-    # What can be said but is no harmonic of the tube is kept to be mended, and not saved.
+    # A valid label that is not a harmonic of the tube stays for correction and is not saved.
     page.type(LABEL, "2 3")
     assert "harmonic" in page.problem.text()
     assert not page.button("save").isEnabled()
@@ -162,7 +162,7 @@ def test_what_cannot_be_is_reported_beside_it_and_changes_nothing(page: Page) ->
 def test_alternates_come_and_go_and_every_step_is_undone(page: Page) -> None:
     page.choose(D5)
     page.click("add")
-    assert "already in the table" in page.problem.text()  # Nothing else is a harmonic there.
+    assert "already in the table" in page.problem.text()  # no other harmonic exists there
     page.choose(HIGH)
     before = page.labels(HIGH)
     page.click("add")

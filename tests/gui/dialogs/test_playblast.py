@@ -135,7 +135,7 @@ def test_the_range_made_last_is_offered_and_chosen(threaded: Session, tmp_path: 
     threaded.set_loop((2.0, 2.5))
     assert ranges.currentText() == "Loop"
     assert lead_in.isVisible()
-    # Another choice stays until another range is made.
+    # A choice stays until another range is created.
     QTest.keyClick(ranges, Qt.Key.Key_Up)
     assert ranges.currentText() == "Whole piece"
     assert dialog._requested_span().count > 1000

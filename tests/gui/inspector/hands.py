@@ -29,7 +29,7 @@ def number(parent: QWidget, name: str) -> NumberSlider:
 def type_into(control: NumberSlider, text: str) -> None:
     assert control.isVisible()
     control.type_value()
-    # One that was closed a moment ago may still be there.
+    # A field closed a moment ago may still exist.
     field = control.findChildren(QLineEdit, "number_field")[-1]
     if text.isascii():
         QTest.keyClicks(field, text)

@@ -74,7 +74,7 @@ def test_a_file_is_chosen_and_stays_among_the_options(
     assert front(session).parameters.choreography == str(choreography)
     assert combo(sections).currentText() == "steps & more"
     assert str(choreography) in combo(sections).toolTip()
-    # Who closes the question without an answer keeps what was there.
+    # Closing the question without an answer changes nothing.
     monkeypatch.setattr(body_dance, "ask_for_file", lambda *_: None)
     before = session.project
     press(sections, Qt.Key.Key_End)

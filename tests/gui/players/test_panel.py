@@ -324,14 +324,14 @@ def test_a_posture_in_which_an_instrument_is_not_played_cannot_be_chosen(
     session.set_players((seated,))
     combo = child(panel, QComboBox, "parameter_posture")
     assert isinstance(combo, Combo)
-    # As the player is seen, whatever the project says; the reason names the player.
+    # Shows the actual posture of the player, whatever the project says; the reason names the player.
     assert combo.shown == "seated"
     assert front(session).name in combo.toolTip()
     combo.setFocus()
     QTest.keyClick(combo, Qt.Key.Key_Up)
     assert combo.shown == "seated"
     assert session.document.done == ()
-    # With the others, who may stand, only those sit down and stand up.
+    # Selected together with players who may stand, only those sit down and stand up.
     session.set_players(tuple(ids(session)))
     before = session.project
     toggle_posture(session)

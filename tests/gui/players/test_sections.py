@@ -221,7 +221,7 @@ def type_into(panel: PlayersPanel, name: str, text: str) -> None:
 
 
 def test_a_section_is_given_amplitude_breath_and_habit_in_one_step_each(panel: PlayersPanel, session: Session) -> None:
-    # One of them differs from the others before.
+    # One player differs from the others beforehand.
     session.set_players(section_ids(session, "trombone")[:1])
     type_into(panel, "parameter_amplitude", "0.2")
     click(panel, TROMBONES)

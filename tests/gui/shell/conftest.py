@@ -235,7 +235,7 @@ def desk(
     )
     program.recorder.begin_where_remembered()
     sound = program.editor.sound
-    # It plays in time, but no synthesiser works for it.
+    # Playback runs in time without a synthesiser.
     program.session.playback = sound.playback
     show_in_front(program.window)
     yield Desk(program, answers, tmp_path, monkeypatch)

@@ -102,7 +102,7 @@ def test_the_palette_finds_and_runs(program: Program, qtbot: QtBot) -> None:
     qtbot.keyClick(palette.field, Qt.Key.Key_Return)
     assert program.session.tokens.name == "light"
     assert not palette.isVisible()
-    # What was done last is offered first.
+    # The most recent action is offered first.
     qtbot.keyClick(
         program.window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
     )

@@ -136,7 +136,7 @@ def test_nothing_is_left(studio: Studio) -> None:
         counts = []
         # The first time fills caches.
         for way in ("reject", "close"):
-            # One that waits for an answer is closed while it waits.
+            # A dialog that blocks is closed while it waits.
             QTimer.singleShot(0, lambda way=way, seen=seen: seen.update(shut(way)))
             show(program)
             QApplication.processEvents()

@@ -27,7 +27,7 @@ def drag(widget: QWidget, start: QPoint, by: QPoint, keys: Qt.KeyboardModifier =
     QTest.mousePress(widget, LEFT, keys, start)
     screen = widget.mapToGlobal(start)
     for step in range(1, 11):
-        # Whoever was torn off has moved along under the mouse.
+        # A panel torn off has moved along under the mouse.
         place = widget.mapFromGlobal(screen + by * (step / 10))
         QTest.mouseMove(widget, place)
         QApplication.processEvents()
@@ -111,7 +111,7 @@ def test_a_floating_dock_of_a_larger_screen_comes_back_on_this_one(start: Start,
     dock = first.window.docks["timeline"]
     dock.setFloating(True)
     qtbot.waitUntil(lambda: has_frame(dock))
-    # As where a second screen stood at the right.
+    # Simulates a second screen at the right.
     dock.setGeometry(5200, 1700, 1900, 700)
     QApplication.processEvents()
     first.window.close()

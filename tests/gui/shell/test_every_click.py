@@ -168,7 +168,7 @@ class Stage:
             if isinstance(tabs, QTabWidget):
                 tabs.setCurrentIndex(0)
             self.deed(desk)
-            # What is typed so far is in no project.
+            # Text being typed is not part of the project yet.
             if not (session.playing or session.recording.running or self.deed is typing_fingerings):
                 dancer = session.dancer.id if session.dancer is not None else ""
                 self._made = (session.project, session.selection, session.players, dancer)
@@ -223,7 +223,7 @@ def stage(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Stage:
     monkeypatch.setattr(fingerings, "TYPED_TOGETHER_S", float("inf"))
     # The dialogs that ask about films make none before the user says so.
     monkeypatch.setattr(ViewportPanel, "has_gl", property(lambda self: True))
-    # What is drawn is for other tests, and takes most of the time.
+    # Drawing faces is tested elsewhere and would take most of the time.
     monkeypatch.setattr(FacePicture, "_draw", lambda self: None)
     desk.program.window.setUpdatesEnabled(False)
     desk.program.window.setAnimated(False)
@@ -282,7 +282,7 @@ def faults(seen: dict[str, dict[str, frozenset[str]]]) -> list[str]:
                 wrong.append(f"{name} ({state}): also changes {sorted(found - row.changes - row.besides)}")
         if any(row.changes <= found for found in states.values()):
             acts.add(row.pattern)
-    # Of entries alike, one for each player say, those chosen already need not act.
+    # Among similar entries, such as one for each player, those already chosen need not act.
     wrong += [f"{pattern}: does nothing in any state" for pattern in sorted(used - acts)]
     wrong += [f"{pattern}: in the table, but nowhere in the window" for pattern in TABLE if pattern not in used]
     return wrong

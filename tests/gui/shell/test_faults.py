@@ -43,7 +43,7 @@ def test_a_fault_again_and_again_is_reported_once(
         now_s[0] += 1.0 / 60.0
     assert (len(noticed), len(saved)) == (1, 1)
     assert log.read_text(encoding="utf-8").count("ValueError: not drawn") == 1
-    # Another place is another fault, and so is the same one later.
+    # The same fault at another place, or later, counts as another one.
     faults.report(raised(KeyError("other")))
     assert len(noticed) == 2
     now_s[0] += 60.0

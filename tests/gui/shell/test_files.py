@@ -139,7 +139,7 @@ def test_work_that_its_folder_refuses_is_offered_again(
     for number in range(5):
         desk.edit(f"Precious {number}")
         pass_time(desk, clock)
-    # It is said once.
+    # Reported only once.
     assert [message.id for message in desk.reported] == ["autosave.elsewhere"]
     assert desk.files.risk is None
     desk.crash()
@@ -180,7 +180,7 @@ def test_the_risk_is_reported_once_and_over_when_a_place_takes_the_work(
         pass_time(desk, clock)
     assert [message.id for message in desk.reported] == ["autosave.refused"]
     assert desk.files.risk == desk.reported[0]
-    # Without another edit: what could not be written is tried again.
+    # A failed write is repeated without another edit.
     del refusing[desk.recovery]
     pass_time(desk, clock)
     assert desk.files.risk is None
@@ -193,7 +193,7 @@ def test_saving_notices_what_others_wrote_whatever_the_clock_says(desk: Desk) ->
     desk.edit("Mine")
     desk.files.save()
     stat = desk.document.stat()
-    # As long as before, at the same time.
+    # Same size and same time stamp as before.
     save(set_title(desk.session.project, "Else"), desk.document)
     os.utime(desk.document, ns=(stat.st_atime_ns, stat.st_mtime_ns))
     assert desk.document.stat().st_size == stat.st_size
@@ -201,7 +201,7 @@ def test_saving_notices_what_others_wrote_whatever_the_clock_says(desk: Desk) ->
     desk.files.save()
     assert overtaken == [desk.document]
     assert load(desk.document).score.title == "Else"
-    # No one is asked about a file that was only touched.
+    # A file that was only touched leads to no question.
     desk.files.save_over()
     os.utime(desk.document, (1.0, 1.0))
     desk.edit("Once more")

@@ -46,7 +46,7 @@ def test_the_whole_tour_from_the_start_page(desk: Desk) -> None:
     program, window = desk.program, desk.program.window
     mouse.press(child(window, QPushButton, "start_first_steps"))
     tour = tour_of(program)
-    # It is the bundled file, read as MIDI: there is no project file that could be overwritten.
+    # The bundled file is read as MIDI, so no project file could be overwritten.
     assert program.editor.files.path is None
     assert EXAMPLE in desk.project.source
     assert at(tour) == ("play", False)

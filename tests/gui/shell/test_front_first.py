@@ -83,7 +83,7 @@ def test_who_is_in_front_moves_before_the_others_are_planned(
     qtbot.waitUntil(lambda: moving(6.0) == [ids[0]] and live.performance.project is session.project)
     qtbot.waitUntil(lambda: bool(shares) and 0.0 < shares[-1] < 0.2)
     assert not generator.up_to_date
-    # It plays on, and another player is next once brought to the front.
+    # Playback continues, and another player comes next after being brought to the front.
     session.set_playhead(20.0)
     qtbot.waitUntil(lambda: moving(20.0) == [ids[0]])
     session.set_players((ids[3],))

@@ -373,7 +373,7 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
 
             def reported() -> list[str]:
                 player = session.project.players[0]
-                # Not those of the motion: the hold is another body's.
+                # Without problems of the motion, since the hold belongs to another body.
                 return [problem.message.id for problem in session.performance.problems(player.id)]
 
             session.apply(EDIT, players.change(session.project, [first.id], character_id="unmarked"))

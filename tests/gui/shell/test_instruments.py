@@ -72,7 +72,7 @@ def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_reported(
     assert str(reported[-1][1]["place"]).startswith("fingerings[")
     assert labels() == {"13"}
     assert session.performance.instrument(trumpet) is good.instrument(trumpet)
-    # It stays to be seen, whatever else is said, until it is mended.
+    # The problem stays visible until it is fixed, whatever else is reported.
     session.notice(Message("problems.none"))
     lasting = program.window.status.findChild(QPushButton, "instrument_problems")
     assert lasting.isVisible()

@@ -54,7 +54,7 @@ def test_after_some_rounds_everything_is_as_it_was(program: Program, tmp_path: P
         day.round()
     after = footprint()
     assert after.widgets_by_class - before.widgets_by_class == {}
-    # What is about to be drawn or reported may differ by one.
+    # Objects about to be drawn or reported may differ by one.
     grown = {
         name: count
         for name, count in (after.values - before.values).items()

@@ -152,7 +152,7 @@ def test_a_damaged_midi_file_is_reported_and_the_open_piece_stays(
         assert "bad.mid" in reported.says(program)
         assert program.session.project is before
     else:
-        # What can be read of it is read.
+        # The readable parts are read.
         assert program.editor.files.name.startswith("bad")
 
 
@@ -219,7 +219,7 @@ def test_a_file_that_is_write_protected(
     answers.path = path = tmp_path / "work.suisou"
     trigger(program, "file.save")
     edit(program)
-    # Whoever runs the test may be allowed everything.
+    # The user who runs the tests may have all permissions.
     monkeypatch.setattr("app.project.storage.os.access", lambda *_: False)
     trigger(program, "file.save")
     assert "work.suisou" in refused(program, reported)

@@ -50,7 +50,7 @@ def test_the_window_asks_before_it_looks(program: Program, tmp_path: Path, touch
     found = set(touched.elsewhere)
     recording, video, moves, dance, _ = paths_on(SHARE)
     assert found >= {recording, video, moves, dance}
-    # It is not there: the window asks where it is.
+    # The file is missing: the window asks for its location.
     assert banner.isVisible()
     assert "take.wav" in banner.findChild(QLabel, "banner_text").text().replace("\u200b", "")
 

@@ -93,7 +93,7 @@ def test_the_keys_step_through_the_problems_that_are_listed(program: Program) ->
             assert session.problem is not None
             assert session.problem[1].message.id.startswith(prefix)
             assert _chosen(program) == [(session.problem[0], session.problem[1].message.id)]
-    # Nothing of the kind is left: the next problem is of another kind, and its row is shown.
+    # No problem of this kind is left: the next one is of another kind, and its row is shown.
     kinds.setCurrentIndex(kinds.findText("Contacts"))
     kinds.activated.emit(kinds.currentIndex())
     _press(program, Qt.Key.Key_F8)

@@ -34,7 +34,7 @@ def when_shown(kind: type[D], act: Callable[[D], None]) -> None:
         try:
             act(dialog)
         finally:
-            # Else the test would wait for it for ever.
+            # Otherwise the test would wait for the dialog forever.
             dialog.close()
 
     QTimer.singleShot(20, look)

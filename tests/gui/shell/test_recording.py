@@ -42,7 +42,7 @@ def test_what_is_played_becomes_a_take_and_the_part(studio: Studio) -> None:
     assert not studio.session.recording.running
     assert [note.pitch for note in notes(studio)] == [60, 62]
     seconds = [studio.session.project.score.tempo_map.seconds(note.onset_tick) for note in notes(studio)]
-    # Where it was heard, but for how long a test takes to notice.
+    # Times as heard, up to the delay with which a test notices them.
     assert seconds == pytest.approx([0.3, 0.6], abs=0.15)
     assert len(studio.session.document.done) == 2
     studio.session.document.undo()
@@ -89,7 +89,7 @@ def test_each_pass_of_a_loop_is_a_take(studio: Studio) -> None:
     assert all(0.2 < take.played.onsets_s[0] < 0.5 for take in takes)
     assert [note.pitch for note in notes(studio)] == [64]
     assert [take.name for take in takes] == ["Take 1", "Take 2"]
-    # Another recording goes on with the numbers.
+    # Another recording continues the numbering.
     studio.session.set_loop(None)
     studio.session.set_playhead(0.0)
     studio.press(Qt.Key.Key_R)
@@ -178,7 +178,7 @@ def test_a_midi_system_that_ends_is_reported_as_the_device_s_loss(studio: Studio
     studio.session.noticed.connect(lambda message, severity: said.append(message.id))
     studio.press(Qt.Key.Key_R)
     studio.blow(60, 0.2)
-    # Without an audio device that is said at first.
+    # The missing audio device is reported first.
     said.clear()
     studio.link.say(Lost(EWI, studio.clock.ns), Ports((), (), ""), RequestRefused(Message("capture.no_system")))
     studio.wait(lambda: studio.session.recording.connection == "refused")
@@ -225,7 +225,7 @@ def test_a_take_that_a_crash_tore_off_is_brought_in_when_its_project_is_opened(s
     takes = studio.session.project.takes[player].takes
     assert [take.played.onsets_s.tolist() for take in takes] == [[0.5]]
     assert not notes(studio)
-    # It is in the file of unsaved work by now.
+    # The take is in the autosave by now.
     assert not journal.exists()
     studio.program.editor.files.save()
     studio.program.editor.files.open(path)
@@ -313,7 +313,7 @@ def test_without_a_device_it_is_said_and_the_devices_are_shown(studio: Studio) -
     assert not studio.session.recording.running
     dialog = child(studio.program.window, MidiDevicesDialog)
     assert dialog.isVisible()
-    # One that is chosen there is recorded from.
+    # A device chosen there is used for recording.
     dialog.chosen.emit(EWI)
     studio.link.say(Opened(EWI, 0))
     studio.wait(lambda: studio.session.recording.connection == "open")

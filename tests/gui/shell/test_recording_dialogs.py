@@ -151,7 +151,7 @@ def test_a_device_is_found_again_by_another_number(studio: Studio, now: str) -> 
     studio.wait(lambda: studio.link.requested[-1] == now)
     assert (settings.midi_port, studio.session.recording.port) == (now, now)
     assert studio.session.recording.latency_s == 0.03, "what is known of it too"
-    # One of two of a kind is the user's choice.
+    # The user chooses between two devices of one kind.
     recorder.choose(before)
     studio.link.say(Ports((f"{EWI} MIDI 1", f"{EWI} MIDI 1 (2)"), (), "test"))
     studio.wait(lambda: len(studio.session.recording.ports) == 2)
@@ -208,12 +208,12 @@ def test_where_the_breath_is_is_learned_by_blowing(studio: Studio) -> None:
     assert reported(dialog, "midi_learned") == "Detected: breath CC 11 (expression), bite CC 1 (modulation), channel 3."
     assert studio.session.recording.mapping == ControllerMapping(3, "cc11", "cc1")
     assert part(dialog, QComboBox, "midi_breath_source").currentText() == "CC 11 (expression)"
-    # It is remembered of this device.
+    # The value is stored for this device.
     recorder = studio.program.recorder
     recorder.choose("")
     recorder.choose(EWI)
     assert studio.session.recording.mapping.breath == "cc11"
-    # Another kind sends as it comes from its maker again.
+    # Another kind of controller uses its factory settings.
     recorder.set_controller("generic")
     assert studio.session.recording.mapping == ControllerMapping(0, "cc2", "none")
 

@@ -33,7 +33,7 @@ def folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def dialog(folders: Path, program: Program) -> RulesDialog:
-    # As loud as they can, so that faces are strained.
+    # As loud as possible, so that faces are strained.
     session = program.session
     parts = tuple(
         msgspec.structs.replace(part, notes=tuple(msgspec.structs.replace(note, velocity=120) for note in part.notes))

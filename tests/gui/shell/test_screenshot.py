@@ -52,7 +52,7 @@ def test_a_picture_of_the_window(tmp_path: Path) -> None:
     middle = shown[120:460, 300:960].reshape(-1, 3)
     assert len(np.unique(middle // 16, axis=0)) > 60
     assert shown[2, 640].mean() > 200, "the theme is light"
-    # Nothing of the user's is read or written.
+    # No file of the user is read or written.
     assert not (tmp_path / "config").exists()
 
 

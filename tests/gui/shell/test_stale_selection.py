@@ -74,7 +74,7 @@ def test_undo(program: Program, lag: bool, qtbot: QtBot, monkeypatch: pytest.Mon
             trigger(program, "edit.undo")
             if not lag:
                 qtbot.waitUntil(lambda: session.performance.project is session.project)
-            # That a breath was not generated only a plan can say.
+            # Only a plan shows that a breath was not generated.
             assert not session.selection or (lag and make is breathe), make.__name__
             before, steps = session.project, len(session.document.done)
             for id in COMMANDS if lag else ():

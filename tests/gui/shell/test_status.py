@@ -176,7 +176,7 @@ def test_a_warning_about_a_device_goes_with_the_choice_of_another_one(program: P
     session.notice(Message("capture.port_taken", {"port": "Aerophone"}), Severity.ERROR)
     session.recording.set(port="EWI USB", connection="refused")
     assert not status.notice_text
-    # What all devices lack is not another one's.
+    # A problem of all devices names no single device.
     session.notice(Message("capture.no_system"), Severity.ERROR)
     session.recording.set(port="Aerophone", connection="refused")
     assert status.notice_text

@@ -74,7 +74,7 @@ def test_a_first_window_fits_the_screen_with_its_title_bar(
         for workspace in ("animate", "record", "check"):
             trigger(program, f"workspace.{workspace}")
             QApplication.processEvents()
-            # Nothing in it asks for more.
+            # No widget requires more room.
             assert window.size() == room.size() - FRAME
             assert window.rect().contains(window.status.geometry())
             timeline = window.timeline
@@ -106,7 +106,7 @@ def test_the_example_with_a_dancer_is_on_the_start_page(empty: Program) -> None:
     assert not dancing.rhythm.derived, "the dancer hears the drums"
     assert len({step.state for step in dancing.steps()}) > 4
     assert session.dancer == dancer
-    # It is no one's file yet, and nothing in the history takes the dancer away.
+    # The project has no file yet, and no undo step removes the dancer.
     assert empty.editor.files.path is None
     assert empty.editor.settings.recent == ()
     assert not session.document.undone
@@ -168,7 +168,7 @@ def test_closing_while_files_are_written_asks(
     answers.stops = True
     edit(program)
     program.window.close()
-    # What is stopped is stopped when the window closes: it goes on where the changes are not given up.
+    # Work is stopped when the window closes; it continues if closing is cancelled.
     assert answers.asked == ["stop_writing", "stop_writing", "unsaved"]
     assert program.window.isVisible()
     trigger(program, "edit.undo")

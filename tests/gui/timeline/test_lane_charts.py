@@ -144,7 +144,7 @@ def test_alternates_are_charts_and_one_is_pinned_by_a_click(lane: FingeringLane)
     QTest.mouseClick(right, Qt.MouseButton.LeftButton)
     pin = PinFingering(event.note_id, "L1 L2 L3 R1 R2 R3 RE T")
     assert lane.session.project.corrections[front_plan(lane.session).player_id] == (pin,)
-    # What is not the first choice stands out.
+    # Anything but the first choice is emphasised.
     assert closed(lane, event_of(lane, LOW_E), lane.session.tokens.accent) == "xxxxxx"
 
 

@@ -182,7 +182,7 @@ def test_several_selected_move_together(panel: TimelinePanel, session: Session) 
 def test_a_gestures_amount_is_signed(panel: TimelinePanel, session: Session) -> None:
     lane = acting_lane(panel)
     shift = next(event for event in front_plan(session).gestures if event.kind == "weight_shift" and event.start_s > 0)
-    # Of a row's height two pixels are its margin.
+    # Two pixels of a row's height are its margin.
     height = lane.row_box(region_of(lane, shift.id).row)[1] - 2.0
     drag(lane, middle(lane, shift.id), dy=-height * 0.5 if shift.amount < 0 else height * 0.5)
     (change,) = corrections(session)

@@ -323,7 +323,7 @@ def test_a_head_is_dragged_to_another_place(lane: TakesLane) -> None:
     drag_head(lane, 1, 2.9)
     assert order() == [BEFORE, "take:1", "take:2"]
     assert steps(lane) == ["edit.move_take"] * 2
-    # What was before the first take stays above, and a lane that returns was not moved.
+    # The row before the first take stays on top; a lane that returns has not moved.
     drag_head(lane, 0, 2.9)
     drag_head(lane, 1, 1.2)
     drag_head(lane, 2, -0.4, release=False)

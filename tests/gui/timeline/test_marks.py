@@ -244,7 +244,7 @@ def test_a_dynamic_at_one_midi_note_says_how_far_it_holds_and_shows_it(stage: St
     [placed] = lane(stage).placed()
     last = stage.session.project.score.parts[0].notes[-1]
     assert placed.holds_px == pytest.approx(in_lane(stage, last.end_tick)[0], abs=1.0)
-    # Its line is no end that could be dragged.
+    # The line of this mark has no end that could be dragged.
     assert lane(stage).placed()[0].end_px is None
     noted.clear()
     toggle_mark(stage.session, {FRONT: [later]}, "dynamic", "p")
@@ -328,7 +328,7 @@ def test_a_mark_under_the_mouse_says_what_it_is_and_where_it_is_from(marked: Sta
     assert marked.roll.plot.toolTip() == ""
 
 
-# What is drawn
+# Pixels
 
 
 def pixels(stage: Stage) -> np.ndarray:
@@ -360,7 +360,7 @@ def test_a_slur_goes_over_its_notes_from_the_first_to_the_last(stage: Stage, lig
     right = stage.place(last.end_tick, last.pitch)[0]
     assert left <= columns.min() <= left + 12
     assert right - 12 <= columns.max() <= right
-    # Without a gap, and above the notes under it.
+    # Without a gap, and above the notes below it.
     assert set(range(columns.min(), columns.max())) <= set(columns.tolist())
     for note_id in ("1:1", "1:2", "1:3"):
         note = stage.note(note_id)

@@ -303,7 +303,7 @@ def test_a_short_piece_is_first_shown_whole_and_of_a_long_one_the_beginning(
     axis = stage.panel.axis
     low_s, _ = axis.limits_s
     bar_s = 2.0
-    # Not much more than the piece, of which at least four bars are seen.
+    # Little more than the piece, and at least four bars.
     most_s = max(bars, 4) * bar_s + 8.0
     assert axis.start_s == low_s
     if shown is None:

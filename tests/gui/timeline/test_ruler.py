@@ -135,7 +135,7 @@ def test_edges_of_the_punch_range_are_dragged(stage: Stage) -> None:
     hand = Hand(ruler_of(stage))
     recording.set(punch=True, punch_ticks=(2 * TPQ, 4 * TPQ))
     stage.session.set_loop((1.0, 2.0))
-    # Both have an edge here: the bar of the loop is above that of the punch range.
+    # Both ranges have an edge here: the bar of the loop is above that of the punch range.
     hand.drag(place(stage, 4 * TPQ - 2, 32), place(stage, 6.03 * TPQ, 32))
     assert recording.punch_ticks == (2 * TPQ, 6 * TPQ)
     assert stage.session.loop_s == (1.0, 2.0)

@@ -49,7 +49,7 @@ def test_changing_the_speed_while_it_plays(playback: Playback, elapse: Elapse) -
     elapse(1.0)
     playback.set_speed(0.5)
     elapse(1.0 + BUFFER_S)
-    # What waited in the device was still at the old speed.
+    # Sound queued in the device still has the former speed.
     assert playback.position_s() == pytest.approx(2.0 + BUFFER_S + 0.5, abs=0.035)
 
 

@@ -49,7 +49,7 @@ def test_who_is_played_moves_while_the_playhead_rests(qtbot: QtBot, session: Ses
     assert all(now[other] is not None for other in others)
     first = now[own]
     qtbot.waitUntil(lambda: shown(viewport)[own] is not first)
-    # What is heard and seen of the others is the performance.
+    # The other players are heard and seen in the performance.
     session.set_playhead(3.0)
     assert all(shown(viewport)[other] is not before[other] for other in others)
 

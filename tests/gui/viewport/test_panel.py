@@ -660,7 +660,7 @@ def test_a_double_click_gives_back_to_the_generator(posing: ViewportPanel, sessi
     assert not session.project.corrections
 
 
-# Without GL
+# Without OpenGL
 
 _WITHOUT = """
 import sys
@@ -839,7 +839,7 @@ def test_the_front_view_is_a_bust_with_the_player_in_the_middle(viewport: Viewpo
         assert head[0] == pytest.approx(SIZE[0] / 2, abs=0.04 * SIZE[0])
         assert 0.0 < head[1] < 0.5 * SIZE[1]
         assert feet[1] > SIZE[1]
-    # Of a player who dances the feet are seen too.
+    # The feet of a dancing player are visible too.
     player = session.project.players[0]
     session.attempt(Message("edit.parameter"), lambda project: set_body_dance(project, (player.id,), "salsa"))
     session.set_players((player.id,))

@@ -167,7 +167,7 @@ def test_any_other_field_is_seen() -> None:
         assert warm == cold, path
         if isinstance(cold, tuple) and cold[0] != base[0]:
             differing.add(path.rsplit(".", 1)[-1] if "gone" not in path else path)
-    # That they are tried at all.
+    # Verify that they are tried at all.
     assert {
         "pitch",
         "velocity",

@@ -235,7 +235,7 @@ def test_confidence_is_low_where_it_is_wrong() -> None:
     for first_s, end_s_ in ((40, 62), (30, 50), (50, 60), (50, 28)):
         found = followed(np.concatenate([sound[: first_s * RATE_HZ], sound[end_s_ * RATE_HZ :]]))
         true_s = truth().score.tempo_map.seconds(found.ticks.astype(np.float64))
-        # What is played twice is right where it sounds the first time.
+        # Of a passage played twice, only its first time is compared.
         left_out = (true_s > first_s) & (true_s < end_s_)
         shift_s = np.where(true_s > first_s, first_s - end_s_, 0.0)
         wrong.append(left_out | (np.abs(found.recording_s - true_s - shift_s) > 0.1))

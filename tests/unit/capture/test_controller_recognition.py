@@ -78,7 +78,7 @@ def bends(channel: int = 1) -> list[tuple[int, bytes]]:
         (bends(), [], "pitch_bend"),
         ([(step, bytes((0xB0, 1, 9 * (step % 8)))) for step in range(40)], [], "cc1"),
         ([(step, bytes((0xD0, 9 * (step % 8)))) for step in range(40)], [], "channel_pressure"),
-        # It moved with the breath before: that is the breath once more.
+        # It moved together with the breath before, so it is the breath sent a second time.
         ([(step, bytes((0xD0, 9 * (step % 8)))) for step in range(40)],
          [(step, bytes((0xD0, 3 * step))) for step in range(40)], None),
         (bends(channel=2), [], None),

@@ -247,7 +247,7 @@ def test_a_loop_s_return_begins_another_pass() -> None:
     off = bytes((0x80 | ON[0] & 0x0F, ON[1], 0))
     first, second, third = passes(journal)
     assert first == Pass(0, (4_500_000, 5_500_000, 5_999_000), (ON, off, ON))
-    # What is held when the loop returns is ended where the device goes, in the pass that is heard then.
+    # A note held when the loop returns ends when the device is lost, in the pass heard then.
     assert second == Pass(1, (4_001_000,), (ON,))
     # Struck twice, it sounds once.
     assert third == Pass(2, (4_100_000, 4_200_000), (off, ON))

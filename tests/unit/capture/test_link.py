@@ -263,7 +263,7 @@ def test_a_killed_editor_loses_nothing(tmp_path: Path) -> None:
         )
         assert editor.stdout.readline()
         sent = [message for _, message in player.play(PHRASE)]
-        # What is on its way is not yet heard.
+        # Sound on its way is not heard yet.
         time.sleep(4 * PATIENT_FRAMES / RATE_HZ)
         editor.kill()
         # A line may be torn off.

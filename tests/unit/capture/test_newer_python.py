@@ -34,7 +34,7 @@ def test_ports_and_takes_by_rtmidi2() -> None:
     used = subprocess.run([python, "-c", library], cwd=ROOT, capture_output=True, text=True, check=False)
     assert used.stdout.strip() == "Rtmidi2", used.stderr
     options = ("-p", "tests.support.plain", "-p", "no:pytest-qt", "-q", "-rs")
-    # What pytest-xdist says to its workers is not for another pytest.
+    # Variables of pytest-xdist are not passed to another pytest.
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
     done = subprocess.run(
         [python, "-m", "pytest", *options, *(f"tests/unit/capture/{name}" for name in TESTS)],

@@ -99,7 +99,7 @@ def test_percussion_is_used_where_there_is_any(tmp_path: Path) -> None:
     with_drums = audible_rhythm(piece(tmp_path, notes, drums=(1.0,)))
     assert not with_drums.derived
     assert with_drums.hits_s.tolist() == [0.5]
-    # Its melody is heard beside it, by an amount.
+    # The melody counts too, by an amount.
     assert with_drums.melody is not None
     assert with_drums.melody.hits_s.tolist() == [0.0, 0.0]
     assert audible_rhythm(piece(tmp_path, drums=(1.0,))).melody is None

@@ -56,7 +56,7 @@ def test_the_body_arrives_on_the_beats() -> None:
         assert abs(one.accent_s - 0.275 * one.place) < 0.65
     assert found.clip.length_s > beats.beats_s[-2]
     for aligned in alignments(found.first_s + kinematic_beats_s(found.clip), 0.275 * np.arange(127)):
-        # Of shifts by whole beats, the nearest do as well.
+        # Shifts by whole beats do nearly as well.
         assert aligned.found > 0.97 * aligned.chance_95
         assert aligned.found > aligned.chance + 0.3
 

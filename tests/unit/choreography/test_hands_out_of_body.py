@@ -34,7 +34,7 @@ def test_a_hand_in_the_body_comes_out_of_it_and_does_not_snap() -> None:
     found = out_of_body(clip)
     assert depths_m(found).max() < 0.005
     assert angular_jumps(found).max() < 1.0
-    # Nothing but that arm is changed.
+    # Only that arm is changed.
     others = [at for at, name in enumerate(SEGMENTS) if name not in ("leftUpperArm", "leftLowerArm", "leftHand")]
     assert np.array_equal(found.rotations[:, others], clip.rotations[:, others])
     # The hand keeps its turn in the world.

@@ -88,8 +88,8 @@ def test_a_dancer_hears_the_sounds_of_the_own_drums_most() -> None:
         assert best.min() > 0.5 + log_odds[clips != own, symbol].max()
     # Sounds that no one heard tell nothing between two motions.
     assert np.ptp(log_odds[:, 30]) < 1e-6
-    # Where the dancer is chosen, sounds tell motions only: no dancer's are likelier in the mean, and setting off is
-    # told from arriving as before.
+    # With a chosen dancer, sounds indicate motions only: on average no dancer is likelier, and start and arrival are
+    # distinguished as before.
     chosen = heard.of_motions
     for clip in (0, 1):
         assert chosen[clips == clip].mean(axis=0) == pytest.approx(np.zeros(len(SYMBOLS)), abs=1e-12)
@@ -106,7 +106,7 @@ def test_two_melodies_over_the_same_drums_tell_two_dancers_apart() -> None:
     ]
     model = learn([replace(SWINGS, rhythm=one) for one in rhythms], states=4, seed=0, name="")
     alone = learn([SWINGS, SWINGS], states=4, seed=0, name="")
-    # What is counted of the percussion is counted without the melody.
+    # The percussion is counted without the melody.
     assert model.emission.tolist() == alone.emission.tolist()
     assert [one.melody for one in model.segments] == [(one.sounds[0] + (5, 9)[one.clip],) for one in model.segments]
     clips, heard = np.array([one.clip for one in model.segments]), hearing(model)
@@ -114,7 +114,7 @@ def test_two_melodies_over_the_same_drums_tell_two_dancers_apart() -> None:
     assert summed[0][clips == 0] == pytest.approx(summed[0][clips == 1])
     own, other = (np.array([one[clips == clip].mean() for one in summed]) for clip in (0, 1))
     assert (np.diff(own - other) > 1.0).all()
-    # Without melodies of its own a model hears them as the drums that they stand for.
+    # A model without melodies hears them as the drums they stand for.
     without = hearing(alone)
     assert without.melody is without.percussion
 

@@ -70,7 +70,7 @@ def test_a_dance_follows_sounds_as_far_as_they_tell() -> None:
     barely = sounding(1, 0.5)
     assert 0.0 < judged(barely).bits < 0.5
     assert 0.0 < trust_in(barely) < 1.0
-    # Of a few motions nothing can be said against what sounded.
+    # A few motions are no evidence against the sounds.
     assert trust_in(replace(barely, segments=barely.segments[:12])) == 1.0
 
 

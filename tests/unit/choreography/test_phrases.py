@@ -76,7 +76,7 @@ def test_without_bars_nothing_returns() -> None:
 
 
 def test_what_returns_is_danced_again_with_variation() -> None:
-    # Of a small stock few segments meet the beats well, and they are danced again anyway.
+    # In a small stock few segments fit the beats well, so they are repeated anyway.
     rhythm, choreographer = played("ABA"), Choreographer(model(beats=48))
 
     def again(weights: Weights) -> float:

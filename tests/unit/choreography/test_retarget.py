@@ -145,7 +145,7 @@ def test_straight_legs_apart_stand_on_the_floor_and_splits_go_no_deeper_than_the
     for side, sign in (("left", 1.0), ("right", -1.0)):
         (socket_m, _), (foot_m, _) = found[side + "UpperLeg"], found[side + "Foot"]
         assert foot_m[1] == pytest.approx(ankle[1], abs=3e-3)
-        # As far apart as the dancer's, or as the leg reaches from the height of the dancer's hip joints.
+        # As far apart as the dancer's feet, or as far as the leg reaches from the height of the dancer's hip joints.
         dancers_foot_m = scale * (LEG[0][0] - (LEG[1][1] + LEG[2][1]) * np.sin(np.radians(apart_deg)))
         farthest_m = hip[0] + np.sqrt(length_m**2 - (socket_m[1] - foot_m[1]) ** 2)
         assert sign * foot_m[0] == pytest.approx(min(dancers_foot_m, farthest_m), abs=0.012)

@@ -142,7 +142,7 @@ def test_knees_do_not_bend_backwards() -> None:
     ahead = bends_rad >= 0.0
     assert found[ahead] == pytest.approx(bends_rad[ahead], abs=1e-12)
     assert found.min() >= -STRETCHED_RAD
-    # It neither stops at once nor turns back.
+    # The foot neither stops abruptly nor turns back.
     assert (np.diff(found) < 0.0).all()
     assert np.abs(np.diff(found, 2)).max() < 0.3 * np.abs(np.diff(bends_rad)).max()
     # The foot goes along, and nothing else turns.

@@ -22,7 +22,7 @@ def test_arrivals_beside_the_beats_come_on_them() -> None:
     arrivals = 0.5 * np.arange(1, 19) + np.random.default_rng(1).uniform(-0.08, 0.08, 18)
     found = map_with_arrivals(even(10.0, 2.0), arrivals, grid)
     assert found.when(arrivals) == pytest.approx(0.5 * np.arange(1, 19), abs=1e-3)
-    # Not so the map before.
+    # The former map does not have this property.
     assert np.abs(even(10.0, 2.0).when(arrivals) - 0.5 * np.arange(1, 19)).max() > 0.05
 
 

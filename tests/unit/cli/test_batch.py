@@ -119,7 +119,7 @@ def test_what_a_project_names_changes_its_digest(tmp_path: Path) -> None:
     digests.append(digest(piece, check_skeleton=asset))
     digests.append(digest(piece, check_skeleton=asset, fps="24"))
     assert len(set(digests)) == len(digests)
-    # Where the exports go and who makes them is no part of them.
+    # Destination and number of processes do not affect the digest.
     assert digest(piece, to=tmp_path, jobs=7, scheduler="tcp://x:1") == digests[2]
 
 
@@ -199,7 +199,7 @@ def test_what_stopped_in_the_middle_goes_on(pieces: Path, tmp_path: Path) -> Non
     assert "the same command goes on" in printed
     done = {piece for piece, result in results(printed).items() if result == "exported"}
     assert 1 <= len(done) < 3
-    # Nothing half-written stays.
+    # No partial file remains.
     assert len([path for path in out.rglob("*") if path.is_file()]) == 1 + 2 * len(done)
 
     finished = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
@@ -338,6 +338,6 @@ def test_a_cluster_exports_the_pieces(pieces: Path, tmp_path: Path, capsys: pyte
     found = results(capsys.readouterr().out)
     assert found["one.mid"] == "exported"
     assert "is not a MIDI file" in found["bad.mid"]
-    # Where the pieces were exported makes no difference.
+    # The computer on which pieces were exported makes no difference.
     assert main(command) == PARTIAL
     assert results(capsys.readouterr().out)["one.mid"] == "up to date"

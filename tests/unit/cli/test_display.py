@@ -53,7 +53,7 @@ def test_without_a_file_and_a_display_the_example_is_offered(
     reason, hint = capsys.readouterr().err.splitlines()
     assert reason == "suisou: no display here"
     program, *arguments = shlex.split(hint.partition("quartet: ")[2])
-    # What is offered can be typed as it stands.
+    # The suggested command can be typed as it is.
     assert program == "suisou"
     parsed = parser().parse_args(arguments)
     assert parsed.file.is_file()

@@ -52,7 +52,7 @@ TROMBONE = "trombone_tenor_F_attachment"
     [
         pytest.param(["export", str(QUARTET), "--to", "out", "--player", "Trombone 2"], TROMBONE, id="export"),
         pytest.param(["stream", str(QUARTET), "--player", "Trombone 2"], TROMBONE, id="stream"),
-        # What a body cannot reach is judged of all players.
+        # Reach is judged for all players.
         pytest.param(["inspect", str(QUARTET)], "trumpet_Bb", id="inspect"),
     ],
 )
@@ -73,7 +73,7 @@ def test_the_search_shows_progress_and_ends_at_ctrl_c(
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
     assert main(command) == STOPPED
-    # Of one player no other's hold is searched.
+    # For one player, no hold of another is searched for.
     assert searched == [first]
     assert "0 %  how the instruments are held" in terminal.getvalue()
     assert list(tmp_path.iterdir()) == []

@@ -54,7 +54,7 @@ def test_while_modules_load(tmp_path: Path) -> None:
 def test_the_editor(tmp_path: Path) -> None:
     places = {name: str(tmp_path) for name in ("HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME")}
     environment = {**os.environ, **places, "QT_QPA_PLATFORM": "offscreen"}
-    # That the example was opened is not remembered.
+    # A copy, so that the example is not added to the recent files.
     command = [sys.executable, "-m", "app", "edit", shutil.copy(QUARTET, tmp_path)]
     with subprocess.Popen(command, cwd=ROOT, env=environment, stderr=subprocess.PIPE, text=True) as process:
         settings = tmp_path / "suisou" / "editor.toml"

@@ -101,7 +101,7 @@ def test_no_help_has_an_english_sentence_left_or_lines_too_wide() -> None:
         assert all(width(line) <= 80 or "suisou" in line or "|" in line for line in help.splitlines()), command.prog
         collapsed = " ".join(re.sub(r"'[^']*'|`[^`]*`", "", rest.partition("例:")[0]).split())
         assert not [words for words in english if words in collapsed], command.prog
-        # What follows are names: of parameters, and values of options.
+        # Names of parameters and values of options follow.
         prose = re.sub(r"パラメーター: [\w, ]+|\{[^}]*\}|\[[^\]]*\]", "", collapsed)
         assert not re.findall(r"\b[a-z]{2,} [a-z]{2,} [a-z]{2,}\b", prose), command.prog
 

@@ -85,7 +85,7 @@ def test_a_hold_that_cannot_be_found_concerns_one(
     assert main(["export", path, "--to", str(tmp_path / "out"), *BVH]) == PARTIAL
     assert "trumpet is excluded: man_adult cannot hold tin_whistle_D (LinAlgError" in capsys.readouterr().err
     assert (tmp_path / "out" / "trombone.bvh").is_file()
-    # Of our own instruments it is a fault of the program, which is not hidden.
+    # For bundled instruments this is a fault of the program, which is not hidden.
     monkeypatch.setattr(bodies, "hold_for", singular)
     monkeypatch.setattr(bodies, "_HOLDS", IdentityCache(8))
     with pytest.raises(np.linalg.LinAlgError):

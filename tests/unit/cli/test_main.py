@@ -300,7 +300,7 @@ def test_awkward_files_open(run: Run, path: Path) -> None:
     long = path.stat().st_size > 20_000
     status, out, err = run("inspect", path, "--json", *(["--no-contacts"] if long else ["--fps", "24"]))
     assert status == 0
-    # Nothing but which parts have no instrument.
+    # Only the parts without an instrument are listed.
     assert all("for example: suisou inspect" in line for line in err.splitlines())
     json.loads(out)
 

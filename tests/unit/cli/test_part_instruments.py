@@ -66,7 +66,7 @@ def test_a_command_that_needs_players_says_it_itself_and_whatever_the_file_is_ca
 
 
 def test_parts_of_other_instruments_can_be_assigned_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    # As notation programs write tracks without a name: program 0 is their "no program", and General MIDI's piano.
+    # Notation programs write unnamed tracks with program 0, which is their "no program" and General MIDI's piano.
     file = piece(tmp_path / "piece.mid", ("Piano", "Violin"))
     assert main(["export", str(file), "--to", str(tmp_path / "out")]) == 1
     error = capsys.readouterr().err

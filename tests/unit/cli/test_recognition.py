@@ -14,7 +14,7 @@ from app.project.model import map_choices
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 
-# What a part of each name is played on as soon as there is that map; what no one has is listed with its reason.
+# Instrument for each name once a map for it exists; names without one are listed with the reason.
 # fmt: off
 PLAYED_ON = {
     "trumpet_Bb": [
@@ -253,7 +253,7 @@ def test_the_instrument_name_helps_where_the_track_name_says_nothing(
 def test_a_player_may_use_several_channels_in_turn(
     name: str, overlap: int, players: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    # As notation programs write a trumpet that puts in a mute: the muted notes have a channel of their own.
+    # Notation programs write muted notes of a trumpet in a separate channel.
     track = mido.MidiTrack([mido.MetaMessage("track_name", name=name)])
     for channel, program in ((0, 56), (1, 59)):
         track.append(mido.Message("program_change", channel=channel, program=program))

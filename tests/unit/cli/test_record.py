@@ -222,7 +222,7 @@ def test_a_take_that_its_folder_refuses_is_written_in_a_second_place(
     assert str(second) in errors
     assert pitches(second) == [60]
     assert not journal.exists()
-    # Another of the same name takes nothing's place.
+    # Another take of the same name replaces nothing.
     left(tmp_path / "full")
     assert run("record", "--rescue", "--to", path)[1].startswith(f"{second.with_name('take (2).mid')}: ")
 

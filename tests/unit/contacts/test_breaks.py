@@ -35,7 +35,7 @@ def test_breaks_of_one_contact_that_follow_are_one_and_others_are_not() -> None:
     near, far = broken(2.0, 3.0, gap_m=0.03), broken(4.0 + 2 * APART_S, 6.0)
     other = broken(1.0, 1.5, part="left.middle")
     assert joined([far, near, broken(1.0, 2.0 - APART_S), other]) == [broken(1.0, 3.0, gap_m=0.03), far, other]
-    # One that lies within another neither shortens it nor hides its gap.
+    # A break within another one neither shortens it nor hides its gap.
     assert joined([broken(1.0, 3.0, gap_m=0.03), broken(1.5, 2.0)]) == [broken(1.0, 3.0, gap_m=0.03)]
 
 

@@ -29,7 +29,7 @@ def test_a_person_plays_within_the_bounds_of_finished_bodies(
 
 
 def test_a_body_that_is_too_small_misses_something(tmp_path: Path) -> None:
-    # Of the last person that is not cast for something: children are not cast for the largest instruments.
+    # Last person not cast for some instrument: children are not cast for the largest ones.
     id, instrument_id = [(id, name) for id in bundled_people() for name in sorted(not_cast_for(id))][-1]
     project = compass_project(bundled_maps()[instrument_id], tmp_path / "compass.mid")
     allowed = [faults(project, id) for id in bundled_characters()]

@@ -106,7 +106,7 @@ def test_no_vertex_of_a_hand_is_left_out(index: int, push_m: tuple[float, float,
             )
             assert found[frame] == pytest.approx(max(slow, 0.0), abs=SINGLE_PRECISION_M)
             deepest = max(deepest, slow)
-        # It does not matter which frames are judged together.
+        # The result does not depend on which frames are judged together.
         part = slice(40, 71)
         few = judge.depths_m(
             scene.world[part][:, judge.joints, :3],

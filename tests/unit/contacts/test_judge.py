@@ -191,7 +191,7 @@ def test_live_motion_reports_as_it_is_made_and_again_after_an_edit(budget_bytes:
         Fraction(60), 0, whole_span(lowered.time_frame, Fraction(60)).count
     )
     assert reported == {player.id: judged(lowered, player, whole)}
-    # What an edit elsewhere does not touch is not judged again, and stays.
+    # Results unaffected by an edit are kept and not computed again.
     other = project.players[1]
     again = Performance(with_corrections(lowered.project, other.id, [LOWERED]), lowered)
     live.show(again)

@@ -21,7 +21,7 @@ def resident_bytes() -> int:
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems take memory back by themselves")
 def test_freed_memory_is_returned() -> None:
     blocks = [b"x" * BLOCK_BYTES for _ in range(BLOCKS)]
-    # What stays at the end keeps all below it from being returned.
+    # An allocation at the end keeps the memory below it from being returned.
     last = b"x" * BLOCK_BYTES
     del blocks
     give_back()

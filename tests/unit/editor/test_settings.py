@@ -75,7 +75,7 @@ def test_values_that_are_not_possible_are_named_and_the_others_hold(tmp_path: Pa
         *("midi.count_in_bars", "stream.port", "window.geometry", "files.recent"),
     }
     assert all(str(path) in text(problem) for problem in settings.problems)
-    # What the user wrote stays until it is chosen anew.
+    # A value written by the user stays until it is chosen again.
     settings.volume = 0.5
     settings.sync()
     written = tomllib.loads(path.read_text())
@@ -98,9 +98,9 @@ def test_a_file_that_cannot_be_read_is_named_and_left_as_it_is(tmp_path: Path, c
     settings.sync()
     assert settings.theme == "light"
     assert path.read_bytes() == content
-    # It was said already.
+    # It was reported before.
     assert reported == []
-    # What was chosen meanwhile is kept as soon as the file is correct again.
+    # Values chosen meanwhile are kept as soon as the file is valid again.
     path.write_text("[interface]\nlanguage = 'ja'\n")
     settings.sync()
     again = Settings(path)

@@ -76,7 +76,7 @@ def test_it_is_answered_by_keyboard(width: int, language: str, tmp_path: Path) -
             pressed.append(answer(page, number))
             if number in (1, len(table[1]) - 1):
                 page.reload()
-                # What was seen and answered is there again; only the button that goes on has to be reached.
+                # Earlier progress and answers are restored; only the continue button has to be reached.
                 page.wait_for("document.querySelectorAll('fieldset').length")
                 checked = page.value("[...document.querySelectorAll(':checked')].map((input) => input.value || '0')")
                 assert checked == pressed[-1]

@@ -88,7 +88,7 @@ def test_the_motion_is_the_same_and_the_mapper_knows_the_bones(profile: str, tmp
     np.testing.assert_allclose(named.root_translation_cm, plain.root_translation_cm, atol=1e-5)
     same = np.abs(np.einsum("fji,fji->fj", named.rotations_xyzw, plain.rotations_xyzw))
     np.testing.assert_allclose(same, 1.0, atol=1e-6)
-    # What a stranger's program would make of the names alone.
+    # Mapping that another program derives from the names alone.
     mapping = map_joints(figure_of(_listed(named)))
     meant = {joint: bone for bone, joint in enumerate(plain.names) if joint in joint_names(load_bone_names()[profile])}
     found = {joint: bone for joint, bone in mapping.bones.items() if joint in meant}
@@ -106,7 +106,7 @@ def test_on_another_skeleton_its_joints_get_the_names_and_the_hips_the_motion() 
     assert named.names[0] == "Hips"
     assert {"LeftHandIndex1", "RightForeArm"} <= set(named.names)
     assert "lowerarm_twist_01_l" in named.names
-    # Where its hand is in the world is where the scene has it.
+    # The hand has the same position in the world as in the scene.
     hand = clip.names.index("hand_l")
     bone = [bone.name for bone in scene.bones].index("hand_l")
     offsets = np.tile(clip.offsets_cm, (6, 1, 1))

@@ -246,5 +246,5 @@ def test_a_figure_whose_own_shapes_turn_its_eyes_is_not_turned_twice(eyes: Eyes)
     own = own_target(figure)
     plain = eyes_of_file(figure, eyes.motion, own)
     joint = figure.skeleton.index("leftEye")
-    # Its shapes move lids only: the bones turn the eyes.
+    # Its shapes move only lids: the bones turn the eyes.
     np.testing.assert_allclose(plain.motion.rotations[:, joint], eyes.motion.rotations[:, joint], atol=1e-6)

@@ -92,7 +92,7 @@ def test_a_mesh_shows_the_same_by_other_names(names: CurveNames) -> None:
     assert made.clip is not None
     chance = np.random.default_rng(3)
     funnel = MorphTarget("mouthFunnel", np.arange(9), chance.normal(size=(9, 3)))
-    # Of a MetaHuman, it shares curves with the funnel.
+    # On a MetaHuman, it shares curves with the funnel.
     pucker = MorphTarget("mouthPucker", np.arange(4, 12), chance.normal(size=(8, 3)))
     body = replace(made.meshes[0], morphs=(*made.meshes[0].morphs, funnel, pucker))
     shown = {

@@ -72,7 +72,7 @@ def test_the_measures_are_those_of_fbx(measured: Measured, kind: str, keys: KeyC
     assert found.contacts
     assert found.contacts.keys() == fbx.contacts.keys()
     if keys == "reduced":
-        # As near as reduced keys promise to be.
+        # Within the tolerance of reduced keys.
         assert all(abs(one.max_mm - fbx.contacts[name].max_mm) < 1.5 for name, one in found.contacts.items())
         return
     assert other is not None

@@ -163,7 +163,7 @@ def test_a_file_says_how_a_face_is_lit(files: dict[str, SkinnedMesh], kind: str,
     before, after = (slow_normals(at, mesh.faces[near], alike) for at in (rest, places))
     off, plain = [], []
     for number, (vertex, *_) in enumerate(alike):
-        # What the modeller's own normal is off from the surface at rest stays.
+        # The difference between the modeller's normal and the surface at rest is kept.
         surface = made[vertex] + after[number] - before[number]
         surface /= np.linalg.norm(surface)
         off.append(np.degrees(np.arccos(np.clip(normals[vertex] @ surface / np.linalg.norm(normals[vertex]), -1, 1))))

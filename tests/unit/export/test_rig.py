@@ -189,7 +189,7 @@ def test_a_skeleton_of_another_file_takes_sockets_and_a_root_that_moves(made: Ma
     found = made.read("own", options)
     own = made.foreign.own
     assert set(own.figure.bone_names) < set(found.target.names)
-    # Its own shapes turn no eyes.
+    # The character's own shapes do not turn the eyes.
     check_body(made.read("suisou", RigOptions(eyes="bones")), found)
 
 
@@ -327,7 +327,7 @@ def test_the_root_bone_goes_below_the_hips(made: Made, choice: SkeletonChoice) -
     heading = world[:, 0, :3, :3] @ Rotation.from_quat(target.rest[0]).as_matrix().T
     np.testing.assert_allclose(heading[..., 1], np.tile([0.0, 1.0, 0.0], (len(world), 1)), atol=1e-5)
     np.testing.assert_allclose(world[:, pelvis, :3, 3], way, atol=MM)
-    # It is turned as the hips are: whatever the dance adds, they look the same way from it as at the first frame.
+    # Rotated like the hips: their relative direction stays as in the first frame, whatever the dance adds.
     from_root = world[:, 0, :3, :3].transpose(0, 2, 1) @ world[:, pelvis, :3, :3]
     lean = angles_rad(np.tile(from_root[:1], (len(world), 1, 1)), from_root)
     assert lean.max() < 20.0 * DEGREE
@@ -343,7 +343,7 @@ def test_arms_at_rest(made: Made, choice: SkeletonChoice, pose: str, down_deg: f
         arm = [rest[names[joints.bone(f"{side}{part}")]][:3, 3] for part in ("UpperArm", "LowerArm", "Hand")]
         for above, below in itertools.pairwise(arm):
             way = (below - above) / np.linalg.norm(below - above)
-            # As in the T-pose, where our joints are within a few degrees of the side.
+            # As in the T-pose, in which our joints are within a few degrees of sideways.
             angle = np.degrees(np.arccos(way @ [out * np.cos(down_deg * DEGREE), -np.sin(down_deg * DEGREE), 0.0]))
             assert angle < 0.1
     # A reader that plays no animation shows the mesh as it is bound, and that is with the bones at rest.
@@ -368,7 +368,7 @@ def test_twist_bones_carry_skin_with_their_share(made: Made, choice: SkeletonCho
             assert len(bones) == count
             carried = [np.where(mesh.joint_indices == bone, mesh.weights, 0.0).sum(axis=1) for bone in bones]
             assert all((one > 0.5).sum() > 40 for one in carried)
-            # What the limb carried is shared, no more and no less.
+            # The weights of the limb are redistributed without loss.
             own = target.bone_of_joint[base]
             whole = before.scene.meshes[0]
             assert before.target.names[own] == target.names[own]

@@ -105,14 +105,14 @@ def differences(plain: object, found: object, path: str = "") -> list[str]:
     if isinstance(plain, dict) and isinstance(found, dict):
         assert plain.keys() == found.keys()
         if plain.get("beyond") == found.get("beyond") == 0:
-            # Of joints that all keep within their limits, any may be named.
+            # Among joints within their limits any may be named.
             plain, found = ({**one, "joint": ""} for one in (plain, found))
         return [line for key in plain for line in differences(plain[key], found[key], f"{path}/{key}")]
     if isinstance(plain, float) and isinstance(found, float):
         alike = abs(plain - found) <= (MM if "acceleration" not in path else 0.02 * abs(plain) + 1.0)
         return [] if alike else [f"{path}: {plain} and {found}"]
     if path.endswith("/joint"):
-        # Both eyes turn alike.
+        # Both eyes rotate alike.
         plain, found = (str(name).removeprefix("left").removeprefix("right") for name in (plain, found))
     return [] if plain == found else [f"{path}: {plain} and {found}"]
 

@@ -39,7 +39,7 @@ def test_a_foot_slides_where_it_stands_also_between_the_ways_of_a_step() -> None
     sole_m[(TIMES_S > 3.5) & (TIMES_S < 4.0), 0] += 0.004
     found = slid_m(sole_m, TIMES_S, plan(("step", 2.0, 6.0, 0.7)), "left.foot.sole", BODY)
     assert found.max() == pytest.approx(0.004, abs=1e-6)
-    # One that does not come home is as far off as it is.
+    # A foot that does not return counts with its full distance.
     sole_m = stepping()
     sole_m[TIMES_S > 6.0, 2] = 0.01
     found = slid_m(sole_m, TIMES_S, plan(("step", 2.0, 6.0, 0.7)), "left.foot.sole", BODY)

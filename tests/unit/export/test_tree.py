@@ -149,7 +149,7 @@ def test_what_a_killed_process_had_begun_is_given_back(root: Path, moment: int) 
     done = subprocess.run([sys.executable, "-c", KILLED, str(root), str(moment), str(here)], check=False)
     assert done.returncode == 9
     assert contents(root) != AFTER
-    # As the next start of the program does, which knows nothing of this tree.
+    # As the next start of the program does, without a reference to this tree.
     clean_up()
     assert contents(root) == BEFORE
     assert folders(root) == {"src", "src/a", "src/gone"}

@@ -124,7 +124,7 @@ def test_the_root_has_its_channels_in_any_order() -> None:
     np.testing.assert_array_equal(found.root_translation_cm, [[1, 2, 3], [4, 5, 6]])
     turn = Rotation.from_euler("YXZ", [11, 22, 33], degrees=True).inv() * Rotation.from_quat(found.rotations_xyzw[1, 0])
     assert turn.magnitude() < 1e-12
-    # Without positions it stays where it is: its offset is left out, as ever.
+    # Without position channels the joint does not move: its offset is ignored as before.
     still = decode_bvh(ARM % ("1 Yposition", "0", "0", "0.04", "7 8"), "a.bvh")
     np.testing.assert_array_equal(still.root_translation_cm, [[0, 7, 0], [0, 8, 0]])
 

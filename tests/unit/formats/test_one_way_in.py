@@ -30,8 +30,7 @@ OUR_OWN = {
     "app/formats/locks.py": {"open"},
     "app/formats/atomic.py": {"open"},
     "app/formats/usd.py": {"open"},
-    # What the system says of this process.
-    # Files of ours, written a moment ago.
+    # Files about this process provided by the system, and files written by us a moment ago.
     "app/export/unreal/check.py": {"open", "read_bytes"},
 }
 READING = {"read_bytes", "read_text", "fromfile", "QSettings", "tomllib"}

@@ -30,7 +30,7 @@ def test_a_folder_is_gone_when_its_work_is_done(place: Path) -> None:
         (folder / "sub").mkdir()
         (folder / "sub" / "file").write_text("x")
         assert folder.parent == place
-        # Whoever looks meanwhile leaves it alone.
+        # Another process that looks meanwhile leaves the folder alone.
         assert list(abandoned_folders()) == []
     assert list(place.iterdir()) == []
 
@@ -57,7 +57,7 @@ def test_what_a_killed_process_left_is_found_once(place: Path) -> None:
     with scratch_folder() as mine:
         found = abandoned_folders()
         assert next(found) == left
-        # Another that starts at the same moment does not get it.
+        # Another process that starts at the same moment does not get the folder.
         assert list(abandoned_folders()) == []
         assert list(found) == []
         assert list(place.iterdir()) == [mine]

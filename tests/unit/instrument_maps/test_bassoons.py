@@ -43,7 +43,7 @@ def test_low_notes_close_one_key_of_the_thumb_after_the_other() -> None:
     keys = [first(written) & LOW_ROW for written in (38, 36, 35, 34)]
     assert [len(one) for one in keys] == [1, 2, 3, 4]
     assert all("Rp_f" in first(written) for written in range(34, 42))
-    # What lies below F closes the E hole too, by the right thumb; C sharp 2 is C 2 with a key of its own.
+    # Fingerings below F also close the E hole, with the right thumb; C sharp 2 is C 2 with an additional key.
     assert [written for written in range(34, 75) if "Rt_e" in first(written)] == list(range(34, 41))
     assert first(37) == first(36) | {"Lp_des"}
 

@@ -106,7 +106,7 @@ class BodyPanel(Retranslated, QWidget):
         tools = in_row((self._said, 1), self._undo, self._redo, self._reset, margins=0)
         in_column(tools, (shown, 1), of=self, margins=0)
 
-    # The user's actions
+    # User actions
 
     @property
     def joint(self) -> str:
@@ -160,7 +160,7 @@ class BodyPanel(Retranslated, QWidget):
             self._bones.search.setFocus(Qt.FocusReason.OtherFocusReason)
             self._bones.search.selectAll()
 
-    # Showing
+    # Display
 
     def show_pair(self, found: PairContents, history: DraftHistory) -> None:
         """Show the skeleton of a pair's motion with the user's corrections, which can be undone."""

@@ -79,7 +79,7 @@ class PoseFigure(QWidget):
         """Return the drawn points (N, 2)."""
         return np.zeros((0, 2)) if self._pose is None else self._pose
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self) -> QSize:
         return QSize(180, 180)
@@ -157,7 +157,7 @@ class SkeletonFigure(PoseFigure):
     def _points(self) -> FloatArray:
         return np.zeros((0, 2)) if self._skeleton is None else self._skeleton.lines.reshape(-1, 2)
 
-    # Qt's own names
+    # Qt overrides
 
     def paintEvent(self, event: QPaintEvent) -> None:
         super().paintEvent(event)

@@ -102,7 +102,7 @@ class CutPlot(QWidget):
         self._drag: _Drag | None = None
         self._token: object = None
         self._scrubs = False
-        # Not a PlotWidget, which leaves menus behind that no one sees.
+        # A GraphicsView instead of a PlotWidget, which would create menus that are never shown.
         self.plot: Any = pg.GraphicsView(self)
         self.plot.setObjectName("cut_plot")
         self.view: Any = pg.ViewBox(enableMenu=False, enableMouse=False)
@@ -141,7 +141,7 @@ class CutPlot(QWidget):
         self.plot.installEventFilter(self)
         self.plot.viewport().installEventFilter(self)
 
-    # What is shown
+    # Display
 
     @property
     def cuts(self) -> Cuts:
@@ -244,7 +244,7 @@ class CutPlot(QWidget):
         left = min(max(middle - span / 2.0, first), last - span)
         self.view.setXRange(left, left + span, padding=0.0)
 
-    # Between frames and pixels
+    # Conversion of frames and pixels
 
     def time_s(self, frames: Any) -> Any:
         """Convert frame indices to times of the motion file in seconds."""
@@ -270,7 +270,7 @@ class CutPlot(QWidget):
 
     def _line_at(self, x_px: float) -> CutLine | None:
         """Return the line under the mouse, the nearest of several; None if there is none."""
-        # In frames: asking the view for the place of each of many lines takes longer than drawing them.
+        # In frames: asking the view for the position of each line takes longer than drawing them.
         frame_px = max(self.x_px(1.0) - self.x_px(0.0), 1e-9)
         under = (x_px - self.x_px(0.0)) / frame_px
         found: list[tuple[float, CutLine]] = []
@@ -301,7 +301,7 @@ class CutPlot(QWidget):
 
     def _ask(self, cuts: Cuts, token: object = None) -> None:
         if cuts != self._cuts:
-            # They come back by `show_cuts`.
+            # `show_cuts` delivers the edited cuts.
             self.edited.emit(cuts, token)
         else:
             self._draw()
@@ -437,7 +437,7 @@ class CutPlot(QWidget):
         shade.setAlphaF(0.3)
         self._unfit.setOpts(brush=pg.mkBrush(shade))
 
-    # Qt's own names
+    # Qt overrides
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         kind = event.type()

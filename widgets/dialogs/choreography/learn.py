@@ -89,7 +89,7 @@ class LearnDialog(WorkingDialog):
         self._unknown: tuple[Path, ...] = ()
 
         self.list = self.texted(PairList(), name="learn_dialog.pairs_of_motion_and_music")
-        # Where the piece has no sound, as in a picture made without a window, the pair plays in time without one.
+        # If the piece has no sound, as in a picture made without a window, the pair plays silently in time.
         playback = playback or Playback(open_output if session.playback is not None else lambda: None)
         self.form, self.cuts = PairForm(), CutPanel(session, playback)
         self.body, self.tabs = BodyPanel(session), named(QTabWidget(), "learn_tabs")
@@ -120,7 +120,7 @@ class LearnDialog(WorkingDialog):
             button.setAutoDefault(False)
         self._seed.setRange(0, MOST_SEED)
         self._seed.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
-        # Files that are dropped are the dialog's, not text of a field.
+        # Dropped files belong to the dialog and are not text for a field.
         for edit in (self._file, self._seed.lineEdit()):
             edit.setAcceptDrops(False)
         self._state.setWordWrap(True)
@@ -159,7 +159,7 @@ class LearnDialog(WorkingDialog):
         self._file.textChanged.connect(lambda _: self._edited())
         on_click(self._use, self._use_it)
         self._timer.timeout.connect(lambda: self._show_share(self._share[0]))
-        # A method: a function would outlive the dialog.
+        # A method, because a function would keep the dialog alive.
         session.changed.connect(self._show_use)
         session.dancer_changed.connect(self._show_use)
         session.theme_changed.connect(self._show_list)
@@ -214,11 +214,11 @@ class LearnDialog(WorkingDialog):
             if draft.motion != before.motion:
                 draft = msgspec.structs.replace(draft, figure="")
             if (draft.motion, draft.figure, draft.fps) != (before.motion, before.figure, before.fps):
-                # Its frames are others.
+                # The number of frames has changed.
                 draft, row.history = msgspec.structs.replace(draft, cuts=None), CutHistory()
                 row.cut_clip = None
             if (draft.motion, draft.figure) != (before.motion, before.figure):
-                # Its bones too.
+                # The bones have changed too.
                 draft, row.bones = msgspec.structs.replace(draft, joints={}), DraftHistory.empty()
             row.draft = draft
             if draft.files != before.files:
@@ -238,7 +238,7 @@ class LearnDialog(WorkingDialog):
             skeleton = row.found.skeleton
             self._read(row)
             if row.reading:
-                # The bones to choose from stay.
+                # The bones to choose from are kept.
                 row.found = PairContents(skeleton=skeleton)
             self._edited()
 
@@ -277,7 +277,7 @@ class LearnDialog(WorkingDialog):
             return
         self._result, self._failure = None, None
         self._set_running(True)
-        # The thread gets what it needs, not the dialog.
+        # The thread receives only what it needs, not the dialog.
         self._share = [0.0]
         states = None if self._states.value is None else round(self._states.value)
         work = learning(path, tuple(self._rows), states, self._seed.value(), self._stop, self._share)
@@ -324,7 +324,7 @@ class LearnDialog(WorkingDialog):
         if path is not None:
             self._file.set_path(_with_suffix(path))
 
-    # Showing
+    # Display
 
     def _edited(self, unknown: tuple[Path, ...] = ()) -> None:
         """Discard a learned result, which is outdated; ``unknown`` are added files of unsupported kinds."""
@@ -355,7 +355,7 @@ class LearnDialog(WorkingDialog):
             self.form.show_pair(row.draft, row.found, bool(row.reading))
             self.cuts.show_pair(row.draft, row.found, row.history)
             if row.found is not self.body.found and row.found.error is not None and row.found.skeleton is not None:
-                # Bones are to be corrected first.
+                # The bones must be corrected first.
                 self.tabs.setCurrentIndex(1)
             self.body.show_pair(row.found, row.bones)
 
@@ -394,7 +394,7 @@ class LearnDialog(WorkingDialog):
         super().retranslate()
         self._show_all()
 
-    # Qt's own names
+    # Qt overrides
 
     def done(self, result: int) -> None:
         self.cuts.player.close_down()

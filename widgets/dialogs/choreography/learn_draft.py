@@ -97,7 +97,7 @@ def with_files(drafts: Sequence[PairDraft], paths: Sequence[Path]) -> tuple[tupl
     result = list(drafts)
     for field, other, suffixes in (("motion", "music", MOTION_SUFFIXES), ("music", "motion", MUSIC)):
         files = [path for path, kind in zip(paths, kinds, strict=True) if kind in suffixes]
-        # What has the name of another file is not taken by one that has not.
+        # A file whose name belongs to one pair is not assigned to another.
         for path in sorted(files, key=lambda path: not _lacking(result, field, other, path)):
             at = next(iter(_lacking(result, field, other, path) or _lacking(result, field)), len(result))
             result[at:] = result[at:] or [PairDraft()]

@@ -126,7 +126,7 @@ class PairForm(Retranslated, QWidget):
         """Show the choice of skeletons for a file with several."""
         skeleton, motion = self._found.skeleton, self._draft.motion
         if skeleton is not None or motion != self._figures_of:
-            # While another of them is read, or where it cannot be read, they stay.
+            # The former figures stay while another file is read, or if it cannot be read.
             self._figures_of = motion
             self._figures = () if skeleton is None else skeleton.figures
             self._figure_read = "" if skeleton is None else skeleton.figure_name
@@ -191,7 +191,7 @@ class PairForm(Retranslated, QWidget):
     def _number_changed(self) -> None:
         fps = self._fps.value
         rate = self._draft.fps
-        # Three decimals are shown.
+        # Three decimals are displayed.
         if fps is None:
             rate = None
         elif rate is None or round(float(rate), 3) != fps:

@@ -98,7 +98,7 @@ def training_pair(row: PairRow) -> Pair | None:
     if read is None:
         return None
     offset_s = row.draft.offset_s
-    # Typed is a time of the file, of which the clip may be a later part.
+    # The typed time refers to the file, of which the clip may be a later part.
     of_clip_s = None if offset_s is None else offset_s - read.motion.start_s
     return replace(read.pair, offset_s=of_clip_s, cuts=row.draft.cuts)
 

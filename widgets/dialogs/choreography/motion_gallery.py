@@ -74,7 +74,7 @@ class MotionModel(QAbstractListModel):
         count = self.used.get(state, 0)
         return self.tr("motion_model.danced").format(count=count) if count else self.tr("motion_model.not_danced")
 
-    # Qt's own names
+    # Qt overrides
 
     def rowCount(self, parent: AnyIndex = QModelIndex()) -> int:  # noqa: B008
         return 0 if parent.isValid() else len(self.motions)
@@ -150,7 +150,7 @@ class _CardDelegate(QStyledItemDelegate):
     def _line_px(self) -> float:
         return QFontMetricsF(self._view.font()).height()
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self, option: QStyleOptionViewItem, index: AnyIndex) -> QSize:
         rows = self._view.rows
@@ -180,7 +180,7 @@ class _CardDelegate(QStyledItemDelegate):
         painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
         painter.drawLine(round(room.left()), round(floor_px + 3), round(room.right()), round(floor_px + 3))
         pixels = placed(drawn, middles, floor_px, FIGURE_PX)
-        # The accent is what is danced on the beat.
+        # The pose at the accent is the one danced on the beat.
         draw_figures(painter, pixels[[0, 2]], QColor(tokens.text_dim), 1.6, FIGURE_PX)
         draw_figures(painter, pixels[[1]], QColor(self.colour or tokens.text), 2.2, FIGURE_PX)
         painter.restore()

@@ -68,7 +68,7 @@ class PairPlayer(Retranslated, QWidget):
         self.slider.valueChanged.connect(self._scrubbed)
         playback.playing_changed.connect(self._playing_changed)
         self._stems.changed.connect(self._take_sound)
-        # One of them is heard at a time.
+        # Only one of the two sounds at a time.
         session.playing_changed.connect(self._give_way)
         self.show_pair(PairDraft(), PairContents())
 

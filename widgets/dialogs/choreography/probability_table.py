@@ -72,7 +72,7 @@ class _TableModel(QAbstractTableModel):
         self.values, self.rows, self.columns, self.sentence = values, rows, columns, sentence
         self.endResetModel()
 
-    # Qt's own names
+    # Qt overrides
 
     def rowCount(self, parent: AnyIndex = QModelIndex()) -> int:  # noqa: B008
         return 0 if parent.isValid() else self.values.shape[0]
@@ -151,7 +151,7 @@ class ProbabilityTable(QTableView):
 
     def _point(self, index: QModelIndex) -> None:
         self.pointed.emit(self.table.sentence(index.row(), index.column()) if index.isValid() else "")
-        # Its row and column are marked at the sides.
+        # Repaint the marks of its row and column in the headers.
         self.horizontalHeader().viewport().update()
         self.verticalHeader().viewport().update()
 
@@ -195,14 +195,14 @@ class _CellDelegate(QStyledItemDelegate):
         self._session = session
         self._view = view
 
-    # Qt's own names
+    # Qt overrides
 
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: AnyIndex) -> None:
         tokens, values = self._session.tokens, self._view.table.values
         value, most = float(values[index.row(), index.column()]), float(values.max())
         box = QRectF(option.rect).adjusted(0.5, 0.5, -0.5, -0.5)
         seen = value >= _LEAST_SHOWN
-        # Square roots: what is rare but possible is still distinguished from what is not.
+        # Square roots distinguish rare transitions from impossible ones.
         share = _LEAST_SHADE + (_MOST_SHADE - _LEAST_SHADE) * (value / most) ** 0.5 if seen else 0.0
         ground = _mixed(tokens.sunken, tokens.accent, share)
         painter.save()
@@ -252,7 +252,7 @@ class _Header(QHeaderView):
         _, small = self._fonts()
         return max((QFontMetricsF(small).horizontalAdvance(note) for note in self._side.notes.values()), default=0.0)
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self) -> QSize:
         bold, small = (QFontMetricsF(font) for font in self._fonts())

@@ -29,7 +29,7 @@ from widgets.dialogs.choreography.probability_table import ProbabilityTable, Sid
 from widgets.dialogs.choreography.transition_graph import TransitionGraph
 
 if TYPE_CHECKING:
-    # The modules of dances are loaded only for pieces with dancers.
+    # Modules of dances are loaded only for pieces with dancers.
     from app.choreography.model import ChoreographyModel
     from app.choreography.overview import BasicMotion
 
@@ -108,7 +108,7 @@ class ChoreographyDialog(Retranslated, QDialog):
         views: tuple[QWidget, ...] = (self.gallery, self.transitions, self.graph, self.percussion)
         for view, hint, details in zip(views, self._hints.values(), self._details.values(), strict=True):
             self.tabs.addTab(panel(in_column(hint, (view, 1), details, margins=(0, 10, 0, 0), spacing=8)), "")
-        # Of two lines, so that the cards stay where they are.
+        # Two lines high, so that the cards do not move.
         for name in ("motions", "graph"):
             self._details[name].setMinimumHeight(2 * self._details[name].fontMetrics().lineSpacing() + 2)
             self._details[name].setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
@@ -131,7 +131,7 @@ class ChoreographyDialog(Retranslated, QDialog):
         bottom = in_row(HelpButton(), STRETCH, self._close)
         in_column(self._heading, self._use, (self.tabs, 1), bottom, of=self, margins=14, spacing=8)
 
-    # What is shown
+    # Display
 
     def _changed(self, change: Change) -> None:
         if change.opened or change.before.dancers is not change.after.dancers:
@@ -271,7 +271,7 @@ class ChoreographyDialog(Retranslated, QDialog):
         none = self.tr("choreography_dialog.no_credits_are_given_for")
         return "\n\n".join("\n".join((*names, "", credits or none)) for credits, names in together.items())
 
-    # Words
+    # Texts
 
     def retranslate(self) -> None:
         self._hints["percussion"].setText(self._percussion_hint(self._shown is not None and self._shown.derived))

@@ -108,7 +108,7 @@ class TransitionGraph(QWidget):
         colour.setAlpha(255 if first == self.looked_at else 130 if own else DIM)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setPen(QPen(colour, 0.8 + (WIDEST_PX - 0.8) * share))
-        # Places as complex numbers: x + i y.
+        # Points as complex numbers x + i y.
         start, end = (complex(at.x(), at.y()) for at in (self.place(first), self.place(second)))
         radius = 0.5 * NODE_PX
         if first == second:
@@ -127,7 +127,7 @@ class TransitionGraph(QWidget):
         painter.setBrush(colour)
         painter.drawPolygon([_point(end + tip * part) for part in (0.0, (2.0 + 1j) * back, (2.0 - 1j) * back)])
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self) -> QSize:
         return QSize(520, 420)
@@ -154,7 +154,7 @@ class TransitionGraph(QWidget):
         for first, second in sorted(self.arrows(), key=lambda arrow: arrow[0] == self.looked_at):
             self._paint_arrow(painter, first, second)
         count = len(self._transition)
-        # On the shorter axis of the ring neighbours are nearest.
+        # Neighbours are closest on the shorter axis of the ring.
         room = math.pi * max(0.0, min(self.width(), self.height()) - 2.0 * NODE_PX) / max(count, 1)
         for state in range(count):
             place, radius = self.place(state), 0.5 * min(NODE_PX, max(room, 6.0))

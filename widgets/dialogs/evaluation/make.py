@@ -169,7 +169,7 @@ class EvaluationDialog(WorkingDialog):
         if self._running or not self._start.isEnabled():
             return
         request, project, make = self.request(), self._session.project, self._make
-        # Each work gets its own: one that was cancelled may still say something.
+        # A new object for each run, since a cancelled run may still report progress.
         self._now = now = [(0.0, Message("work.evaluation"))]
         self._show.hide()
         self._set_running(True)

@@ -114,7 +114,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         files.setFixedWidth(230)
         in_column((in_row(files, (self._tabs, 1)), 1), self._state, with_help(box), of=self)
 
-    # What is shown
+    # Display
 
     def add_files(self, paths: Sequence[Path]) -> None:
         """Add files with viewers' answers, each once, and evaluate all files again."""
@@ -204,7 +204,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
             lines += ["", f"{text(Message(heading), spoken)}:", *(f"• {text(message, spoken)}" for message in said)]
         return "\n".join(lines)
 
-    # What is asked
+    # Requests
 
     def _ask(self) -> None:
         start = self._files[-1] if self._files else self._folder
@@ -234,7 +234,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         self._show_files()
         self._show_results()
 
-    # Qt's own names
+    # Qt overrides
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         if dropped_paths(event):

@@ -88,7 +88,7 @@ class _RowDelegate(RowDelegate):
         problems = [self.tr("row_delegate.problems").format(count=count)] if count else []
         return "\n".join([str(index.data()), *problems])
 
-    # Qt's own names
+    # Qt overrides
 
     def sizeHint(self, option: QStyleOptionViewItem, index: AnyIndex) -> QSize:
         return QSize(120, max(LEAST_TARGET_PX, round(QFontMetricsF(self._view.font()).height()) + 8))

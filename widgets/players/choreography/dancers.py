@@ -178,7 +178,7 @@ class DancersSection(Retranslated, QWidget):
         for slider in (*self._numbers.values(), *self._places.values()):
             slider.released.connect(session.document.end_gesture)
 
-    # Showing
+    # Display
 
     def _changed(self, change: Change) -> None:
         if change.opened or change.before.dancers is not change.after.dancers:
@@ -297,7 +297,7 @@ class DancersSection(Retranslated, QWidget):
             Message("edit.rename_dancer", {"dancer": dancer.name}),
             lambda project: edit.rename_dancer(project, dancer_id, name),
         )
-        # Once the editor of the row is closed: a name that was refused is not shown any more.
+        # After the editor of the row is closed: a refused name disappears.
         QTimer.singleShot(0, self, self._show)
 
     def rename_selected(self) -> None:
@@ -337,12 +337,12 @@ class DancersSection(Retranslated, QWidget):
                 edit.dancer_edit(name, dancer.name), lambda project: change(project, dancer.id), token
             )
 
-    # Words
+    # Texts
 
     def retranslate(self) -> None:
         self._show()
 
-    # Qt's own names
+    # Qt overrides
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         inside = self.list.rect().contains(self.list.mapFromGlobal(event.globalPos()))

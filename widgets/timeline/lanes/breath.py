@@ -78,7 +78,7 @@ class BreathLane(RegionLane):
         height = box.height() * (region.amount if breath else PREPARATION_SHARE * region.amount)
         top, left, right, bottom = box.bottom() - height, box.left(), box.right(), box.bottom()
         if breath:
-            # Air streams in slowly, then fully, and stops a moment before the lips close.
+            # Air flows in slowly, then fast, and stops just before the lips close.
             rise = min(box.width() * 0.55, 40.0)
             points = [(left, bottom), (left + rise * 0.4, bottom - height * 0.25), (left + rise, top),
                       (right - min(box.width() * 0.1, 6.0), top), (right, bottom)]  # fmt: skip

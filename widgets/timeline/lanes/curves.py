@@ -184,7 +184,7 @@ class CurvesLane(Lane):
     def _chosen(self, index: int) -> None:
         self.set_curve(str(self.choice.itemData(index)))
 
-    # What is shown
+    # Display
 
     def refresh(self) -> None:
         """Display the active player's plan and part, if either has changed."""
@@ -231,7 +231,7 @@ class CurvesLane(Lane):
         if (before.notes, before.events) != (now.notes, now.events):
             self.update_items()
 
-    # The mouse
+    # Mouse
 
     def press(self, mouse: LaneMouse) -> None:
         before, event = self.session.selection, self.event_at(mouse.time_s)

@@ -86,7 +86,7 @@ class NumberField(QLineEdit):
             self.close_field()
         else:
             super().keyPressEvent(event)
-        # What a field has no use for must not reach the lane behind it.
+        # Unused keys must not reach the lane behind the field.
         event.accept()
 
     def focusOutEvent(self, event: QFocusEvent) -> None:

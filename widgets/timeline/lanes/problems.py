@@ -124,7 +124,7 @@ class ProblemsLane(Lane):
         """Show the problems of the player in front."""
         player = self.session.player
         if player is not None and player.id == self._player_id and self.session.plan is None:
-            # Problems of players that are being planned again stay until the plans are there.
+            # Problems of players that are planned again stay until the plans arrive.
             return
         problems = self.session.problems(player.id) if player is not None else ()
         self._player_id = player.id if player is not None else None
@@ -141,7 +141,7 @@ class ProblemsLane(Lane):
         """Return the problem nearest to the mouse, within reach; None if there is none."""
         reach_s = REACH_PX / self.axis.px_per_s
         found = self.spans.between(mouse.time_s - reach_s, mouse.time_s + reach_s).tolist()
-        # The mark stands at the start: the nearest start wins over a long problem that only passes by.
+        # The mark is at the start: the nearest start wins over a long problem that only passes by.
         return min(
             (self.problems[index] for index in found),
             key=lambda problem: abs(problem.start_s - mouse.time_s),

@@ -102,7 +102,7 @@ class RegionLane(Lane):
         self.number = NumberField(self)
         self.refresh()
 
-    # What sub-classes say
+    # Overridden by subclasses
 
     def make_regions(self, plan: PlayerPlan) -> tuple[list[Region], int]:
         """Return the active player's regions in any order, and the number of rows."""
@@ -133,7 +133,7 @@ class RegionLane(Lane):
         """Return the ticks by which a region moves when dragged by some ticks, so that its start is on the grid."""
         return self.snap(region.start_tick + ticks, mouse) - region.start_tick
 
-    # The regions
+    # Regions
 
     @property
     def regions(self) -> list[Region]:
@@ -211,7 +211,7 @@ class RegionLane(Lane):
         plan = self.session.plan
         project = self.session.project
         if plan is None and player is not None and self._made_for and self._made_for[-2] == player.id:
-            # New plans are on their way: what is shown stays until they are there.
+            # The former display stays until new plans arrive.
             return
         corrections = project.corrections.get(player.id, ()) if player is not None else ()
         removed = tuple(item.event_id for item in corrections if isinstance(item, RemoveEvent))
@@ -235,7 +235,7 @@ class RegionLane(Lane):
     def regions_refreshed(self) -> None:
         """Redraw after the regions have changed."""
 
-    # What happens around
+    # Changes of the session
 
     def project_changed(self, change: Change) -> None:
         if change.origin is not self:
@@ -246,7 +246,7 @@ class RegionLane(Lane):
         if before.events != self.session.selection.events:
             self.update_items()
 
-    # The mouse
+    # Mouse
 
     def press(self, mouse: LaneMouse) -> None:
         region, zone = self.region_at(mouse)

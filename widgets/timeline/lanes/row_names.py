@@ -52,7 +52,7 @@ class RowNames(QWidget):
         free_from = -height
         for text, middle in self._names():
             if not 0.0 <= middle <= self.height():
-                # The row is scrolled out of sight.
+                # The row is scrolled out of view.
                 continue
             top = min(max(middle - height / 2, 0.0), max(self.height() - height, 0.0))
             left = title_px if top < TITLE_PX - 6.0 else 4.0

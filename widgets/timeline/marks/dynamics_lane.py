@@ -116,7 +116,7 @@ class DynamicsLane(Lane):
         _Dynamics(self)
         self.texted(self.title, text="dynamics_lane.title", tip="dynamics_lane.tip")
 
-    # What is shown
+    # Display
 
     @property
     def letter_px(self) -> float:
@@ -182,7 +182,7 @@ class DynamicsLane(Lane):
     def players_changed(self) -> None:
         self.update_items()
 
-    # The mouse
+    # Mouse
 
     def at(self, mouse: LaneMouse) -> tuple[Mark, Zone] | None:
         """Return the dynamics mark under the mouse and the grabbed part of it; None if there is none."""
@@ -255,7 +255,7 @@ class DynamicsLane(Lane):
             add_actions(menu, self.session, MENU)
         return menu
 
-    # What the user writes
+    # Typing
 
     def _offer(self, mark: Mark | None, tick: int) -> None:
         """Open the menu of dynamics for a mark, or for a new one at a tick."""

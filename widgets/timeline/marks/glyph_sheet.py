@@ -151,9 +151,9 @@ def _slur(x0: float, y0: float, x1: float, y1: float, lift: float) -> QPainterPa
     path = _path()
     width, rise = x1 - x0, (y1 - y0) * STEEPNESS
     thin, thick = SLUR_PX
-    # A handle's height of 4/3 lifts the middle by one.
+    # A control point at 4/3 of the height raises the middle by 1.
     up = lift * 4 / 3
-    # As thick across where it is steep.
+    # Keeps the thickness where the curve is steep.
     more = (thick - thin) * 2 / 3 * min(hypot(1.0, (y1 - y0) / max(width, 1.0)), 3.0)
     left, right = x0 + width * STEEPNESS, x1 - width * STEEPNESS
     path.moveTo(x0, y0 - thin / 2)

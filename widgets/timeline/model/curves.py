@@ -180,7 +180,7 @@ class DrawCurve(EditGesture):
         last, self._last = self._last, mouse
         spans, (low_s, high_s) = self._lips.spans, sorted((last.time_s, mouse.time_s))
         for index in spans.between(low_s, high_s).tolist():
-            # A fast mouse skips notes: they get the heights on the line that it took.
+            # A fast mouse skips notes, which get the values on the line between its positions.
             middle_s = min(max(float(spans.start_s[index] + spans.end_s[index]) / 2, low_s), high_s)
             share = (middle_s - last.time_s) / (mouse.time_s - last.time_s) if high_s > low_s else 1.0
             value = self._value_at(last.y_px + share * (mouse.y_px - last.y_px))

@@ -85,7 +85,7 @@ class StepCurve:
         if not len(first):
             return low, high
         begin = int(first[0])
-        # reduceat takes pairs of indices; an end at the array's own end must be left to its padding.
+        # reduceat takes pairs of indices and accepts no end equal to the length of the array, hence the padding.
         part = np.append(self.value[begin : int(last[-1])], self.value[int(last[-1]) - 1])
         pairs = np.empty(2 * len(first), np.int64)
         pairs[0::2], pairs[1::2] = first - begin, last - begin

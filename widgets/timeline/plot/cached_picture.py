@@ -37,7 +37,7 @@ class Pictured(QWidget):
 
     def _drawn(self) -> QPixmap:
         ratio = self.devicePixelRatioF()
-        # At 125 % a widget may begin between two pixels, and reach into one more.
+        # At a scale of 125 % a widget may begin between two pixels and extend into one more.
         size = QSize(ceil(self.width() * ratio) + 1, ceil(self.height() * ratio) + 1)
         if self._picture is None or self._picture.size() != size or self._ratio != ratio:
             self._picture, self._ratio = self._draw(size, ratio), ratio
@@ -48,7 +48,7 @@ class Pictured(QWidget):
         picture.fill(self.ground())
         painter = QPainter(picture)
         painter.scale(ratio, ratio)
-        # Clipped to what there is, Qt draws lines and shapes that are not opaque ten times as fast.
+        # Clipped to the picture, Qt draws lines and translucent shapes ten times as fast.
         painter.setClipRect(QRectF(QPointF(), QSizeF(size) / ratio))
         self.draw(painter, QRectF(self.rect()))
         painter.end()
@@ -58,11 +58,11 @@ class Pictured(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter, picture = QPainter(self), self._drawn()
-        # Pixel for pixel: scaled to the same size, Qt would read beyond the last row.
+        # Pixel by pixel: if it scaled to the same size, Qt would read beyond the last row.
         painter.scale(1.0 / self._ratio, 1.0 / self._ratio)
         painter.drawPixmap(0, 0, picture)
 
     def changeEvent(self, event: QEvent) -> None:
         super().changeEvent(event)
-        # Fonts and words are drawn too.
+        # Fonts and texts are parts of the picture.
         self.redraw()

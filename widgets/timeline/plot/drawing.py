@@ -15,7 +15,7 @@ from app.arrays import AnyIntArray, FloatArray
 from app.editor.design_tokens import LEAST_TEXT_PT, Tokens
 from widgets.timeline.model.lane_mouse import PixelRect
 
-# As numbers: joining flags of Qt takes Python as long as drawing a word.
+# As an integer, because combining flags of Qt takes as long as drawing a word.
 _ONE_LINE = int(Qt.TextFlag.TextDontClip) | int(Qt.TextFlag.TextSingleLine)
 MARK_PX = 6.0
 """Side in pixels of the square that marks the user's changes."""

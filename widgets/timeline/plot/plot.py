@@ -114,7 +114,7 @@ class Background(LaneItem[LaneView]):
             shade = QColor(colour)
             shade.setAlpha(alpha)
             x = axis.x_px(seconds)
-            # Whole pixels and a half: a sharp line.
+            # Half pixels give sharp lines.
             x = np.floor(x[(x >= exposed.left() - 1) & (x <= exposed.right() + 1)]) + 0.5
             top, bottom = np.full(len(x), exposed.top()), np.full(len(x), exposed.bottom())
             draw_lines(painter, x, top, x, bottom, QPen(shade, 1.0))

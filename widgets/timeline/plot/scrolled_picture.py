@@ -38,7 +38,7 @@ class ScrolledPicture:
         look = (look, ratio, axis.px_per_s, room.width(), room.height())
         scrolled = look == self._look
         if not scrolled or not self._span_s[0] <= axis.start_s <= axis.end_s <= self._span_s[1]:
-            # A plot that is scrolled goes on being scrolled; one that is zoomed is another at the next step.
+            # A plot being scrolled will be scrolled further; one being zoomed has another picture at the next step.
             more_s = (axis.end_s - axis.start_s) * BESIDE if scrolled else 0.0
             self._look, self._span_s = look, (axis.start_s - more_s, axis.end_s + more_s)
             self._image = self._made(paint, ratio)

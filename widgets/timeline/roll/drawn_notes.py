@@ -99,7 +99,7 @@ class Notes(LaneItem[RollView]):
             return
         table, colour = front
         rows = lane.visible(table, exposed)
-        # Soft notes lie nearer to the ground, loud ones stand out.
+        # Soft notes have a colour near the background, loud ones stand out.
         ground = lane.session.tokens.sunken
         level = np.clip(table.velocity[rows] * LEVELS // 128, 0, LEVELS - 1)
         for number in range(LEVELS):
@@ -112,7 +112,7 @@ class Notes(LaneItem[RollView]):
         behind = lane.model.ghosts()
         if not behind.tables:
             return
-        # Ghosts of one colour: many players in many colours would hide the one in front.
+        # All ghosts have one colour: many colours would hide the player in front.
         ghost = _shade(lane.session.tokens.text_dim, GHOST_ALPHA) if lane.ghosted else None
         ratio = lane.plot.devicePixelRatioF()
         key = (lane.axis.start_s, lane.axis.end_s, lane.y_range, lane.plot_rect.size().toTuple(), ratio, ghost)
@@ -218,7 +218,7 @@ def _draw_points(
     bottom, top = lane.y_range
     low, high = int(np.floor(bottom)), int(np.ceil(top))
     pixels = np.zeros((high - low, int(np.ceil(lane.plot_rect.width()))), np.uint32)
-    # Every note as often as it is wide: its columns, one after another.
+    # Each note repeated by its width: its columns one after another.
     counts = width.astype(np.int64)
     note = np.repeat(np.arange(len(counts)), counts)
     x = left.astype(np.int64)[note] + np.arange(len(note)) - np.repeat(np.cumsum(counts) - counts, counts)

@@ -51,7 +51,7 @@ class Labels(LaneItem[RollView]):
             self._events = plan.fingerings if plan is not None else ()
             self._note_ids = [event.note_id for event in self._events]
         self._table, self._plan = table, plan
-        # While notes are dragged, the table is another with every move of the mouse.
+        # While notes are dragged, each movement of the mouse changes the table.
         found = map(table.index.get, self._note_ids, repeat(-1))
         places = np.fromiter(found, np.int64, len(self._note_ids))
         order = np.argsort(places, kind="stable")
@@ -99,7 +99,7 @@ class Labels(LaneItem[RollView]):
         inside = row_px >= max(INSIDE_PX, line_px - 2.0)
         rows = self._fingered[first:last]
         left, top, width, _ = lane.boxes(table, rows)
-        # What a label may take: to the next note's beginning where it hangs below, its own note where it is inside.
+        # Room of a label: until the next note if it is below, its own note if it is inside.
         following = np.append(left[1:], np.inf) - left
         room = width if inside else following
         on_note = QColor("#10151b" if mixed(colour, "#000000", 0.0).lightnessF() > 0.45 else "#ffffff")

@@ -95,7 +95,7 @@ class Keyboard(QWidget):
         if on_black:
             painter.setPen(QColor("#e3e5e9"))
             rect = rect.adjusted(0.0, 0.0, -rect.width() * 0.42, 0.0)
-        # The name of a low row is taller than the row: it may reach over its neighbours.
+        # The name of a low row is taller than the row and may overlap its neighbours.
         spare = max(metrics.height() - rect.height(), 0.0) / 2
         place = rect.adjusted(2.0, -spare, -3.0, spare)
         painter.drawText(place, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter), text)

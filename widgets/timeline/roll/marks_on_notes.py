@@ -119,7 +119,7 @@ class RollMarks(LaneItem[RollView]):
 
         self._picture.draw(painter, (self._look(), colours), paint)
 
-    # The mouse
+    # Mouse
 
     def at(self, mouse: LaneMouse, over_note: bool) -> tuple[Mark, Zone] | None:
         """Return the mark under the mouse and the grabbed part of it; None if there is none.
@@ -147,7 +147,7 @@ class RollMarks(LaneItem[RollView]):
             return None
         mark, zone = found
         self.marks.select(mark, add=mouse.shift, toggle=mouse.ctrl)
-        # What lies over several notes is moved by its ends only.
+        # A mark over several notes is moved only by its ends.
         stays = zone == "whole" and (bool(mark.last_note_id) or MARK_KINDS[mark.kind].anchor != "note")
         if mouse.ctrl or mouse.shift or stays:
             return MouseGesture(mouse)

@@ -107,7 +107,7 @@ class PianoRoll(Lane):
         self.texted(self.title, text="piano_roll.notes", tip="piano_roll.notes_of_player_in_front")
         self.retranslate()
 
-    # What is shown
+    # Display
 
     @property
     def tool(self) -> Tool:
@@ -292,7 +292,7 @@ class PianoRoll(Lane):
         found = self.model.notes_of_pitch(pitch)
         self.session.select(Selection((self.session.selection.notes if add else frozenset()) | found))
 
-    # The mouse
+    # Mouse
 
     @property
     def drag_px(self) -> float:
@@ -489,7 +489,7 @@ class PianoRoll(Lane):
         if hasattr(self, "marks") and not self._pitches_chosen:
             self.show_legibly()
 
-    # When something changes
+    # Changes of the session
 
     def project_changed(self, change: Change) -> None:
         if change.opened:

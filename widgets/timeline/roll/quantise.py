@@ -122,7 +122,7 @@ class QuantisePopover(Retranslated, QFrame):
 
     def event(self, event: QEvent) -> bool:
         if event.type() == QEvent.Type.ShortcutOverride:
-            # Keys belong to what is set here, not to the timeline's shortcuts behind it.
+            # Keys act on these settings and not on the timeline's shortcuts.
             event.accept()
             return True
         return super().event(event)

@@ -96,7 +96,7 @@ class Flags(Strip):
         self._flags = lay_flags(score, self.axis, QFontMetricsF(self.font()), GUTTER_PX, float(self.width()))
         for flag in self._flags:
             x = self.x_px(flag.tick)
-            # What began before the left edge is said more quietly.
+            # A mark that began before the left edge is dimmed.
             colour = QColor(tokens.text_dim if x < GUTTER_PX else tokens.text)
             shade = QColor(tokens.text_dim)
             shade.setAlpha(150 if not flag.shown else 50)

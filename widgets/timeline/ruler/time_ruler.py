@@ -97,7 +97,7 @@ class Ruler(Retranslated, Strip):
     def retranslate(self) -> None:
         self.redraw()
 
-    # Places
+    # Positions
 
     def _x(self, seconds: float) -> float:
         return GUTTER_PX + self.axis.x_px(seconds)
@@ -128,7 +128,7 @@ class Ruler(Retranslated, Strip):
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(tokens.accent if held else tokens.raised))
             painter.drawRoundedRect(rect(mark.box), 3.0, 3.0)
-            # What began before the left edge is said more quietly.
+            # A mark that began before the left edge is dimmed.
             quiet = tokens.text_dim if x < GUTTER_PX else tokens.text
             painter.setPen(QColor(tokens.accent_text if held else quiet))
             painter.drawText(rect(mark.box), int(Qt.AlignmentFlag.AlignCenter), mark.text)
@@ -205,7 +205,7 @@ class Ruler(Retranslated, Strip):
             for x in (left, right - 2):
                 painter.fillRect(QRectF(x, MARKS_PX, 2.0, SCALE_PX), QColor(colour))
 
-    # Answers to the session
+    # Changes of the session
 
     def _axis_changed(self) -> None:
         self._editor.leave(False)
@@ -237,7 +237,7 @@ class Ruler(Retranslated, Strip):
     def edit_mark(self, kind: str, tick: int) -> None:
         """Open a field for the tempo or metre at a tick, adding one if necessary."""
         mark = next((mark for mark in self._marks if (mark.kind, mark.tick) == (kind, tick)), None)
-        # The start of a bar may lie to the left of what is shown.
+        # The start of the bar may be left of the view.
         left = mark.box.left if mark is not None else max(self.x_px(tick), GUTTER_PX)
         self._editor.open(kind, tick, mark_text(self.session.project.score, kind, tick), left, MARKS_PX + 2)
 
@@ -284,7 +284,7 @@ class Ruler(Retranslated, Strip):
         start, end = metre_map.span_of_bar(metre_map.bar_of_tick(tick))
         self.session.select(Selection(span=(max(start, 0), end)))
 
-    # The mouse
+    # Mouse
 
     def _held_at(self, place: QPointF) -> str:
         """Return the name of the part of the ruler that a press at a position grabs, such as ``playhead`` or
@@ -300,7 +300,7 @@ class Ruler(Retranslated, Strip):
         if on_head and abs(place.x() - self._x(self.session.playhead_s)) <= GRIP_PX:
             return "playhead"
         loop, punch = ("loop", self.session.loop_s), ("punch", self._punch_s())
-        # Where both have an edge, the one whose bar is pressed.
+        # If both ranges have an edge here, the one whose bar is pressed.
         for kind, span in (punch, loop) if place.y() > MARKS_PX + LOOP_PX else (loop, punch):
             for name, seconds in zip((f"{kind}_start", f"{kind}_end"), span or (), strict=span is not None):
                 if abs(place.x() - self._x(seconds)) <= GRIP_PX:

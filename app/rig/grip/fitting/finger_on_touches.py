@@ -119,7 +119,7 @@ class FingerOnTouches:
 
     def _step(self, x: FloatArray, jacobian: FloatArray, value: FloatArray, damping: FloatArray) -> FloatArray:
         down = np.einsum("smn,sm->sn", jacobian, value)
-        # An angle at its limit that would be pushed further stays.
+        # An angle at its limit that would be pushed further is fixed.
         free = ~(((x <= self.low) & (down > 0.0)) | ((x >= self.high) & (down < 0.0)))
         normal = np.einsum("smn,smk->snk", jacobian, jacobian) * free[:, :, None] * free[:, None, :]
         corner = np.arange(x.shape[1])

@@ -71,7 +71,7 @@ def fit_hold(
     stand = upright(character, instrument_map, body, lips)
     size = instrument_map.size
     if size != 1.0:
-        # What is near and what is far in a hand goes with its instrument: both are fitted as if that had its own size.
+        # Tolerances scale with the instrument: both are fitted as if the instrument had its usual size.
         character, model = sized_character(character, 1.0 / size), sized_model(model, 1.0 / size)
         instrument_map = scaled(instrument_map, 1.0 / size)
         stand = Upright(stand.joints_m / size, stand.instrument_m / size, stand.instrument_rotation)
@@ -102,9 +102,9 @@ def _fit_hand(
         knots, holds = search_knots(
             problem, scene.model, scene.instrument_map, scene.carrier, _part(progress, 0.0, 0.55)
         )
-        from scipy.interpolate import PchipInterpolator  # heavy; holds are fitted seldom
+        from scipy.interpolate import PchipInterpolator  # slow to import; holds are rarely fitted
 
-        # A wrist between knots follows a smooth curve; the fingers are then solved for it.
+        # Between knots the wrist follows a smooth curve, for which the fingers are then solved.
         path = PchipInterpolator(knots, holds)(MOVED_VALUES)
         return _held(problem, scene, holds[0], path, seed, stand, _part(progress, 0.55, 1.0))
     best: HandHold | None = None

@@ -68,8 +68,8 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
     for array in arrays:
         digest.update(str((array.dtype.str, array.shape)).encode())
         digest.update(np.ascontiguousarray(array).tobytes())
-    # Names do not touch the hands, nor fingerings but for what they ask of several fingers at once; nor does how it is
-    # carried in a posture that is not the usual one, or in a rest.
+    # Names do not affect the hands; fingerings do only where several fingers act at once; and neither does the carriage
+    # in an unusual posture or in a rest.
     usual = usual_posture(instrument)
     hands = (
         instrument.mouthpiece,
@@ -219,10 +219,10 @@ def hold_for(
         grip = read_hold(path, digest, lips)
         if grip is not None:
             return grip
-    from app.rig.grip.fitting.fit import fit_hold  # heavy; holds are fitted seldom
+    from app.rig.grip.fitting.fit import fit_hold  # slow to import; holds are rarely fitted
 
     grip = stored(fit_hold(character, model, instrument, body, progress))
-    # A cache that cannot be written costs the next run some seconds and nothing else.
+    # If the cache cannot be written, only the next run takes some seconds longer.
     with contextlib.suppress(OSError, FileError):
         cached.parent.mkdir(parents=True, exist_ok=True)
         write_hold(cached, digest, grip)
@@ -246,5 +246,5 @@ def _array(kind: Any, value: Any) -> Any:
         raise msgspec.ValidationError(f"expected numbers for {kind}") from error
 
 
-# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+# Created while the import lock is held: msgspec crashes if two threads use a type for the first time at once.
 _DECODER = msgspec.json.Decoder(_StoredHold, dec_hook=_array)

@@ -328,7 +328,7 @@ def _palm_balls(hand: HandModel, skin: FloatArray, owner: IndexArray) -> list[tu
     for knuckle in (4, 7, 10, 13):
         for station in _PALM_STATIONS:
             at = hand.offsets_m[knuckle] * station
-            # At rest the palm faces down: its thickness is along Y.
+            # At rest the palm faces down, so its thickness is measured along Y.
             column = flesh[np.hypot(flesh[:, 0] - at[0], flesh[:, 2] - at[2]) < 0.008]
             if len(column) >= 2 and np.ptp(column[:, 1]) > 0.01:
                 low, high = column[:, 1].min(), column[:, 1].max()

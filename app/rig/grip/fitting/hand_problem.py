@@ -27,7 +27,7 @@ from instrument_maps.model import ROOT, Control, InstrumentMap
 from metadata.load import load_skeleton
 from metadata.model import Body, Posture
 
-# What a deviation of one unit of residual is.
+# Deviations that give a residual of one.
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
 LIMIT_RAD = 0.02
 LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.47, 0.45
@@ -157,7 +157,7 @@ def grip_problem(
         shoulder_m=shoulder_m,
         upper_m=float(np.linalg.norm(character.skeleton.offsets_m[character.skeleton.index(f"{side}LowerArm")])),
         lower_m=float(np.linalg.norm(character.skeleton.offsets_m[character.skeleton.index(f"{side}Hand")])),
-        # The elbow hangs: its swivel is counted from straight down towards the outside.
+        # The elbow hangs: its swivel is measured from straight down, positive outwards.
         swivel_frame=quaternion.rotate(back, [[0.0, -1.0, 0.0], [1.0 if side == "left" else -1.0, 0.0, 0.0]]),
         swivel_usual=usual,
         swivel_range=swivels,

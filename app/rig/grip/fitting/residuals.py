@@ -33,7 +33,7 @@ from app.rig.grip.fitting.hand_problem import (
 from app.rig.grip.instrument_proxy import Bodies, InstrumentNodes, gradient, inside
 from app.rig.ik import TWIST_SHARE
 
-# What a deviation of one unit of residual is.
+# Deviations that give a residual of one.
 PENETRATION_M, FOREARM_M = 0.0005, 0.003
 BALL_M = 0.001
 GIVE_M, STIFFENING = 0.0019, 5.0
@@ -237,7 +237,8 @@ class Residuals:
         local = quaternion.rotate(back, forearm)
         flexion = np.arctan2(sign * local[:, 1], np.maximum(sign * local[:, 0], 1e-3))
         deviation = np.arctan2(-local[:, 2], np.maximum(sign * local[:, 0], 1e-3))
-        # The elbow's hinge, seen from the hand: along the palm's normal where the forearm is neither turned in nor out.
+        # Hinge of the elbow in the hand's frame: along the palm's normal if the forearm is neither pronated nor
+        # supinated.
         hinge = np.cross(elbow - shoulder_m, forearm)
         hinge /= np.maximum(np.linalg.norm(hinge, axis=1), 1e-9)[:, None]
         seen = quaternion.rotate(back, hinge) * sign

@@ -38,7 +38,7 @@ def with_own_arms(
     lips = fit_lips(character, instrument, body)
     own = replace(grip, character_id=character.id, lips=lips)
     if instrument.size != 1.0:
-        # Its hands were fitted as if it had its usual size; the elbow then hangs as the other's.
+        # The hands were fitted at their usual size; the elbow then hangs like that of the other character.
         return own
     stand = upright(character, instrument, body, lips)
     hands = zip(grip.hands, instrument.hands, strict=True)

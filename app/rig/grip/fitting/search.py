@@ -98,7 +98,7 @@ def solve(residuals: Residuals, start: FloatArray, rounds: int) -> Any:
     """Minimise the residuals by least squares within the problem's bounds, in at most ``rounds`` steps; returns SciPy's
     result."""
     problem = residuals.problem
-    from scipy.optimize import least_squares  # heavy; holds are fitted seldom
+    from scipy.optimize import least_squares  # slow to import; holds are rarely fitted
 
     return least_squares(
         residuals,

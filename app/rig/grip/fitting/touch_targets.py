@@ -15,7 +15,7 @@ from app.rig.model import InstrumentModel
 from instrument_maps.hold import Contact
 from instrument_maps.model import ROOT, Control, InstrumentMap
 
-# What a deviation of one unit of residual is.
+# Deviations that give a residual of one.
 FIRM_M, RESTING_M = 0.0003, 0.0012
 FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
 GUIDE_M, GUIDE_NORMAL = 0.006, 1.5

@@ -136,14 +136,14 @@ def _lifted_along(
         found = _Height(*_least_lift(problem, scene, number, on_way(come), LIFTS_M))
         return replace(there, away_m=found.lift_m * away), found
 
-    # A hand that gives way goes along with the key: the finger has come by then.
+    # A yielding hand moves together with the key, when the finger has already arrived.
     own, at_home = ((one.position_m[:1], quaternion.from_matrix(one.basis[:1])) for one in (wrist, scene))
 
     def waiting(lift: float) -> FloatArray:
         return solved_pose(with_wrist(table, there, come, own, at_home, lift * off))
 
     least, _ = _least_lift(problem, scene, number, waiting, LIFTS_M[: len(LIFTS_M) // 2 + 1])
-    # Where the way to there is not clear at any height, it is to a finger that waits higher; but not too far off.
+    # If no height clears the path to a station, it goes to a raised finger instead, unless that is too far.
     place = problem.stations[number][index]
     most = max(least, MOST_HOVER_M - HOVER_MORE * hover_m(place, scene.instrument_map))
     found, best = _Height(0.0, np.inf), least

@@ -156,10 +156,10 @@ def test_corrections_that_do_not_hold_are_problems(
     live = LiveMotion(Performance(project))
     while live.work():
         pass
-    # These few made motions do not always join well.
+    # These few synthetic motions do not always join well.
     flaws = ("dance.seam_shows", "dance.jolts")
     found = [one for one in live.broken.get("dancer:1", ()) if one.message.id not in flaws]
-    # Not every basic motion need be danced where all are forbidden.
+    # Some motions may be absent even if none is forbidden.
     assert [problem.message.id for problem in found] == problems[: len(found) or None]
     seconds = project.score.tempo_map.seconds
     assert all(seconds(4000.0) < problem.start_s <= problem.end_s < seconds(11_000.0) for problem in found)

@@ -53,7 +53,7 @@ def planned_quartet() -> Performance:
 def request_of(
     project: Project, players: tuple[str, ...] = ("Trumpet 1",), source: str = "quartet.mid", last_bar: int = 1
 ) -> ExportRequest:
-    # What the project has in common with the quartet was planned once, as in an editor that played it before.
+    # Plans shared with the quartet are reused, as in an editor that played it before.
     performance = Performance(project, planned_quartet())
     chosen = tuple(player for player in project.players if player.name in players)
     dancers = tuple(dancer for dancer in project.dancers if dancer.name in players)

@@ -122,7 +122,7 @@ def test_who_cannot_dance_is_named_and_stays_as_exported(
     assert "gone.choreography" in left_out["reason"]
     assert left_out["assets"] == ["/Game/Suisou/quartet/Characters/Ana/A_Ana"]
     assert (unreal.folder / SOURCES / "Characters/SK_Ana.fbx").read_bytes() == kept
-    # It is still ours: the next export takes its place.
+    # The file is still ours: the next export replaces it.
     export(request_of(danced, ("Ana",), last_bar=2))
     assert (unreal.folder / SOURCES / "Characters/SK_Ana.fbx").read_bytes() != kept
 

@@ -71,7 +71,7 @@ def test_a_read_only_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     project = find_project(write(tmp_path / "a.uproject"))
     project.file.chmod(0o444)  # as version control leaves it: nothing is written to it
     require_writable(project)
-    # Whoever runs the tests may be allowed everything.
+    # The user who runs the tests may have all permissions.
     monkeypatch.setattr(os, "access", lambda path, mode: False)
     with pytest.raises(FileError) as caught:
         require_writable(project)

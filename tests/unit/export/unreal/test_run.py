@@ -101,7 +101,7 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
         assert [bone.name for bone in scene.bones] == figure["bones"]
         assert scene.clip.frames == reported["frames"]
     assert [bar["number"] for bar in reported["bars"]] == [1]
-    # Where frame 0 is in the whole piece.
+    # Position of frame 0 in the whole piece.
     first_s = request.performance.time_frame.first_frame_s + reported["first_frame"] / 12
     assert reported["first_frame_s"] == pytest.approx(first_s)
     assert (reported["first_frame"], reported["bars"][0]["frame"]) == (request.span.first, 0)
@@ -163,7 +163,7 @@ def test_what_is_not_needed_any_more_goes(unreal: UnrealProject, export: Export)
     ours = {name.replace("Trumpet_1", "Trumpet_2") for name in OURS}
     assert set(without_plugin(tree_of(unreal.folder))) == ours | THEIRS
     assert description(unreal)["frames"] == longer.span.count
-    # One name fewer does not rename the others, and back again is what it was.
+    # Removing a player does not rename the others, and adding it again restores the names.
     export(request_of(quartet(), ("Trumpet 1",)))
     assert set(without_plugin(tree_of(unreal.folder))) == OURS | THEIRS
 
@@ -176,7 +176,7 @@ def test_a_leftover_that_a_user_changed_stays_and_is_reported(unreal: UnrealProj
     assert changed.read_bytes() == b"retouched"
     (message,) = written.plan.kept
     assert str(changed) in text(message)
-    # It is the artist's from now on.
+    # The file belongs to the artist from now on.
     assert not export(request_of(quartet(), ("Trumpet 2",))).plan.kept
     assert changed.read_bytes() == b"retouched"
     with pytest.raises(FileError) as caught:
@@ -208,7 +208,7 @@ def test_a_write_protected_file_is_reported_although_it_could_be_replaced(
 ) -> None:
     before = tree_of(exported.folder)
     protected = exported.folder / SOURCES / "Audio/S_quartet.wav"
-    # Whoever runs the tests may be allowed everything.
+    # The user who runs the tests may have all permissions.
     monkeypatch.setattr(os, "access", lambda path, mode: Path(path) != protected)
     with pytest.raises(FileError) as caught:
         export(request_of(quartet(), last_bar=2))

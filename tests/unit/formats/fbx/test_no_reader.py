@@ -28,7 +28,7 @@ def test_what_is_missing_is_reported(tmp_path: Path, capsys: pytest.CaptureFixtu
         with pytest.raises(FileError) as caught:
             read(FIGURE)
         assert caught.value.message.id == "fbx.no_reader"
-    # Not by its usual name: what was read before may be kept.
+    # A different name, since the content read before may be cached.
     file = tmp_path / "figure.fbx"
     shutil.copy(FIGURE, file)
     assert main(["characters", "check", str(file)]) == 1

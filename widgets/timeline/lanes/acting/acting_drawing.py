@@ -119,6 +119,6 @@ class ActingPainter:
         painter.setPen(QColor(tokens.text))
         number = "" if region.steady or region.amount >= 1.0 else f" {region.amount:.2f}".replace("-", "−")
         indent = 10.0 if region.by_hand else 5.0
-        # The name of what begins before the left edge stays in sight.
+        # The name of a region that begins before the left edge stays visible.
         inside = QRectF(QPointF(max(box.left(), 0.0), box.top()), box.bottomRight())
         draw_text(painter, inside.adjusted(indent, 0.0, -4.0, 0.0), region.label + number)

@@ -287,7 +287,7 @@ class ActingLane(RegionLane):
         at = bisect_right(later, cue.start_s)
         return MOST_NAME_PX if at == len(later) else self.axis.x_px(later[at]) - self.axis.x_px(cue.end_s) - NAME_GAP_PX
 
-    # Hands on it
+    # Dragging
 
     def snapped_move(self, region: Region, ticks: float, mouse: LaneMouse) -> int:
         if region.kind != "cue":

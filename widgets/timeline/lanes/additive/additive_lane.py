@@ -81,7 +81,7 @@ class AdditiveLane(CurveEditing):
             return self.tr("additive_lane.not_here")
         return self.tr("additive_lane.double_click_to_add").format(channel=channel_name(self.channel))
 
-    # What is shown
+    # Display
 
     @property
     def band(self) -> PixelRect | None:
@@ -157,7 +157,7 @@ class AdditiveLane(CurveEditing):
             self.selected = frozenset()
         self.update_items()
 
-    # The mouse
+    # Mouse
 
     def hit(self, mouse: LaneMouse) -> Hit | None:
         """Return the key, handle or curve under the mouse; None if there is none."""

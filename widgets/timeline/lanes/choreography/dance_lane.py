@@ -28,7 +28,7 @@ from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
 if TYPE_CHECKING:
-    # The modules of dances are loaded only for pieces with dancers.
+    # Modules of dances are loaded only for pieces with dancers.
     from app.choreography.performed.dance_steps import DanceSteps
 
 ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 46, 26, 90
@@ -82,7 +82,7 @@ class DanceLane(RowLane):
             return sentence(dance.error, self.session, dance.dancer.id)
         return "" if dance.steps else self.tr("dance_lane.no_beat_of_music_is")
 
-    # What is shown
+    # Display
 
     @property
     def dancers(self) -> tuple[Dancer, ...]:
@@ -98,7 +98,7 @@ class DanceLane(RowLane):
         dance = self.dances.get(dancer_id)
         if dance is None or not dance.steps:
             return None
-        # A step that begins after its accent: the one before it is danced there, but it is not the one that was chosen.
+        # The step begins after its accent: at the accent the previous step is danced instead of the chosen one.
         if tick in dance.ticks:
             return dancer_id, dance.ticks.index(tick)
         number = next((at for at, (start, end) in enumerate(dance.spans) if start <= tick < end), None)
@@ -136,7 +136,7 @@ class DanceLane(RowLane):
         self._names.update()
         self.update_items()
 
-    # Where rows lie
+    # Layout of rows
 
     def count_rows(self) -> int:
         return len(self.dancers)

@@ -120,7 +120,7 @@ class DanceMenu(QMenu):
 
     def _submenu(self, title: str, name: str) -> QMenu:
         menu = named(self.addMenu(title), name)
-        # Figures are to be recognised.
+        # Large enough to recognise the figures.
         menu.setStyleSheet(f"QMenu {{ icon-size: {ICON_PX}px; }}")
         return menu
 

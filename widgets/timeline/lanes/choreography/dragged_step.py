@@ -10,7 +10,7 @@ from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.visible_time import Scale
 
 if TYPE_CHECKING:
-    # The modules of dances are loaded only for pieces with dancers.
+    # Modules of dances are loaded only for pieces with dancers.
     from app.choreography.performed.dance_steps import DanceSteps
 
 

@@ -80,7 +80,7 @@ class Alternates(QFrame):
             chip.setToolTip(f"{chip.text()}\n{choice}")
             on_click(chip, self.choose, fingering.label)
             self._row.addWidget(chip)
-            # In a row that is shown already Qt would show it later, and give it no room before.
+            # In a visible row Qt would show it later and reserve no room until then.
             chip.show()
         if pinned:
             back = named(

@@ -62,7 +62,7 @@ class FingeringCharts:
         self._drawn_for: tuple[object, ...] = ()
         self._words: dict[tuple[str, str], tuple[list[str], list[str]]] = {}
 
-    # Places
+    # Positions
 
     @property
     def hole_px(self) -> float:
@@ -137,7 +137,7 @@ class FingeringCharts:
         self, painter: QPainter, event: FingeringEvent, x: float, room: float, chosen: bool, colour: str
     ) -> None:
         tokens = self._lane.session.tokens
-        # What is not the first choice stands out: it is what one looks for.
+        # Anything but the first choice is emphasised, since users look for it.
         strong = event.corrected or event.rank > 1
         shown = tokens.accent if chosen else tokens.text if strong else colour
         picture = self._picture(event, shown, SQUEEZE)

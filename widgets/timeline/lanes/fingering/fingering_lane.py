@@ -139,7 +139,7 @@ class _Bars(LaneItem["FingeringLane"]):
                 draw_mark(painter, tokens, x, top - 2.0)
             if wide < LEAST_LABEL_PX:
                 continue
-            # What is not the first choice stands out: it is what one looks for.
+            # Anything but the first choice is emphasised, since users look for it.
             painter.setPen(strong if is_chosen or event.corrected or event.rank > 1 else text)
             inset = 8.0 if event.corrected else 2.0
             box = QRectF(x + inset, top, max(wide - inset, 15.0), LABEL_PX)
@@ -175,7 +175,7 @@ class FingeringLane(Lane):
         self.refresh()
         self.texted(self.title, text="fingering_lane.fingering", tip="fingering_lane.click_note_to_see_its")
 
-    # What is shown
+    # Display
 
     def refresh(self) -> None:
         """Show the active player's plan, if it has changed."""
@@ -183,7 +183,7 @@ class FingeringLane(Lane):
         if plan is self._plan and plan is not None:
             return
         if plan is None and player is not None and self._plan is not None and self._plan.player_id == player.id:
-            # New plans are on their way: what is shown stays until they are there.
+            # The former display stays until new plans arrive.
             return
         self._plan, self.data, self.places = plan, None, ()
         instrument = self._instrument(player) if player is not None else None
@@ -285,7 +285,7 @@ class FingeringLane(Lane):
             return None
         start_s, end_s = self.data.start_s[found], self.data.end_s[found]
         away_s: list[float] = np.maximum(np.maximum(start_s - time_s, time_s - end_s), 0.0).tolist()
-        # The last of those at the place.
+        # The last one of several at the same position.
         nearest: int = min(zip(away_s, [-index for index in found], found, strict=True))[2]
         return self.data.events[nearest]
 
@@ -305,7 +305,7 @@ class FingeringLane(Lane):
         if hasattr(self, "alternates"):
             self.alternates.hide()
 
-    # The mouse
+    # Mouse
 
     def press(self, mouse: LaneMouse) -> None:
         event = self.event_at(mouse.time_s)

@@ -145,7 +145,7 @@ class Anchors:
             lines.append(lane.tr(text).format(bar=bar, percent=round(100 * doubt.confidence)))
         return "\n".join(lines)
 
-    # The mouse
+    # Mouse
 
     def press(self, mouse: LaneMouse) -> bool:
         """Select the handle under the mouse, and return whether there is one."""

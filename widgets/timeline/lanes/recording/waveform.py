@@ -146,7 +146,7 @@ class WaveformLane(Lane):
         if change.opened:
             self.anchors.choose(None)
 
-    # The mouse
+    # Mouse
 
     def press(self, mouse: LaneMouse) -> None:
         audio = self.session.project.audio
@@ -196,7 +196,7 @@ class WaveformLane(Lane):
             if choose is None:
                 self.session.notice(Message("audio.none_here"), Severity.WARNING)
             else:
-                # The dialog would keep the press from ending.
+                # Deferred, since the dialog would keep the press from ending.
                 QTimer.singleShot(0, choose.trigger)
         elif not self.anchors.double_click(mouse):
             self._type_offset()

@@ -126,7 +126,7 @@ class TakeHeads(Retranslated, QWidget):
         if keep and take is not None and text != take.name:
             self._lane.model.rename(self._typed_id, text)
 
-    # Where
+    # Position
 
     def _place(self) -> None:
         header = self._lane.header
@@ -206,7 +206,7 @@ class TakeHeads(Retranslated, QWidget):
                 self._end_typing(False)
                 return True
         elif watched is self._field and event.type() == QEvent.Type.ShortcutOverride:
-            # Letters are typed here; the timeline has shortcuts of them.
+            # Letters are typed here, which are shortcuts in the timeline.
             event.accept()
             return True
         return super().eventFilter(watched, event)
@@ -253,10 +253,10 @@ class TakeHeads(Retranslated, QWidget):
         if self.dropped_before is None and abs(y - self._pressed[1]) < DRAG_PX:
             return
         lane = self._lane
-        # Rows that are out of sight are scrolled to.
+        # Scrolls to rows outside the view.
         lane.pan_y(-(min(y, 0.0) + max(y - self.height(), 0.0)))
         nearest = round((y - self._row_box(0).top()) / lane.row_px)
-        # What was there before the first take stays above.
+        # The row of the performance before the first take stays on top.
         before = min(max(nearest, 1), len(lane.model.rows))
         if before != self.dropped_before:
             self.dropped_before = before

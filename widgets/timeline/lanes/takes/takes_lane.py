@@ -75,7 +75,7 @@ class TakesLane(RowLane):
         keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText) if action is not None else ""
         return keys or self.tr("takes_lane.record")
 
-    # What is shown
+    # Display
 
     def refresh(self) -> None:
         """Show the active player's recordings, if they have changed."""
@@ -146,7 +146,7 @@ class TakesLane(RowLane):
         """Return the row index of a take."""
         return self.model.number_of(take_id)
 
-    # Where rows lie
+    # Layout of rows
 
     def count_rows(self) -> int:
         return len(self.rows)
@@ -187,7 +187,7 @@ class TakesLane(RowLane):
         if self.model.take_span(take_id, start_tick, end_tick):
             self.show_row(take_id)
 
-    # The mouse
+    # Mouse
 
     def press(self, mouse: LaneMouse) -> None:
         self.model.swipe = None

@@ -156,7 +156,7 @@ class MarkTable:
         its = self.of_player
         first, last = self._places(its.at_notes)
         known = np.flatnonzero(first >= 0)
-        # What a slur goes over and what goes over the slur are two stacks.
+        # Marks below a slur and marks above it are stacked separately.
         known = known[np.lexsort((its.order[known], its.is_outer[known], first[known]))]
         note, outer = first[known], its.is_outer[known]
         begins = np.append(True, (np.diff(note) != 0) | (np.diff(outer.astype(np.int8)) != 0))[: len(known)]
@@ -183,7 +183,7 @@ def _nested(first: IntArray, last: IntArray) -> IntArray:
     opened: list[tuple[int, int]] = []
     ends = last.tolist()
     for place in range(len(ends) - 1, -1, -1):
-        # Those behind it in order begin later, or are shorter: the ones within are on top.
+        # Marks behind it in this order begin later or are shorter, so inner marks are on top.
         while opened and opened[-1][0] <= ends[place]:
             levels[place] = max(levels[place], levels[opened.pop()[1]] + 1)
         opened.append((ends[place], place))

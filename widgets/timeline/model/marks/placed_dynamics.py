@@ -144,7 +144,7 @@ def placed_dynamics(
             continue
         crowded = bool(letters) and left < letters[-1].box.right
         if crowded and mark.tick == marks[letters[-1].mark].tick:
-            # Those at one tick stand side by side.
+            # Marks at one tick are placed side by side.
             left, crowded = letters[-1].box.right + GAP_PX, False
         if not crowded or number in kept:
             box = PixelRect(left, band[0], left + width_of(mark.text), band[1])
@@ -157,7 +157,7 @@ def placed_dynamics(
         number = timed.numbers[place]
         if MARK_KINDS[marks[number].kind].anchor != "span":
             continue
-        # Letters at its beginning push it on, those at its end cut it off.
+        # Letters at its beginning push the hairpin to the right, letters at its end cut it short.
         before = int(np.searchsorted(lefts, left + 1.0)) - 1
         if before >= 0 and letters[before].box.right + GAP_PX > left:
             left = letters[before].box.right + GAP_PX

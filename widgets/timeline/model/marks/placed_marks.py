@@ -265,7 +265,7 @@ class _Placing:
         over, edges = _Over(first, last), (left, left + width)
         above = over.cleared(self.inner_y, edges, (x0, x1), away, is_bracket)
         below = over.cleared(-(self.bottom + self.room.below_px), edges, (x0, x1), away, is_bracket)
-        # Out of the plot it is not to be seen.
+        # Above the plot it would be invisible.
         over_top = np.maximum(above.lift - np.minimum(above.y0, above.y1), 0.0)
         lowest = below.lift - np.minimum(below.y0, below.y1)
         under_bottom = np.maximum(lowest - self.room.height_px, 0.0)
@@ -277,7 +277,7 @@ class _Placing:
             y1=np.where(is_below, -below.y1, above.y1),
             lift=np.where(is_below, -below.lift, above.lift),
         )
-        # What stands above slurs stands above these.
+        # Marks above slurs are above these too.
         owner, note = over.owner[~is_below[over.owner]], over.note[~is_below[over.owner]]
         np.minimum.at(self.outer_y, note, arcs.y_at(owner, self._glyph_x(note)) - 1.0)
         return arcs
@@ -294,7 +294,7 @@ class _Placing:
         x = self._glyph_x(note)
         x_end, y_end = self.left[last] + self.width[last], np.full(len(mark), np.nan)
         for place in np.flatnonzero(last > note).tolist():
-            # Above all notes that the ornament was written out in.
+            # Above all notes of the written-out ornament.
             self.outer_y[note[place]] = self.outer_y[note[place] : last[place] + 1].min()
         base = np.where(at.is_outer[chosen], self.outer_y[note], self.stack_y[note])
         y = base - at.units[chosen] * unit - at.lines[chosen] * self.room.line_px
@@ -360,7 +360,7 @@ class _Over:
         left, right = edges
         x0, x1 = ends
         y0, y1 = top[self._first] - away, top[self._last] - away
-        # A steep one begins or ends at the corner of its note that it would cross.
+        # A steep slur begins or ends at the corner of its note that it would cross.
         slope = (y1 - y0) / np.maximum(x1 - x0, 1.0)
         far0, far1 = right[self._first] - 1.5, left[self._last] + 1.5
         x0 = np.where(slope * (far0 - x0) > STEEP_PX, far0, x0)
@@ -378,7 +378,7 @@ class _Over:
         lift = np.clip(np.maximum.reduceat(gap / np.maximum(rise, 0.3), starts), usual, np.maximum(most, usual))
         cost += lift - usual
         for _ in range(TURNS):
-            # What is still in the way lifts the ends off their notes, the nearer one more.
+            # If something is still in the way, the ends are raised off their notes, the nearer one more.
             rest = y0[both] + (y1 - y0)[both] * share - lift[both] * rise - aim
             worst = np.maximum.reduceat(rest, starts)
             _, at = np.unique(both[rest == worst[both]], return_index=True)

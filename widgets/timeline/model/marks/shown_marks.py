@@ -54,7 +54,7 @@ class ShownMarks:
         marks, said, preview = self._made_for
         if marks is part.marks and self._corrections is corrections and preview is self.preview:
             return self._list
-        # Other corrections than those of marks leave the marks as they are.
+        # Corrections of other kinds do not change the marks.
         self._corrections, new = corrections, mark_corrections(corrections)
         if marks is not part.marks or said != new or preview is not self.preview:
             origins = player_marks(project, player.id)

@@ -80,7 +80,7 @@ class RegionDrag(MouseGesture):
         self._plans: Mapping[str, PlayerPlan] = session.performance.plans if session.performance.planned else {}
         self._shown = {item.key: item for item in lane.regions if item.key in selected and not item.removed}
         together = selected if region is not None and region.key in selected else ()
-        # What is selected of a player who has gone, or is not planned yet, stays where it is.
+        # Selected events of players that were removed, or are not planned yet, do not move.
         known = {player.id for player in session.project.players} & set(self._plans)
         self._keys = tuple(sorted(key for key in together if key.player_id in known))
         self.mode = ""
@@ -226,7 +226,7 @@ class RegionDrag(MouseGesture):
                     new_keys[EventKey(player_id, old)] = EventKey(player_id, new)
             return project
 
-        # Set before the edit: what is reported of it draws already.
+        # Set before the edit, because drawing starts when the edit is reported.
         self.preview = dict(preview)
         self.hidden = frozenset(self._keys)
         if not self._step.attempt(name, whole):

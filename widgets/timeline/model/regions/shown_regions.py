@@ -98,7 +98,7 @@ class RegionTable:
         self._spans = spans_of(self.regions)
         self._single = [region for region in self.regions if region.removed or not is_calm(region)]
         self._single_spans = spans_of(self._single)
-        # What says which regions are drawn where they are crowded; what was done by hand always is.
+        # Traits that decide which regions are drawn where they are crowded; corrections always are.
         self._traits = np.array(
             [(one.row, one.start_s, one.end_s - one.start_s, abs(one.amount), not one.by_hand) for one in self._single],
             _TRAITS,
@@ -137,7 +137,7 @@ class RegionTable:
         traits = self._traits[found]
         narrow = traits["narrowable"] & (traits["length_s"] * scale.px_per_s < LEAST_REGION_PX)
         crowded = found[narrow]
-        # Columns are places in time, so that scrolling does not choose others.
+        # Columns are fixed in time, so that scrolling does not change the selection.
         columns = np.floor(traits["start_s"] * scale.px_per_s / LEAST_REGION_PX)[narrow]
         order = np.lexsort((-traits["strength"][narrow], columns, traits["row"][narrow]))
         places = np.stack((traits["row"][narrow], columns))[:, order]
@@ -159,12 +159,12 @@ class RegionTable:
         for index in self._spans.between(mouse.time_s - reach_s, mouse.time_s + reach_s).tolist():
             region = self.regions[index]
             box = place(region)
-            # Thin regions are caught from a little outside, wide ones at their edges only from inside.
+            # Thin regions react slightly outside their edges, wide ones only inside.
             slack = max(EDGE_PX - box.width / 2, 0.0)
             zone = _fade_zone(region, box, mouse, scale) if region.fades and region.key in selected else ""
             if not zone and not box.contains(mouse.x_px, mouse.y_px, slack):
                 continue
-            # The selected one wins, then the shortest: what lies on top can always be reached.
+            # A selected region wins, then the shortest: regions on top can always be reached.
             rank = (region.key not in selected, box.width)
             if best is None or rank < best[0]:
                 best = (rank, region, zone or _zone(region, box, mouse))

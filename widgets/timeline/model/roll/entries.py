@@ -151,7 +151,7 @@ class EntryDrag(MouseGesture):
         if giver is None:
             return arrow._replace(from_s=from_s, from_pitch=int(mouse.value // 1))
         if giver[0] == arrow.taker_id:
-            # They change places.
+            # The two notes exchange their roles.
             own = _note_at(self._base, arrow.giver_id, self._entry_tick())
             at_s = arrow.to_s if own is None else score.tempo_map.seconds(float(own[0]))
             arrow = arrow._replace(taker_id=arrow.giver_id, to_s=at_s, to_pitch=arrow.from_pitch)

@@ -25,7 +25,7 @@ class TimedNotes:
 
     def __init__(self, onset_s: FloatArray, end_s: FloatArray, pitch: FloatArray) -> None:
         self.onset_s, self.end_s, self.pitch = onset_s, end_s, pitch
-        # The latest end so far never falls: the first note that reaches into a range is found by bisection.
+        # The running maximum of the ends never decreases: bisection finds the first note that reaches into a range.
         self._latest_end_s: FloatArray = np.maximum.accumulate(end_s) if len(end_s) else end_s
 
     def visible(self, start_s: float, end_s: float) -> slice:
@@ -45,7 +45,7 @@ class NoteTable(TimedNotes):
         self.tempo = tempo
         notes = part.notes
         count = len(notes)
-        # A loop of Python's would take three times as long, and the first picture needs every player's notes.
+        # Three times as fast as a loop, which matters since the first picture needs the notes of all players.
         self.onset_tick: FloatArray = np.fromiter(map(attrgetter("onset_tick"), notes), np.float64, count)
         duration = np.fromiter(map(attrgetter("duration_tick"), notes), np.float64, count)
         pitch = np.fromiter(map(attrgetter("pitch"), notes), np.float64, count)
@@ -64,7 +64,7 @@ class NoteTable(TimedNotes):
         """Return for each row of the table (N,) whether its note's id is among ``note_ids``."""
         result = np.zeros(len(self), np.bool_)
         if self.index.keys().isdisjoint(note_ids):
-            # So it is for most players.
+            # The usual case for most players.
             return result
         if len(note_ids) < len(self) // 8:
             found = [self.index[id] for id in note_ids if id in self.index]
@@ -116,7 +116,7 @@ class Together(TimedNotes):
             for name in ("onset_s", "end_s", "pitch")
         )
         owner = np.repeat(np.arange(len(tables), dtype=np.int16), [len(table) for table in tables])
-        # Stable: it finds the runs that are in order already.
+        # A stable sort recognises runs that are in order already.
         order = np.argsort(onset_s, kind="stable")
         self.owner: npt.NDArray[np.int16] = owner[order]
         super().__init__(onset_s[order], end_s[order], pitch[order])

@@ -101,7 +101,7 @@ class Move(RollGesture):
     def _snapped(self, mouse: LaneMouse) -> int:
         free = self._free(mouse)
         target = self._note.onset_tick + mouse.tick - self.at.tick
-        # A hand that only transposes must not pull a note onto the grid.
+        # A vertical drag must not pull a note to the grid.
         if not free and abs(mouse.x_px - self.at.x_px) < self.roll.drag_px:
             return 0
         return snapped(self.session.grid, self.step.base.score, target, free) - self._note.onset_tick
@@ -123,7 +123,7 @@ class Copy(Move):
         self._key_is_alt = mouse.alt
 
     def _free(self, mouse: LaneMouse) -> bool:
-        # Where the key that copies is the one that suspends the grid, the copies keep to it.
+        # If the same key copies and suspends the grid, copies snap to the grid.
         return mouse.alt and not self._key_is_alt
 
     def _place(self, by_tick: int, by_pitch: int) -> None:
@@ -132,7 +132,7 @@ class Copy(Move):
         def copied(project: Project) -> Project:
             nonlocal copies
             if not by_tick and not by_pitch:
-                # On its original a copy would only be in its way.
+                # A copy at its original's position would only be in the way.
                 return project
             project, copies = notes.duplicate(project, self._ids, by_tick, by_pitch)
             return project

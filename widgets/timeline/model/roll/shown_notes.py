@@ -80,7 +80,7 @@ def legible_pitches(pitches: FloatArray, air: float, room_px: float) -> tuple[fl
     low, high = float(pitches.min()), float(pitches.max()) + 1.0 + air
     rows = room_px / LEGIBLE_ROW_PX
     if high - low <= rows:
-        # The air around them is given up first.
+        # The margins above and below are given up first.
         rows = max(min(max(high - low + AIR_ROWS, USUAL_ROWS), rows), LEAST_ROWS)
         return kept_pitches((low + high) / 2 - rows / 2, rows)
     whole = max(int(rows), int(LEAST_ROWS))
@@ -140,7 +140,7 @@ def edge_of(left_px: float, right_px: float, x_px: float) -> bool | None:
     reach = min(EDGE_PX, max((right_px - left_px) / 4, 1.5))
     if right_px - x_px <= reach:
         return False
-    # Short notes are for moving, and long enough at their end: only the end takes hold there.
+    # Short notes are moved as a whole; a long enough note reacts at its end.
     return True if x_px - left_px <= reach and right_px - left_px >= 4 * EDGE_PX else None
 
 
@@ -195,7 +195,7 @@ class RollModel:
         if self.ghosts_mode is Ghosts.ALONE:
             return NO_GHOSTS
         project, front = self._session.project, self._session.player
-        # Selecting players matters where only these are seen.
+        # Selecting players changes the display only if ghosts of the selected ones are shown.
         chosen = self._session.players if self.ghosts_mode is Ghosts.SELECTED else None
         sources = (project.players, project.score, front, self._session.tokens, self.ghosts_mode, chosen)
         if not all(map(is_, sources, self._ghosts_of[0])):
@@ -203,7 +203,7 @@ class RollModel:
         return self._ghosts_of[1]
 
     def _find_ghosts(self, project: Project, front: Player | None) -> Behind:
-        # Players of one part are seen once, in the colour of the first.
+        # Players that share a part are drawn once, in the colour of the first.
         seen = self._session.players if self.ghosts_mode is Ghosts.SELECTED else None
         behind = {player.part_id: player for player in reversed(project.players) if seen is None or player.id in seen}
         if front is not None:

@@ -98,7 +98,7 @@ def lay_marks(
     }
     held: dict[str, tuple[int, str]] = {}
     inside: list[tuple[int, int, float, str, int]] = []
-    # A file can have tens of thousands: of those out of sight only the last before the left edge is looked at.
+    # A file can have tens of thousands: outside the view only the last mark before the left edge is examined.
     ticks_of = {"metre": [metre.tick for metre in metres], "tempo": [tick for tick, _ in bpm]}
     for order, (kind, ticks) in enumerate(ticks_of.items()):
         x_px = left_px + axis.x_px(score.tempo_map.seconds(np.array(ticks, np.float64)))

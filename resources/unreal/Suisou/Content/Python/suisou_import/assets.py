@@ -149,7 +149,7 @@ def _remove_shared(performance: Performance, requested: set[str]) -> list[str]:
     try:
         others = [read(folder) for folder in found(performance.folder.parent) if folder != performance.folder]
     except Problem:
-        return []  # What that piece needs is not known.
+        return []  # the requirements of that piece are unknown
     needed = requested | {texture.asset for one in others for texture in one.textures}
     reported = []
     for path in sorted(_listed(SHARED.rstrip("/")) - needed):

@@ -24,7 +24,7 @@ def register() -> None:
     if main is None:
         return
     menu = main.add_sub_menu("Suisou", "", "Suisou", text("title"), "")
-    # What a menu runs is one of these two lines, whatever a piece is called.
+    # The menu runs only these two lines, so the name of a piece never becomes code.
     _add(menu, "import", "from suisou_import import menu; menu.import_performance()")
     _add(menu, "update", "from suisou_import import menu; menu.update_performance()")
     unreal.ToolMenus.get().refresh_all_widgets()
@@ -124,7 +124,7 @@ def _guarded(action: Callable[[], None]) -> bool:
 
 def _show(message: str) -> None:
     if not hasattr(unreal, "EditorDialog"):
-        # It comes with a plug-in that is off, which is what the message says.
+        # The plug-in that provides it is disabled; the message says so.
         unreal.log_error(message)
         return
     unreal.EditorDialog.show_message(text("title"), message, unreal.AppMsgType.OK)

@@ -233,7 +233,7 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
         for name, content_of in (
             (str(player["name"]), player["character"]),
             ("{} ({})".format(player["name"], player["instrument_id"]), player["instrument"]),
-            # Of an export of an earlier Suisou there are none.
+            # Missing in exports of earlier versions of Suisou.
             *(
                 ("{} ({})".format(player["name"], double["instrument_id"]), double["instrument"])
                 for double in player.get("doubles", ())
@@ -246,7 +246,7 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
             ),
         )
     ]
-    # Of an export of an earlier Suisou there are none.
+    # Missing in exports of earlier versions of Suisou.
     figures += [
         _figure(str(dancer["name"]), dancer["character"], dancer["place"]) for dancer in content.get("dancers", ())
     ]
@@ -267,7 +267,7 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
         ),
         figures=tuple(figures),
         bars=tuple((int(bar["number"]), int(bar["frame"])) for bar in content["bars"]),
-        # Of an export of an earlier Suisou there are none.
+        # Missing in exports of earlier versions of Suisou.
         markers=tuple(
             (str(marker["text"]), int(marker["bar"]), int(marker["frame"])) for marker in content.get("markers", ())
         ),
@@ -276,10 +276,10 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
             LeftOut(str(one["name"]), str(one["reason"]), tuple(_matching(_ASSET, path) for path in one["assets"]))
             for one in content.get("left_out", ())
         ),
-        # Of an export of an earlier Suisou there is none.
+        # Missing in exports of earlier versions of Suisou.
         first_frame=_at_least(0, content.get("first_frame", 0)),
         first_frame_s=_finite(content["first_frame_s"]),
-        # Of an export of an earlier Suisou there are none.
+        # Missing in exports of earlier versions of Suisou.
         textures=tuple(_texture(one) for one in content.get("textures", ())),
         surfaces=tuple(_surface(one) for one in content.get("materials", ())),
     )
@@ -308,7 +308,7 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
 
 
 def _figure(name: str, content: dict[str, Any], place: dict[str, Any], holder: dict[str, Any] | None = None) -> Figure:
-    # Of an export of an earlier Suisou there is none.
+    # Missing in exports of earlier versions of Suisou.
     socket = str(content.get("socket", ""))
     stands = Place(*(_finite(place[field]) for field in ("x_cm", "y_cm", "z_cm", "yaw_deg")))
     return Figure(

@@ -212,7 +212,7 @@ def _put(binding: unreal.MovieSceneBindingProxy, figure: Figure, before: Place |
     }
     requested = _channel_values(figure.place)
     if not set(requested) <= set(channels):
-        # It was made where it stands; only what it is moved by from then on is missing.
+        # The actor was created at its place; only the binding that moves it later is missing.
         return [] if before in (None, figure.place) else [text("unplaced", name=figure.name)]
     if before is not None and sections and _moved(channels, _channel_values(before)):
         return [] if before == figure.place else [text("moved", name=figure.name)]
@@ -263,7 +263,7 @@ def _animation_section(binding: unreal.MovieSceneBindingProxy, path: str) -> unr
         for section in track.get_sections():
             if isinstance(section, unreal.MovieSceneSkeletalAnimationSection):
                 animation = section.params.animation
-                # One that lost its animation is ours too: the animation was made anew.
+                # A binding that lost its animation is ours too: the animation was created again.
                 if animation is None or _path_of(animation) == path:
                     return section
     track = tracks[0] if tracks else binding.add_track(unreal.MovieSceneSkeletalAnimationTrack)
@@ -331,7 +331,7 @@ def _labels(performance: Performance) -> dict[int, str]:
     return dict(sorted(labels.items()))
 
 
-# What the import put into the sequence
+# Record of imported parts of the sequence
 
 
 def _state(sequence: unreal.LevelSequence) -> dict[str, Any]:
