@@ -21,6 +21,7 @@ from app.motion.contacts.wrists import Wrist
 from app.rig import quaternion
 from app.rig.ik import end_of
 from app.rig.model import Skeleton
+from app.rig.skeleton import closure
 from app.rig.trunk_shape import ALONG, BEYOND_M, TrunkShape
 
 MOST_RAD = float(np.deg2rad(70.0))
@@ -60,15 +61,13 @@ class TrunkPose:
         """
         local, hips = {**upper.trunk.local, **legs}, skeleton.index("hips")
         world = {hips: (upper.hips, upper.hips_m)}
-
-        def placed(joint: int) -> tuple[FloatArray, FloatArray]:
-            if joint not in world:
-                above, above_m = placed(skeleton.parents[joint])
-                turn = quaternion.multiply(above, local[joint]) if joint in local else above
-                world[joint] = turn, above_m + quaternion.rotate(above, skeleton.offsets_m[joint])
-            return world[joint]
-
-        rotations, positions_m = zip(*map(placed, shape.joints), strict=True)
+        for joint in closure(skeleton, shape.joints):
+            if joint <= hips:
+                continue
+            above, above_m = world[skeleton.parents[joint]]
+            turn = quaternion.multiply(above, local[joint]) if joint in local else above
+            world[joint] = turn, above_m + quaternion.rotate(above, skeleton.offsets_m[joint])
+        rotations, positions_m = zip(*(world[joint] for joint in shape.joints), strict=True)
         return cls(shape, rotations, positions_m)
 
     @cached_property
