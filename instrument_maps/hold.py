@@ -229,6 +229,10 @@ class Hold(MapTable, frozen=True):
         """
         return self._either(posture, self.lowered_standing, self.lowered_seated)
 
+    def worn(self, posture: Posture) -> tuple[Support, ...]:
+        """Return the straps on which the instrument hangs when it is played in a posture."""
+        return tuple(one for one in self.supports if posture in one.postures)
+
     @staticmethod
     def _either(posture: Posture, standing: _Kind | None, seated: _Kind | None) -> _Kind:
         requested, other = (seated, standing) if posture == "seated" else (standing, seated)

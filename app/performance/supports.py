@@ -105,7 +105,7 @@ def still_pose(player: PlayerBody, lowered: float = 0.0) -> Motion:
 
 def worn(instrument: InstrumentMap, posture: PostureName) -> tuple[Support, ...]:
     """Return the straps on which an instrument hangs when it is played in a posture."""
-    return tuple(one for one in instrument.hold.supports if posture in one.postures)
+    return instrument.hold.worn(posture)
 
 
 def still_joints(character: Character, instrument: InstrumentMap, body: Body, posture: PostureName) -> FloatArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import msgspec
@@ -11,7 +12,11 @@ from app.arrays import FloatArray
 from app.motion.contacts.arms_off_trunk import Remaining, remaining
 from app.motion.contacts.solve import PlayerBody, body_with_help, needs
 from app.motion.contacts.still_player import ContactCurves
+from app.motion.contacts.trunk_and_legs import SIDES, neck_m
 from app.motion.contacts.upper_body import upper_body
+from app.rig import quaternion
+from app.rig.supports.model import FROM_NECK_M, GROWN_UP_M
+from instrument_maps.hold import LoweredPlace, Support
 from instrument_maps.map_table import Vector
 
 SHARES = np.array([0.0, -0.4, 0.4, -0.8, 0.8])
@@ -26,15 +31,21 @@ OFF_M = 0.006
 """Depth that counts as much as an instrument at the end of a range."""
 
 
-def carried_clear(player: PlayerBody) -> PlayerBody:
+def carried_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> PlayerBody:
     """Return the player with an instrument that leaves room between forearms, hands and body: held at other angles at
     the lips, and lowered farther ahead.
 
     Unchanged where there is room, or where the instrument rests on something.
+
+    Parameters
+    ----------
+    supports : sequence of Support
+        Straps on which the instrument hangs: it goes ahead about the neck, as far as they reach, and not at all on a
+        strap that is fastened to the seat.
     """
     if player.shape is None or player.stand is not None:
         return player
-    return _lowered_clear(_played_clear(player))
+    return _lowered_clear(_played_clear(player), supports)
 
 
 def _played_clear(player: PlayerBody) -> PlayerBody:
@@ -57,17 +68,52 @@ def _played_clear(player: PlayerBody) -> PlayerBody:
     return replace(player, carriage=moved)
 
 
-def _lowered_clear(player: PlayerBody) -> PlayerBody:
+def _lowered_clear(player: PlayerBody, supports: Sequence[Support]) -> PlayerBody:
+    if any(support.kind not in FROM_NECK_M for support in supports):
+        return player
+    low = ContactCurves(replace(player.still, lowered=np.ones(1)), {}, {}, np.zeros(1))
+    straps_m = _straps_m(player, low, supports)
     found: list[tuple[float, PlayerBody]] = []
     for ahead_m in AHEAD_M.tolist():
-        left_m, up_m, forward_m = player.lowered.offset_m
-        lowered = msgspec.structs.replace(player.lowered, offset_m=(left_m, up_m, forward_m + ahead_m))
+        lowered = _moved_ahead(player.lowered, ahead_m, straps_m)
+        if lowered is None:
+            break
         tried = replace(player, lowered=lowered) if ahead_m else player
-        left = _remaining(tried, ContactCurves(replace(player.still, lowered=np.ones(1)), {}, {}, np.zeros(1)))
+        left = _remaining(tried, low)
         if left is None or (not ahead_m and left.depth_m[0] <= -LOW_ROOM_M):
             return player
         found.append((float(_cost_m(left, LOW_ROOM_M)[0]) + OFF_M * ahead_m / float(AHEAD_M[-1]), tried))
     return min(found, key=lambda one: one[0])[1]
+
+
+def _straps_m(player: PlayerBody, low: ContactCurves, supports: Sequence[Support]) -> FloatArray:
+    """Return the ways (S, 3) along S straps from the body to the instrument, lowered at its usual place, in metres."""
+    skeleton, carried = player.skeleton, upper_body(player, low).carried
+    left_m, right_m = (
+        skeleton.offsets_m[skeleton.index(f"{side}Shoulder")] + skeleton.offsets_m[skeleton.index(f"{side}UpperArm")]
+        for side in SIDES
+    )
+    size = 0.5 * float(np.linalg.norm(left_m - right_m)) / GROWN_UP_M
+    tops_m = neck_m(skeleton, player.base) + size * _rows([FROM_NECK_M[one.kind] for one in supports])
+    hooks_m = _rows([one.hook_m for one in supports])
+    ways_m: FloatArray = carried.position_m + quaternion.rotate(carried.rotation, hooks_m) - tops_m
+    return ways_m
+
+
+def _rows(vectors: Sequence[Vector]) -> FloatArray:
+    return np.array(vectors, np.float64).reshape(-1, 3)
+
+
+def _moved_ahead(place: LoweredPlace, ahead_m: float, straps_m: FloatArray) -> LoweredPlace | None:
+    """Return the place farther ahead, and higher by so much that straps (S, 3) become no longer; None beyond their
+    reach."""
+    _, high_m, out_m = straps_m.T
+    left_sq = high_m**2 + out_m**2 - (out_m + ahead_m) ** 2
+    if np.any(left_sq < 0.0):
+        return None
+    raised_m = float(np.max(-np.sqrt(left_sq) - high_m, initial=0.0))
+    left_m, up_m, forward_m = place.offset_m
+    return msgspec.structs.replace(place, offset_m=(left_m, up_m + raised_m, forward_m + ahead_m))
 
 
 def _left(player: PlayerBody, shares: FloatArray, ranges: tuple[Vector, Vector, Vector]) -> Remaining | None:

@@ -95,7 +95,8 @@ def _made(
         shape=shape,
         wrists=wrists_of(body, load_skeleton()),
     )
-    return with_bell_room(carried_clear(made.standing_on(instrument_map.endpin)))
+    standing = made.standing_on(instrument_map.endpin)
+    return with_bell_room(carried_clear(standing, instrument_map.hold.worn(instrument_map.hold.possible(named))))
 
 
 def _grip_of_lips(lips: Lips, embouchure: EmbouchureWeights) -> FloatArray:

@@ -297,10 +297,15 @@ def trunk(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, mot
 
 def torso_forward(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, motion: BodyMotion) -> FloatArray:
     """Forward lean (F,) in radians of the line from the hips to the top of the chest."""
-    upper = trunk(skeleton, hips_m, hips_rotation, motion)
+    upright_m = neck_m(skeleton, trunk(skeleton, hips_m, hips_rotation, motion)) - hips_m
+    forward_rad: FloatArray = np.arctan2(upright_m[:, 2], upright_m[:, 1])
+    return forward_rad
+
+
+def neck_m(skeleton: Skeleton, upper: Trunk) -> FloatArray:
+    """Return the position (F, 3) of the base of the neck in metres; that of the head if the skeleton has no neck."""
     head = skeleton.index("head")
     neck = skeleton.parents[head]
     top = head if neck == skeleton.parents[skeleton.index("leftShoulder")] else neck
-    upright_m = upper.chest_m + quaternion.rotate(upper.chest, skeleton.offsets_m[top]) - hips_m
-    forward_rad: FloatArray = np.arctan2(upright_m[:, 2], upright_m[:, 1])
-    return forward_rad
+    found_m: FloatArray = upper.chest_m + quaternion.rotate(upper.chest, skeleton.offsets_m[top])
+    return found_m

@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Final, Literal, TypeAlias
 
 from app.arrays import FloatArray
 from app.rig.mesh import Mesh
+from instrument_maps.hold import SupportKind
 
 BoneRole: TypeAlias = Literal["still", "joint", "top", "middle", "end", "cord"]
 """Behaviour of a bone: fixed; following a joint; or part of a strap (at the body, in the middle or at the end of a leg,
 or the cord between the legs and the instrument).
+"""
+GROWN_UP_M = 0.172
+"""Half the distance in metres between the shoulder joints of adults, for whom sizes of straps apply."""
+FROM_NECK_M: Final[dict[SupportKind, tuple[float, float, float]]] = {
+    "neck_strap": (0.0, -0.06, 0.07),
+    "harness": (0.0, -0.21, 0.06),
+}
+"""About the middle of the places at which a strap's bands leave an adult's body, from the base of the neck (left, up,
+forward) in metres; none for straps that do not lie on the body.
 """
 
 

@@ -14,7 +14,7 @@ from app.rig.mesh import Mesh
 from app.rig.model import Skeleton
 from app.rig.supports.band import Shares, SurfaceStrip, band, mesh_of, tube
 from app.rig.supports.bands_on_body import BandRoute, LegShape, joined_behind, leg_of, tapering
-from app.rig.supports.model import BoneRole, Hook, Strap, StrapLeg, SupportBone
+from app.rig.supports.model import GROWN_UP_M, BoneRole, Hook, Strap, StrapLeg, SupportBone
 from app.rig.supports.taut_string import PosedTrunk
 from instrument_maps.hold import SupportKind
 
@@ -27,8 +27,6 @@ _WEB, _LEATHER, _METAL = range(3)
 _CORD_M: Final = {"neck_strap": 0.075, "harness": 0.060, "seat_strap": 0.0}
 _HOOK_M = 0.030
 """Length in metres of the snap hook at a cord's lower end."""
-_GROWN_UP_M = 0.172
-"""Half the distance in metres between the shoulder joints of adults, for whom the widths below apply."""
 _SEAT_HALF_M = 0.019
 
 
@@ -126,7 +124,7 @@ def made_strap(
     hook_m, low_m = ends_m
     if kind == "seat_strap":
         return None if wearer.sitter is None else _seat_strap(wearer.sitter, hooks, hook_m, number)
-    size = wearer.half_shoulders_m / _GROWN_UP_M
+    size = wearer.half_shoulders_m / GROWN_UP_M
     cord_m = size * _CORD_M[kind]
     up = wearer.neck_m + size * np.array([0.0, -0.04, 0.07]) - hook_m
     meet_m = hook_m + cord_m * up / np.linalg.norm(up)
