@@ -367,12 +367,13 @@ def test_twist_bones_carry_skin_with_their_share(made: Made, choice: SkeletonCho
             bones = [bone for bone, twist in target.twists.items() if twist.base == base]
             assert len(bones) == count
             carried = [np.where(mesh.joint_indices == bone, mesh.weights, 0.0).sum(axis=1) for bone in bones]
-            assert all((one > 0.5).sum() > 40 for one in carried)
             # The weights of the limb are redistributed without loss.
             own = target.bone_of_joint[base]
             whole = before.scene.meshes[0]
             assert before.target.names[own] == target.names[own]
             limb = np.where(whole.joint_indices == own, whole.weights, 0.0).sum(axis=1)
+            # A share of them, since a sleeve has few vertices or many.
+            assert all((one > 0.5).sum() > max(20, 0.06 * (limb > 0.5).sum()) for one in carried)
             rest = np.where(mesh.joint_indices == own, mesh.weights, 0.0).sum(axis=1)
             off = np.abs(np.sum(carried, axis=0) + rest - limb)
             # But for the few vertices that would have hung on more than four bones (about 300 of 30,000).
