@@ -14,6 +14,7 @@ import numpy as np
 
 from app.arrays import FloatArray, IndexArray
 from app.motion.contacts.arms import SolvedArm, solved_arms
+from app.motion.contacts.instrument_put_aside import AsidePlace
 from app.motion.contacts.still_player import ContactCurves, StillPlayer
 from app.motion.contacts.trunk_and_legs import Side, solve_legs
 from app.motion.contacts.upper_body import UpperBody
@@ -104,13 +105,17 @@ class Outward:
     most_rad: dict[Side, FloatArray]
 
 
-def outward(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> Outward | None:
+def outward(
+    player: StillPlayer, curves: ContactCurves, upper: UpperBody, put_aside: AsidePlace | None = None
+) -> Outward | None:
     """Find how far elbows have to go outwards, frame by frame; None for a body of unknown shape.
 
     Parameters
     ----------
     curves : ContactCurves
         Curves with all other help for far hands.
+    put_aside : AsidePlace, optional
+        Place of the instrument while the musician uses another one.
     """
     if player.shape is None:
         return None
@@ -118,8 +123,16 @@ def outward(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> Out
     legs = solve_legs(player.place, player.skeleton, upper.hips_m, upper.hips, curves.body.feet)
     posed = TrunkPose.of(player.shape, player.skeleton, upper, legs)
     away = player.away(curves.body, upper.carried)
-    for side, solved in solved_arms(player, curves, upper, None, away).items():
-        needed_rad[side], most_rad[side] = _outward_rad(posed, side, solved, player.wrists[side])
+    arms = solved_arms(player, curves, upper, None, away)
+    if put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
+        # The hand that takes it there is far from the trunk; the other one lets go where it was lowered.
+        taken = replace(upper, carried=put_aside.put(upper.carried, curves.stowed))
+        swung, side = put_aside.turned(curves.stowed), put_aside.aside.side
+        arms |= {one: arm for one, arm in solved_arms(player, curves, taken, swung).items() if one == side}
+    for side, solved in arms.items():
+        needed_rad[side], most_rad[side] = _outward_rad(
+            posed, side, solved, player.wrists[side], everywhere=put_aside is not None
+        )
     return Outward(needed_rad, most_rad)
 
 
@@ -220,16 +233,20 @@ class _Forearm:
         return np.asarray((deepest_m + self.thick_m).max(axis=1))
 
 
-def _outward_rad(posed: TrunkPose, side: Side, solved: SolvedArm, wrist: Wrist) -> tuple[FloatArray, FloatArray]:
-    """Return an arm's needed and greatest turn, each (F,)."""
+def _outward_rad(
+    posed: TrunkPose, side: Side, solved: SolvedArm, wrist: Wrist, *, everywhere: bool
+) -> tuple[FloatArray, FloatArray]:
+    """Return an arm's needed and greatest turn, each (F,); the greatest also where none is needed, with ``everywhere``:
+    an arm that is on its way aside while its elbow still goes back bends its wrist far."""
     sign, forearm = (1.0 if side == "left" else -1.0), _Forearm.of(side, solved, posed)
     count = len(solved.line)
     needed_rad, most_rad = np.zeros(count), np.full(count, MOST_RAD)
     depth_m = forearm.inside_m(np.arange(count), 0.0)
-    frames = np.flatnonzero(depth_m > -EASE_M)
+    frames, angles = np.flatnonzero(depth_m > -EASE_M), np.linspace(0.0, MOST_RAD, TRIED)
+    if everywhere:
+        most_rad = _turned(_free(solved, wrist, np.arange(count), sign * angles), angles)
     if not len(frames):
         return needed_rad, most_rad
-    angles = np.linspace(0.0, MOST_RAD, TRIED)
     # An elbow that is clear goes no farther.
     depths = np.full((TRIED, len(frames)), -BEYOND_M)
     depths[0] = depth_m[frames]
@@ -241,7 +258,8 @@ def _outward_rad(posed: TrunkPose, side: Side, solved: SolvedArm, wrist: Wrist) 
     # Where it stays inside at every angle, nearly the least depth is good enough.
     over = depths - np.maximum(depths.min(axis=0) + SLACK_M, 0.0)
     needed_rad[frames] = _turned(np.clip(1.0 + over / EASE_M, 0.0, 1.0), angles)
-    most_rad[frames] = _turned(_free(solved, wrist, frames, sign * angles), angles)
+    if not everywhere:
+        most_rad[frames] = _turned(_free(solved, wrist, frames, sign * angles), angles)
     return needed_rad, most_rad
 
 

@@ -170,7 +170,7 @@ def _with_elbows_out(
     """Body motion with elbows smoothly turned out of the trunk's way. It is seen at the same frames in every span."""
     apart, frames = _seen_every(fps), np.arange(len(curves))
     seen = slice(-first_frame % apart, len(curves), apart)
-    found = outward(player, curves[seen], upper[seen])
+    found = outward(player, curves[seen], upper[seen], player.put_aside)
     if found is None:
         return curves.body
     needed_rad, most_rad = (
