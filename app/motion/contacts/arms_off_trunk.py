@@ -106,7 +106,11 @@ class Outward:
 
 
 def outward(
-    player: StillPlayer, curves: ContactCurves, upper: UpperBody, put_aside: AsidePlace | None = None
+    player: StillPlayer,
+    curves: ContactCurves,
+    upper: UpperBody,
+    put_aside: AsidePlace | None = None,
+    within: int = 0,
 ) -> Outward | None:
     """Find how far elbows have to go outwards, frame by frame; None for a body of unknown shape.
 
@@ -116,6 +120,9 @@ def outward(
         Curves with all other help for far hands.
     put_aside : AsidePlace, optional
         Place of the instrument while the musician uses another one.
+    within : int
+        Number of frames before and after each frame in which an elbow has to go outwards for which its greatest turn is
+        found too: an elbow that begins early and returns late is out in them. It is `MOST_RAD` in all other frames.
     """
     if player.shape is None:
         return None
@@ -130,10 +137,31 @@ def outward(
         swung, side = put_aside.turned(curves.stowed), put_aside.aside.side
         arms |= {one: arm for one, arm in solved_arms(player, curves, taken, swung).items() if one == side}
     for side, solved in arms.items():
-        needed_rad[side], most_rad[side] = _outward_rad(
-            posed, side, solved, player.wrists[side], everywhere=put_aside is not None
-        )
+        needed_rad[side], most_rad[side] = _outward_rad(posed, side, solved, player.wrists[side], within)
     return Outward(needed_rad, most_rad)
+
+
+def slow_share(
+    player: StillPlayer, curves: ContactCurves, upper: UpperBody, slow_rad: Mapping[str, FloatArray]
+) -> dict[str, FloatArray]:
+    """Return the share (F,) 0..1 by which each wrist lets its elbow go outwards slowly beside a reaching shoulder.
+
+    It falls from 1 to 0 as the slow elbow bends the wrist farther over its range than the elbow of ``curves`` does.
+
+    Parameters
+    ----------
+    curves : ContactCurves
+        Curves whose elbows go along with the shoulder at its own speed.
+    slow_rad : mapping of side to (F,) float64
+        `BodyMotion.elbow_along_rad` of elbows that begin earlier and return later.
+    """
+    away, shares = player.away(curves.body, upper.carried), dict[str, FloatArray]()
+    slowly = replace(curves, body=replace(curves.body, elbow_along_rad=dict(slow_rad)))
+    usual, slow = (solved_arms(player, one, upper, None, away) for one in (curves, slowly))
+    for side in sorted(usual.keys() & slow_rad.keys()):
+        quick_rad, bent_rad = (player.wrists[side].outside_rad(one[side].pose.end) for one in (usual, slow))
+        shares[side] = 1.0 - np.clip((bent_rad - quick_rad) / LEAST_ROOM_RAD, 0.0, 1.0)
+    return shares
 
 
 @dataclass(frozen=True)
@@ -234,17 +262,14 @@ class _Forearm:
 
 
 def _outward_rad(
-    posed: TrunkPose, side: Side, solved: SolvedArm, wrist: Wrist, *, everywhere: bool
+    posed: TrunkPose, side: Side, solved: SolvedArm, wrist: Wrist, within: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Return an arm's needed and greatest turn, each (F,); the greatest also where none is needed, with ``everywhere``:
-    an arm that is on its way aside while its elbow still goes back bends its wrist far."""
+    """Return an arm's needed and greatest turn, each (F,); parameters as in `outward`."""
     sign, forearm = (1.0 if side == "left" else -1.0), _Forearm.of(side, solved, posed)
     count = len(solved.line)
     needed_rad, most_rad = np.zeros(count), np.full(count, MOST_RAD)
     depth_m = forearm.inside_m(np.arange(count), 0.0)
     frames, angles = np.flatnonzero(depth_m > -EASE_M), np.linspace(0.0, MOST_RAD, TRIED)
-    if everywhere:
-        most_rad = _turned(_free(solved, wrist, np.arange(count), sign * angles), angles)
     if not len(frames):
         return needed_rad, most_rad
     # An elbow that is clear goes no farther.
@@ -258,8 +283,11 @@ def _outward_rad(
     # Where it stays inside at every angle, nearly the least depth is good enough.
     over = depths - np.maximum(depths.min(axis=0) + SLACK_M, 0.0)
     needed_rad[frames] = _turned(np.clip(1.0 + over / EASE_M, 0.0, 1.0), angles)
-    if not everywhere:
-        most_rad[frames] = _turned(_free(solved, wrist, frames, sign * angles), angles)
+    around = np.zeros(count + 1)
+    np.add.at(around, np.maximum(frames - within, 0), 1.0)
+    np.add.at(around, np.minimum(frames + within + 1, count), -1.0)
+    out = np.flatnonzero(np.cumsum(around[:count]) > 0.5)
+    most_rad[out] = _turned(_free(solved, wrist, out, sign * angles), angles)
     return needed_rad, most_rad
 
 

@@ -67,6 +67,12 @@ def smoothed_outward(outward: Outward, half: int) -> dict[str, FloatArray]:
     return turns_rad
 
 
+def partly_slow(quick_rad: FloatArray, slow_rad: FloatArray, share: FloatArray, half: int) -> FloatArray:
+    """Return an elbow's motion (F,) between a quick and a slow one: the least ``share`` (F,) of the slow one within
+    ``half`` frames, smoothly."""
+    return quick_rad + np.clip(_held_back([share], half), 0.0, 1.0) * (slow_rad - quick_rad)
+
+
 def elbows_along(parts: list[Help], half: int) -> dict[str, FloatArray]:
     """Return the forward motion (F,) of each shoulder that its elbow goes along with, by side, in radians: as much as
     the shoulder needs by then, early and slowly over ``half`` frames before and after.

@@ -13,7 +13,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.arms import solve_arms
-from app.motion.contacts.arms_off_trunk import Outward, outward
+from app.motion.contacts.arms_off_trunk import Outward, outward, slow_share
 from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.controls_within_reach import controls_within_reach
 from app.motion.contacts.endpin import EndpinStand
@@ -24,8 +24,10 @@ from app.motion.contacts.instrument_put_aside import AsidePlace
 from app.motion.contacts.shares_of_help import (
     HELP_EASE_S,
     OUT_EASE_S,
+    SHOULDER_EASE_S,
     elbows_along,
     leaned_to_far_hand,
+    partly_slow,
     smoothed_help,
     smoothed_outward,
     turned_to_far_hand,
@@ -154,30 +156,52 @@ def solve(
     uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
     needed = [_needs(player, curves[part], upper) for part, upper in zip(_parts(len(curves)), uppers, strict=True)]
     given = smoothed_help(needed, math.ceil(HELP_EASE_S * fps))
-    along_rad = elbows_along(needed, math.ceil(OUT_EASE_S * fps))
-    curves = replace(curves, body=replace(body_with_help(player, curves.body, given), elbow_along_rad=along_rad))
+    curves = replace(curves, body=body_with_help(player, curves.body, given))
     if given.moves_trunk:
         uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
+    curves = replace(curves, body=_with_elbows_along(player, curves, joined(uppers), needed, fps, first_frame - pad))
     if player.shape is not None:
         curves = replace(curves, body=_with_elbows_out(player, curves, joined(uppers), fps, first_frame - pad))
     asked = slice(pad, len(curves) - pad, every)
     return poses(player, curves[asked], fps / every, first_frame_s, joined(uppers)[asked])
 
 
+def _with_elbows_along(
+    player: PlayerBody, curves: ContactCurves, upper: UpperBody, needed: list[Help], fps: Fraction, first_frame: int
+) -> BodyMotion:
+    """Body motion with elbows that go outwards beside a reaching shoulder, slowly where their wrists allow it."""
+    half, quickly = (math.ceil(seconds * fps) for seconds in (OUT_EASE_S, SHOULDER_EASE_S))
+    slow_rad, quick_rad = elbows_along(needed, half), elbows_along(needed, quickly)
+    if not any(np.any(along) for along in slow_rad.values()):
+        return curves.body
+    apart, frames = _seen_every(fps), np.arange(len(curves))
+    seen = slice(-first_frame % apart, len(curves), apart)
+    curves = replace(curves, body=replace(curves.body, elbow_along_rad=quick_rad))
+    seen_rad = {side: along[seen] for side, along in slow_rad.items()}
+    shares = slow_share(player, curves[seen], upper[seen], seen_rad)
+    along_rad = dict(quick_rad)
+    for side, share in shares.items():
+        whole = np.interp(frames, frames[seen], share)
+        along_rad[side] = partly_slow(quick_rad[side], slow_rad[side], whole, half // 2)
+    return replace(curves.body, elbow_along_rad=along_rad)
+
+
 def _with_elbows_out(
     player: PlayerBody, curves: ContactCurves, upper: UpperBody, fps: Fraction, first_frame: int
 ) -> BodyMotion:
     """Body motion with elbows smoothly turned out of the trunk's way. It is seen at the same frames in every span."""
-    apart, frames = _seen_every(fps), np.arange(len(curves))
+    apart, frames, half = _seen_every(fps), np.arange(len(curves)), math.ceil(OUT_EASE_S * fps)
     seen = slice(-first_frame % apart, len(curves), apart)
-    found = outward(player, curves[seen], upper[seen], player.put_aside)
+    # An elbow is out up to 2 half before and after, where the greatest turn is the least of as many frames.
+    within = math.ceil(4 * half / apart) + 1
+    found = outward(player, curves[seen], upper[seen], player.put_aside, within)
     if found is None:
         return curves.body
     needed_rad, most_rad = (
         {side: np.interp(frames, frames[seen], turn) for side, turn in turns.items()}
         for turns in (found.needed_rad, found.most_rad)
     )
-    turned_rad = smoothed_outward(Outward(needed_rad, most_rad), math.ceil(OUT_EASE_S * fps))
+    turned_rad = smoothed_outward(Outward(needed_rad, most_rad), half)
     return replace(curves.body, elbow_out_rad=turned_rad)
 
 
