@@ -287,13 +287,15 @@ def _outward_rad(
     np.add.at(around, np.maximum(frames - within, 0), 1.0)
     np.add.at(around, np.minimum(frames + within + 1, count), -1.0)
     out = np.flatnonzero(np.cumsum(around[:count]) > 0.5)
-    most_rad[out] = _turned(_free(solved, wrist, out, sign * angles), angles)
+    most_rad[out] = _within_room(_used_room(solved, wrist, out, sign * angles), angles)
     return needed_rad, most_rad
 
 
-def _free(solved: SolvedArm, wrist: Wrist, frames: IndexArray, angles: FloatArray) -> FloatArray:
-    """Return the share (A, K) by which the wrist lets the elbow go on at each of A angles, in K frames; it does not
-    grow again."""
+def _used_room(solved: SolvedArm, wrist: Wrist, frames: IndexArray, angles: FloatArray) -> FloatArray:
+    """Return the share (A, K) of a wrist's room that the elbow uses at each of A angles, in K frames, 0 or more.
+
+    It does not fall again. The wrist lets the elbow go on less and less, and not at all from 1 on.
+    """
 
     def bent_rad(here: IndexArray, angle: float) -> FloatArray:
         turn = quaternion.from_axis_angle(solved.line[here], np.full(len(here), angle))
@@ -303,16 +305,25 @@ def _free(solved: SolvedArm, wrist: Wrist, frames: IndexArray, angles: FloatArra
     usual_rad = bent_rad(frames, 0.0)
     room_rad = np.minimum(np.maximum(-usual_rad, LEAST_ROOM_RAD), BENT_RAD)
     from_rad = np.maximum(usual_rad, -BENT_RAD)
-    free = np.zeros((len(angles), len(frames)))
-    free[0] = 1.0
+    used = np.zeros((len(angles), len(frames)))
     for number in range(1, len(angles)):
-        going = np.flatnonzero(free[number - 1])
+        used[number] = used[number - 1]
+        going = np.flatnonzero(used[number - 1] < 1.0)
         if not len(going):
-            break
+            continue
         over_rad = bent_rad(frames[going], float(angles[number])) - from_rad[going]
-        share = 1.0 - np.clip(over_rad / room_rad[going], 0.0, 1.0)
-        free[number, going] = np.minimum(share, free[number - 1, going])
-    return free
+        used[number, going] = np.maximum(over_rad / room_rad[going], used[number - 1, going])
+    return used
+
+
+def _within_room(used: FloatArray, angles: FloatArray) -> FloatArray:
+    """Return the turn (F,) that goes on at each of A angles by what is left of 1 after a share ``used`` (A, F), which
+    is linear between them."""
+    below, above = used[:-1], used[1:]
+    partly = np.square(1.0 - np.minimum(below, 1.0)) / np.maximum(2.0 * (above - below), 1e-9)
+    going = np.where(above > 1.0, partly, 1.0 - 0.5 * (below + above))
+    turned: FloatArray = going.sum(axis=0) * (angles[1] - angles[0])
+    return turned
 
 
 def _turned(going: FloatArray, angles: FloatArray) -> FloatArray:
