@@ -23,7 +23,6 @@ from app.choreography.arrivals import (
     smoothed,
 )
 from app.choreography.clip import MotionClip
-from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.dance_flaws import usual_change_rad_s
 from app.choreography.drums_of_dancers import TakeShares, take_shares
@@ -42,7 +41,8 @@ from app.choreography.rhythm import Rhythm, felt_at, own_beat_s
 from app.choreography.segment_arrivals import accents_s, meets_of
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
 from app.choreography.sized import sized
-from app.choreography.spins import hips_rad, without_haste
+from app.choreography.spin_times import SpinTimes
+from app.choreography.spins import without_haste
 from app.choreography.standing_feet import STEP_S, FootPlant, foot_speeds_m_s, planted, planted_frames, stands, steps_s
 from app.choreography.stitch import Frames, Stitcher, on_stage
 from app.choreography.sudden_ends import UsualAccelerations, usual_accelerations, without_twitches
@@ -106,9 +106,6 @@ class Choreographer:
         self._speeds = [joint_speed_m_s(clip) for clip in model.clips]
         self._usual_rad_s: dict[Fraction, float] = {}
         self._usual_ends: dict[Fraction, UsualAccelerations] = {}
-        captured = [hips_rad(model.clips[one.clip].span(one.start, one.end + 1)) for one in model.segments]
-        fps = float(model.clips[0].fps)
-        self._fastest_rad_s = max(FASTEST_HIPS_RAD_S, fps * max(float(one.max(initial=0.0)) for one in captured))
 
     @cached_property
     def _beat_s(self) -> float:
@@ -134,6 +131,10 @@ class Choreographer:
         return [float(clip.fps) for clip in self.model.clips]
 
     @cached_property
+    def _spins(self) -> SpinTimes:
+        return SpinTimes(self.model, self._hits_s)
+
+    @cached_property
     def _arrivals(self) -> list[IntArray]:
         """For each clip the frames (N,) at which a movement arrives: minima of the joints' mean speed."""
         return [arrival_frames(speed, fps) for speed, fps in zip(self._speeds, self._fps, strict=True)]
@@ -146,9 +147,7 @@ class Choreographer:
 
     @cached_property
     def _idle(self) -> FloatArray:
-        """Log odds (S,) against each of S segments whose dancer idles rather than dances (see
-        `app.choreography.idling.idling_odds`).
-        """
+        """Log odds (S,) against segments whose dancer idles (see `app.choreography.idling.idling_odds`)."""
         return idling_odds(self.model.segments, self._speeds, self._fps)
 
     @cached_property
@@ -162,8 +161,7 @@ class Choreographer:
     @cached_property
     def candidates(self) -> SegmentCandidates:
         """Return the model's segments, with the distances and odds of following each other."""
-        model, segments = self.model, self.model.segments
-        fps = self._fps
+        model, segments, fps = self.model, self.model.segments, self._fps
         states = np.array([one.state for one in segments], np.int64)
         joins = distances_m(self._stitcher.ends, self._stitcher.starts)
         for at, (one, following) in enumerate(pairwise(segments)):
@@ -177,6 +175,8 @@ class Choreographer:
             joins_m=joins,
             log_transition=log_a[states[:, None], states[None, :]],
             meets=meets_of(segments, fps, self._arrivals, self._falls_s, self._hits_s),
+            least_before_s=self._spins.before_s,
+            least_after_s=self._spins.after_s,
         )
 
     @cached_property
@@ -216,7 +216,7 @@ class Choreographer:
         clip = sized(clip, manner.size, self._stitcher.hinges)
         if manner.mirrored:
             clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
-        clip = out_of_body(without_haste(clip, self._fastest_rad_s))
+        clip = out_of_body(without_haste(clip, self._spins.fastest_rad_s))
         clip, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
         on_floor = planted_frames(falls.standing, len(clip))
         # Joints first: a hand that a slower shoulder carries along has to be calmed, too.
@@ -312,13 +312,13 @@ class Choreographer:
             )
             return _Plan(tuple(steps), times, hits)
 
-        first_s = float(plain.times_s[0])
-        fps = float(DRAFT_FPS)
+        first_s, fps = float(plain.times_s[0]), float(DRAFT_FPS)
         draft_s = first_s + np.arange(math.ceil((float(plain.times_s[-1]) - first_s) * fps)) / fps
         arrivals, falls = self._arrivals_s(segments, hits), self._falls_along(segments, hits)
         best, best_worth = plain, -np.inf
         for with_falls in (False, True):
             shown = map_with_arrivals(plain, arrivals, grid, falls, with_falls=with_falls)
+            shown = self._spins.calmed(shown, segments, hits, hits + after)
             if len(draft_s) < 2:
                 return planned(shown)
             for _ in range(DRAFTS):
@@ -329,7 +329,7 @@ class Choreographer:
                 following = best_arrival_map(clip, first_s, shown, plain, grid, falls_s, with_falls=with_falls)
                 if following is shown:
                     break
-                shown = following
+                shown = self._spins.calmed(following, segments, hits, hits + after)
         return planned(best)
 
     def _draft(

@@ -113,6 +113,8 @@ class SegmentCandidates:
         Log odds with which the state of the second segment follows that of the first.
     meets : SegmentMeets, optional
         Seconds after the accent at which the body comes to rest and feet touch the floor; None: not considered.
+    least_before_s, least_after_s : (S,) float64, optional
+        Shortest times in seconds in which ``before_s`` and ``after_s`` may be danced; by default by `SPEEDS`.
     """
 
     states: IntArray
@@ -121,6 +123,8 @@ class SegmentCandidates:
     joins_m: FloatArray
     log_transition: FloatArray
     meets: SegmentMeets | None = None
+    least_before_s: FloatArray | None = None
+    least_after_s: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -309,6 +313,8 @@ class _Search:
                 weights.speed,
                 self._usual,
                 replace(meets, worths=weights.meets * meets.worths),
+                candidates.least_before_s,
+                candidates.least_after_s,
             ),
         )
 

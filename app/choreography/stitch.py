@@ -6,13 +6,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
-from app.arrays import BoolArray, FloatArray, IntArray
+from app.arrays import BoolArray, ComplexArray, FloatArray, IntArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts
@@ -41,6 +41,8 @@ LEAST_ROOM: Final = 0.4
 """Least share of the stage that stays free for paths, however large the sway."""
 LATELY_S: Final = 1.0
 """Seconds of motion whose mean is the dancer's place."""
+SPINS_RAD_S: Final = 5.0
+"""Speed in radians per second from which a turn of the hips is a spin, in which facing is not corrected."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
 
 
@@ -131,28 +133,31 @@ class Stitcher:
         captured, contacts = self._captured(frames, runs, body, fps)
         out = _Output(fps, len(frames.which), self.hinges)
         seams: list[int] = []
+        steered: list[_Steer] = []
         turn, moved = 0.0, 0.0 + 0.0j
         before: int | None = None
         for run, (start, stop) in enumerate(zip(runs[:-1].tolist(), runs[1:].tolist(), strict=True)):
-            step, kept = int(frames.which[start]), (turn, moved)
+            step, kept, seam = int(frames.which[start]), (turn, moved), before is not None
             segment = int(frames.segments[step])
             if before is None:
                 turn, moved = self._home(segment, body)
-                carried = 0
             else:
                 earlier = int(frames.segments[before])
-                follows = self.follows(segment, earlier)
-                if not follows or step != before + 1:
+                seam = not self.follows(segment, earlier)
+                if seam or step != before + 1:
                     turn, moved = self._aligned(earlier, segment, turn, moved, self._heights_m[body])
-                turn, moved = _steered(turn, moved, out, start, _faces(captured[1][start + run : stop + run]))
-                # If the capture continues, only position and facing may have been steered and need blending.
-                carried = max(out.fading(start), int(kept != (turn, moved))) if follows else len(SEGMENTS)
-                if not follows:
+                turn, moved = _steered(turn, moved, out, start, captured[1][start + run : stop + run])
+                if seam:
                     seams.append(start)
+                    steered.clear()
+                else:
+                    # The capture continues exactly; only position and facing change gradually.
+                    steered.append(_Steer(start, kept, (turn, moved)))
             # One additional frame: the first two show how fast the old and the new motion diverge.
             here = slice(start + run, stop + run + 1)
-            hips, rotations = _placed(captured[0][here], captured[1][here], turn, moved)
-            out.append(start, hips, rotations, carried)
+            times_s = (start + np.arange(stop - start + 1)) / float(fps)
+            place = _place_at(times_s, turn, moved, steered, float(fps))
+            out.append(start, *_placed(captured[0][here], captured[1][here], *place), seam=seam)
             before = step
         shape = self._model.clips[body].shape
         return MotionClip(shape, fps, out.hips, quaternion.continuous(out.rotations)), contacts, tuple(seams)
@@ -218,51 +223,84 @@ class _SmoothClip:
         return self._hips(frames), quaternion.normalize(turns)
 
 
+class _Blend(NamedTuple):
+    """Difference of the old motion from the new one at a seam, and its rate of change."""
+
+    start: int
+    off_m: FloatArray
+    drift_m_s: FloatArray
+    turned: FloatArray
+    spin_rad_s: FloatArray
+
+
+class _Steer(NamedTuple):
+    """Change of rotation (radians) and move (complex, metres) of a motion from a frame on."""
+
+    start: int
+    old: tuple[float, complex]
+    new: tuple[float, complex]
+
+
+def _place_at(
+    times_s: FloatArray, turn: float, moved: complex, steered: Sequence[_Steer], fps: float
+) -> tuple[FloatArray, ComplexArray, ComplexArray]:
+    """Return the rotation in radians, the factor of positions (complex), and the move at each time (F,), after gradual
+    changes.
+    """
+    turns = np.full(len(times_s), turn)
+    factors, moves = np.full(len(times_s), np.exp(1j * turn)), np.full(len(times_s), moved, np.complex128)
+    for start, old, new in steered:
+        left = fading_difference(np.ones(()), np.zeros(()), times_s - start / fps)
+        turns += left * (old[0] - new[0])
+        factors += left * (np.exp(1j * old[0]) - np.exp(1j * new[0]))
+        moves += left * (old[1] - new[1])
+    return turns, factors, moves
+
+
 class _Output:
     """Output frames in progress, in which each new motion is blended from the previous one."""
 
     def __init__(self, fps: Fraction, count: int, hinges: FloatArray) -> None:
-        self._rate, self._hinges = float(fps), hinges
+        self.rate, self._hinges = float(fps), hinges
         self.hips = np.zeros((count, 3))
         self.rotations = np.tile(quaternion.IDENTITY, (count, len(SEGMENTS), 1))
-        self._fades_until, self._carried = 0, 0
+        self._blend: _Blend | None = None
 
-    def fading(self, frame: int) -> int:
-        """Number of body segments that are still being blended at a frame."""
-        return self._carried if frame < self._fades_until else 0
-
-    def append(self, start: int, hips: FloatArray, rotations: FloatArray, carried: int) -> None:
+    def append(self, start: int, hips: FloatArray, rotations: FloatArray, *, seam: bool) -> None:
         """Add the frames of a run, except the last one, which is only the start of the next blend.
 
-        The place of the hips and the rotations of the first ``carried`` segments are blended from the previous motion;
-        0 for no blend.
+        At a seam all segments and the place of the hips are blended from the previous motion; a run that follows in the
+        capture continues the blend before it.
         """
         count = len(hips) - 1
-        if carried and start >= 2:
-            hips_before, hips_last = self.hips[start - 2 : start]
-            turns_before, turns_last = self.rotations[start - 2 : start, :carried]
-            # The old motion extrapolated to this frame and the next.
-            step, turn = hips_last - hips_before, quaternion.multiply(turns_last, quaternion.conjugate(turns_before))
-            off = hips_last + step * np.array([[1.0], [2.0]]) - hips[:2]
-            goes_on = np.stack([once := quaternion.multiply(turn, turns_last), quaternion.multiply(turn, once)])
-            turned = quaternion.to_rotation_vector(
-                quaternion.multiply(goes_on, quaternion.conjugate(rotations[:2, :carried]))
+        if seam:
+            self._blend = self._blended(start, hips, rotations) if start >= 2 else None
+        if self._blend is not None and start >= self._blend.start + math.ceil(FADE_S * self.rate):
+            self._blend = None
+        if self._blend is not None:
+            fading = slice(0, min(count, self._blend.start + math.ceil(FADE_S * self.rate) - start))
+            times_s = (start - self._blend.start + np.arange(fading.stop)) / self.rate
+            hips[fading] += fading_difference(self._blend.off_m, self._blend.drift_m_s, times_s)
+            off_turns = quaternion.from_rotation_vector(
+                fading_turn(self._blend.turned, self._blend.spin_rad_s, times_s)
             )
-            spin = turned[1] - turned[0]
-            # A difference near half a turn is ambiguous; a join that poor is never chosen.
-            spin = np.where(np.linalg.norm(spin, axis=-1, keepdims=True) > 1.0, 0.0, spin)
-            length = math.ceil(FADE_S * self._rate)
-            self._fades_until, self._carried = start + length, carried
-            fading = slice(0, min(count, length))
-            times_s = np.arange(fading.stop) / self._rate
-            hips[fading] += fading_difference(off[0], (off[1] - off[0]) * self._rate, times_s)
-            off_turns = quaternion.from_rotation_vector(fading_turn(turned[0], spin * self._rate, times_s))
             captured = rotations[fading].copy()
-            rotations[fading, :carried] = quaternion.multiply(off_turns, rotations[fading, :carried])
-            if carried == len(SEGMENTS):
-                rotations[fading] = within_hinges(rotations[fading], captured, self._hinges)
+            rotations[fading] = within_hinges(quaternion.multiply(off_turns, rotations[fading]), captured, self._hinges)
         here = slice(start, start + count)
         self.hips[here], self.rotations[here] = hips[:-1], rotations[:-1]
+
+    def _blended(self, start: int, hips: FloatArray, rotations: FloatArray) -> _Blend:
+        """Compare a new motion, by its first two frames, with where the old one would go on to."""
+        hips_before, hips_last = self.hips[start - 2 : start]
+        turns_before, turns_last = self.rotations[start - 2 : start]
+        step, turn = hips_last - hips_before, quaternion.multiply(turns_last, quaternion.conjugate(turns_before))
+        off = hips_last + step * np.array([[1.0], [2.0]]) - hips[:2]
+        goes_on = np.stack([once := quaternion.multiply(turn, turns_last), quaternion.multiply(turn, once)])
+        turned = quaternion.to_rotation_vector(quaternion.multiply(goes_on, quaternion.conjugate(rotations[:2])))
+        spin = turned[1] - turned[0]
+        # A difference near half a turn is ambiguous; a join that poor is never chosen.
+        spin = np.where(np.linalg.norm(spin, axis=-1, keepdims=True) > 1.0, 0.0, spin)
+        return _Blend(start, off[0], (off[1] - off[0]) * self.rate, turned[0], spin * self.rate)
 
     def place(self, frame: int) -> complex:
         """Position of the hips on the floor (complex, metres) just before a frame."""
@@ -271,7 +309,7 @@ class _Output:
     def lately(self, frame: int) -> complex | None:
         """Mean position of the hips on the floor (complex, metres) over the last `LATELY_S`; None if there are too few
         frames."""
-        first = max(0, frame - round(LATELY_S * self._rate))
+        first = max(0, frame - round(LATELY_S * self.rate))
         if frame - first < 2:
             return None
         middle = self.hips[first:frame].mean(axis=0)
@@ -285,15 +323,16 @@ def _faces(rotations: FloatArray) -> complex:
     return complex(np.exp(1j * quaternion.twist_angle(rotations[:, 0], _UP)).mean())
 
 
-def _steered(turn: float, moved: complex, out: _Output, frame: int, ahead: complex) -> tuple[float, complex]:
+def _steered(turn: float, moved: complex, out: _Output, frame: int, ahead: FloatArray) -> tuple[float, complex]:
     """Correct rotation and move of the next segment slightly, to bring the dancer back towards the usual place (from
-    the recent mean position) and towards the audience (from the coming direction ``ahead``).
+    the recent mean position) and towards the audience (from the mean direction of the coming rotations ``ahead``,
+    (F, 16, 4)). A spin in progress is not turned.
     """
     hips = out.lately(frame)
     if hips is None:
         return turn, moved
-    off = float(np.angle(complex(np.exp(1j * turn)) * ahead))
-    if abs(off) > FACES_RAD:
+    off = float(np.angle(complex(np.exp(1j * turn)) * _faces(ahead)))
+    if abs(off) > FACES_RAD and not _spins(ahead[: round(FADE_S * out.rate) + 1], out.rate):
         nudge = -math.copysign(min(TURN_BACK * (abs(off) - FACES_RAD), MOST_TURN_RAD), off)
         # Rotated about the position of the body, so that it does not orbit the centre of the stage.
         here = out.place(frame)
@@ -305,12 +344,20 @@ def _steered(turn: float, moved: complex, out: _Output, frame: int, ahead: compl
     return turn, moved
 
 
-def _placed(hips: FloatArray, rotations: FloatArray, turn: float, moved: complex) -> tuple[FloatArray, FloatArray]:
-    """Turn hip positions (F, 3) and bone rotations (F, B, 4) about the vertical by ``turn`` radians, and move them over
-    the floor by ``moved`` (complex, metres: Z + X · i)."""
-    flat = np.exp(1j * turn) * (hips[:, 2] + 1j * hips[:, 0]) + moved
+def _spins(rotations: FloatArray, fps: float) -> bool:
+    """Return whether the hips turn at `SPINS_RAD_S` or more at some moment of F frames (F, 16, 4)."""
+    yaw = np.unwrap(quaternion.twist_angle(rotations[:, 0], _UP))
+    return float(np.abs(np.diff(yaw)).max(initial=0.0)) * fps >= SPINS_RAD_S
+
+
+def _placed(
+    hips: FloatArray, rotations: FloatArray, turns: FloatArray, factors: ComplexArray, moves: ComplexArray
+) -> tuple[FloatArray, FloatArray]:
+    """Turn hip positions (F, 3) by the complex ``factors`` and bone rotations (F, B, 4) by ``turns`` (radians) about
+    the vertical, and move them over the floor by ``moves`` (complex, metres: Z + X · i), each (F,)."""
+    flat = factors * (hips[:, 2] + 1j * hips[:, 0]) + moves
     rotations = rotations.copy()
-    rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle(_UP, turn), rotations[:, 0])
+    rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle(_UP, turns), rotations[:, 0])
     return np.stack([flat.imag, hips[:, 1], flat.real], axis=1), rotations
 
 

@@ -125,6 +125,8 @@ class MoveCosts:
         Value of each segment as a predecessor; those with high values are examined first.
     meets : SegmentMeets
         Arrivals and footfalls of the segments, with their values in units of these costs.
+    least_before_s, least_after_s : (S,) float64, optional
+        Shortest times in seconds in which ``before_s`` and ``after_s`` may be danced; by default by `SPEEDS`.
     """
 
     base: FloatArray
@@ -133,6 +135,8 @@ class MoveCosts:
     speed: float
     usual: FloatArray
     meets: SegmentMeets
+    least_before_s: FloatArray | None = None
+    least_after_s: FloatArray | None = None
 
 
 class SegmentMoves:
@@ -144,6 +148,10 @@ class SegmentMoves:
         np.fill_diagonal(self._base, NEVER)
         self._lasts_s = np.maximum(costs.after_s[None, :] + costs.before_s[:, None], 1e-9)
         self._log_lasts = np.log(self._lasts_s)
+        self._most_off = np.full_like(self._lasts_s, np.log(SPEEDS[1]))
+        if costs.least_before_s is not None and costs.least_after_s is not None:
+            least_s = np.maximum(costs.least_after_s[None, :] + costs.least_before_s[:, None], 1e-9)
+            self._most_off = np.minimum(self._most_off, self._log_lasts - np.log(least_s))
         self._times_s, self._strengths = grid.times_s.tolist(), grid.strengths.tolist()
         self._tables: dict[tuple[int, _Beats, bool], MoveTable] = {}
         self._longest_s = float(self._lasts_s.max(initial=0.0)) / SPEEDS[0]
@@ -189,18 +197,21 @@ class SegmentMoves:
         count = len(self._base)
         if every or count <= MOST_STARTS:
             return np.broadcast_to(np.arange(count), (count, count))
-        values = self._base + self._costs.usual - self._speed_cost(self._log_lasts - key / 50.0)
+        values = self._base + self._costs.usual - self._speed_cost(self._log_lasts - key / 50.0, self._most_off)
         best = np.argpartition(values, count - MOST_STARTS, axis=1)[:, count - MOST_STARTS :]
         return np.asarray(np.sort(best, axis=1))
 
-    def _speed_cost(self, off: FloatArray) -> FloatArray:
+    def _speed_cost(self, off: FloatArray, most_off: FloatArray) -> FloatArray:
         limit = float(np.log(SPEEDS[1]))
-        return np.asarray(self._costs.speed * np.square(off / limit) - np.where(np.abs(off) > limit + 0.02, NEVER, 0.0))
+        outside = (off < -limit - 0.02) | (off > most_off + 0.02)
+        return np.asarray(self._costs.speed * np.square(off / limit) - np.where(outside, NEVER, 0.0))
 
     def _made(self, starts: IntArray, key: int, beats: _Beats) -> MoveTable:
         ends = np.arange(len(starts))[:, None]
         lasts_s = self._lasts_s[ends, starts]
-        scores = self._base[ends, starts] - self._speed_cost(self._log_lasts[ends, starts] - key / 50.0)
+        scores = self._base[ends, starts] - self._speed_cost(
+            self._log_lasts[ends, starts] - key / 50.0, self._most_off[ends, starts]
+        )
         scores += self._met(starts, lasts_s, math.exp(key / 50.0), beats)
         met = np.minimum((SHARES * self._costs.after_s[starts] / lasts_s).astype(np.intp), SHARES - 1) * len(starts)
         taken = np.empty(starts.shape, np.float32)

@@ -1,0 +1,70 @@
+"""A captured spin keeps its lean and is not danced faster than a body turns."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from app.arrays import FloatArray
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.model import MotionSegment
+from app.choreography.spin_times import SpinTimes, least_paces, not_hurried
+from app.choreography.spins import hips_rad
+from app.choreography.stitch import Frames, Stitcher
+from app.choreography.warp import TimeMap
+from app.rig import quaternion
+from tests.support.dances import model
+from tests.unit.choreography.test_spins import spinning
+
+
+def leans_rad(clip: MotionClip) -> FloatArray:
+    """Angle of the hips from the vertical in each frame."""
+    up = quaternion.rotate(clip.rotations[:, SEGMENTS.index("hips")], (0.0, 1.0, 0.0))[:, 1]
+    return np.asarray(np.arccos(np.clip(up, -1.0, 1.0)))
+
+
+def test_a_spin_cut_into_segments_leans_as_captured() -> None:
+    clip = spinning(60, 13.0, 12.0, 0.15)
+    edges = [0, 80, 105, 120, 135, 165, len(clip) - 1]
+    segments = tuple(
+        MotionSegment(clip=0, start=start, accent=start + 5, end=end, state=0) for start, end in pairwise(edges)
+    )
+    library = replace(model(), clips=(clip,), segments=segments)
+    at = np.arange(edges[-1])
+    frames = Frames(np.arange(len(segments)), np.searchsorted(edges[1:], at, side="right"), at / 60.0, np.ones(len(at)))
+    danced, _, seams = Stitcher(library).stitched(frames, 0, Fraction(60))
+    assert not seams
+    assert leans_rad(danced) == pytest.approx(leans_rad(clip)[: len(at)], abs=0.01)
+    spin = slice(80, 165)
+    assert hips_rad(danced)[spin].max() <= hips_rad(clip).max() * 1.05
+
+
+def test_a_spin_takes_its_time_from_its_surroundings() -> None:
+    clip = spinning(60, 14.0, 8.0)
+    paces = least_paces(clip)
+    assert paces.max() == pytest.approx(1.0, abs=0.06)
+    assert paces[:40].max() < 0.7
+    along_s = np.arange(len(clip)) / 60.0
+    hurried = TimeMap(np.array([0.0, along_s[-1] / 1.3]), along_s[[0, -1]])
+    calm = not_hurried(hurried, along_s, paces / 60.0)
+    lasts_s = np.diff(calm.when(along_s))
+    assert (hips_rad(clip) / lasts_s).max() <= 15.0 < (hips_rad(clip) * 60.0 * 1.3).max()
+    assert calm.times_s[[0, -1]] == pytest.approx(hurried.times_s, abs=0.01)
+    unhurried = TimeMap(along_s[[0, -1]] * 1.2, along_s[[0, -1]])
+    assert not_hurried(unhurried, along_s, paces / 60.0) is unhurried
+
+
+def test_a_segment_of_a_spin_may_not_be_shortened() -> None:
+    library = model()
+    clip = spinning(60, 14.0, 8.0)
+    turning = replace(
+        library, clips=(clip,), segments=(MotionSegment(0, 70, 120, 170, 0), MotionSegment(0, 0, 20, 40, 0))
+    )
+    times = SpinTimes(turning, np.array([2.0, 1.0 / 3.0]))
+    assert times.before_s[0] + times.after_s[0] > 0.75 * 100.0 / 60.0
+    assert times.before_s[1] + times.after_s[1] < 0.7 * 40.0 / 60.0
