@@ -151,7 +151,7 @@ def _off_t_pose(rotations: FloatArray, segments: Sequence[int]) -> FloatArray:
 
 
 def _still(clip: MotionClip) -> BoolArray:
-    """Mask (F,) of the frames from which on a body stands still."""
+    """Mask (F,) of the frames after which a body hardly moves for `STILL_OVER_S`."""
     over = max(1, round(STILL_OVER_S * float(clip.fps)))
     later = np.minimum(np.arange(len(clip)) + over, len(clip) - 1)
     turns = angle(clip.rotations[:, _BODY], clip.rotations[later][:, _BODY]).max(axis=1)

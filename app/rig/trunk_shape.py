@@ -19,21 +19,22 @@ from metadata.load import load_skeleton
 
 TRUNK: Final = ("hips", "spine", "chest", "upperChest", "leftUpperLeg", "rightUpperLeg")
 ALONG: Final = np.array([0.1, 0.325, 0.55, 0.775, 1.0])
-"""Places between elbow and wrist whose distance from the trunk counts."""
+"""Positions between elbow (0) and wrist (1) at which the distance from the trunk is measured."""
 CELL_M: Final = 0.025
 BEYOND_M: Final = 0.10
-"""Distances are known up to here outside the skin, and beyond a joint's own skin."""
+"""Greatest distance in metres outside the skin that the grids contain."""
 _DEEPEST_M: Final = 0.15
 _ASIDE_M: Final = 0.02
-"""A point farther aside of the nearest vertex is beyond an edge, as under a hem, and is less and less inside."""
+"""Sideways distance in metres from the nearest vertex beyond which a point, such as one under a hem, counts less and
+less as inside."""
 _HELD: Final = 0.9
-"""Share of a vertex that trunk, or forearm, must hold: what hangs between both is neither."""
+"""Least weight of the trunk, or of the forearm, on a vertex that counts as its own."""
 _OWN: Final = 0.3
-"""Share of a vertex by which it is a joint's own."""
+"""Least weight of a single joint on a vertex that counts as its own."""
 _OUTWARDS: Final = 0.3
-"""Normals that point less away from a joint's middle line are those of edges and linings."""
+"""Cosine between normal and direction from the joint's middle line below which a vertex belongs to a hem or lining."""
 _FEWEST: Final = 40
-"""Vertices of a mesh below which it is a button."""
+"""Number of vertices below which a mesh, such as a button, is ignored."""
 _THICK_PERCENT, _THICK_SPAN = 85.0, 0.15
 _USUAL_RADII_M: Final = (0.045, 0.045, 0.04, 0.035, 0.03)
 
@@ -121,8 +122,8 @@ def _made(character: Character) -> TrunkShape | None:
 
 @dataclass(frozen=True, eq=False)
 class _Surface:
-    """Vertices of a mesh that the trunk holds: place (V, 3) and normal (V, 3) in the T-pose, and share (V, T) of each
-    of T joints."""
+    """Vertices of a mesh on the trunk in the T-pose: positions (V, 3) and normals (V, 3) in world space, and the
+    weights (V, T) of T joints."""
 
     places_m: FloatArray
     normals: FloatArray
@@ -130,7 +131,17 @@ class _Surface:
 
 
 def _surface(character: Character, names: Sequence[str], mesh: Mesh, shares: FloatArray, held: IndexArray) -> _Surface:
-    """Pose the vertices of a mesh, each with the joint that holds most of it, without edges and linings."""
+    """Return the outward-facing surface of a mesh in the T-pose; hems and linings, which face the body, are left out.
+
+    Each vertex is posed rigidly with the joint of ``names`` that has the greatest weight on it.
+
+    Parameters
+    ----------
+    shares : (V, T) float64
+        Weights of the mesh's V vertices for the T joints of ``names``.
+    held : (H,) int
+        Indices of the vertices to use.
+    """
     rest_m, most = rest_positions(character.skeleton), np.argmax(shares[held], axis=1)
     places_m, normals = np.zeros((len(held), 3)), np.zeros((len(held), 3))
     outwards = np.zeros(len(held), np.bool_)
@@ -148,7 +159,7 @@ def _surface(character: Character, names: Sequence[str], mesh: Mesh, shares: Flo
 
 
 def _holders(character: Character, names: Collection[str], others: Collection[str] = ()) -> BoolArray:
-    """For each joint (J,) whether it is one of those named, or hangs on one without being a human one itself."""
+    """Mask (J,) of the joints that are named, or are descendants of one without being joints of the human skeleton."""
     human = {joint.name for joint in load_skeleton().joints} | set(others)
     found: list[bool] = []
     for name, parent in zip(character.skeleton.names, character.skeleton.parents, strict=True):
@@ -157,7 +168,7 @@ def _holders(character: Character, names: Collection[str], others: Collection[st
 
 
 def _share(mesh: Mesh, holders: BoolArray) -> FloatArray:
-    """Share (V,) of each vertex that the joints hold."""
+    """Sum (V,) of the weights of each vertex for the joints in a mask (J,)."""
     return np.asarray(np.where(holders[mesh.joints], mesh.weights, 0.0).sum(axis=1), np.float64)
 
 

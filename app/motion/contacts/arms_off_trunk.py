@@ -28,7 +28,7 @@ from app.rig.trunk_shape import ALONG, BEYOND_M, TrunkShape
 MOST_RAD = float(np.deg2rad(70.0))
 """Most an elbow goes outwards."""
 TRIED = 9
-"""Angles up to there at which it is seen whether the forearm is inside."""
+"""Number of angles up to there at which the forearm's depth is measured."""
 CLOTH_M = 0.012
 """Room that is kept: a jacket is about so much thicker than a shirt ..."""
 EASE_M = 0.012
@@ -317,8 +317,8 @@ def _used_room(solved: SolvedArm, wrist: Wrist, frames: IndexArray, angles: Floa
 
 
 def _within_room(used: FloatArray, angles: FloatArray) -> FloatArray:
-    """Return the turn (F,) that goes on at each of A angles by what is left of 1 after a share ``used`` (A, F), which
-    is linear between them."""
+    """Return the turn (F,) whose rate at each of A angles is what a share ``used`` (A, F) leaves of 1, integrated over
+    the angles; the share is linear between them."""
     below, above = used[:-1], used[1:]
     partly = np.square(1.0 - np.minimum(below, 1.0)) / np.maximum(2.0 * (above - below), 1e-9)
     going = np.where(above > 1.0, partly, 1.0 - 0.5 * (below + above))
@@ -327,6 +327,6 @@ def _within_room(used: FloatArray, angles: FloatArray) -> FloatArray:
 
 
 def _turned(going: FloatArray, angles: FloatArray) -> FloatArray:
-    """Return the turn (F,) that goes on at each of A angles by a share (A, F)."""
+    """Return the turn (F,) whose rate at each of A angles is a share (A, F), integrated over the angles."""
     turned: FloatArray = 0.5 * (going[1:] + going[:-1]).sum(axis=0) * (angles[1] - angles[0])
     return turned

@@ -87,7 +87,7 @@ def _lowered_clear(player: PlayerBody, supports: Sequence[Support]) -> PlayerBod
 
 
 def _straps_m(player: PlayerBody, low: ContactCurves, supports: Sequence[Support]) -> FloatArray:
-    """Return the ways (S, 3) along S straps from the body to the instrument, lowered at its usual place, in metres."""
+    """Return vectors (S, 3) in metres from the body to the hooks of S straps with the instrument lowered as usual."""
     skeleton, carried = player.skeleton, upper_body(player, low).carried
     left_m, right_m = (
         skeleton.offsets_m[skeleton.index(f"{side}Shoulder")] + skeleton.offsets_m[skeleton.index(f"{side}UpperArm")]
@@ -117,7 +117,7 @@ def _moved_ahead(place: LoweredPlace, ahead_m: float, straps_m: FloatArray) -> L
 
 
 def _left(player: PlayerBody, shares: FloatArray, ranges: tuple[Vector, Vector, Vector]) -> Remaining | None:
-    """Return depth and bend with the instrument held at angles by shares (N, 3) of its ranges, as N frames."""
+    """Return depth and bend of N poses with the instrument held at given shares (N, 3) of its ranges of angles."""
     added_rad = {}
     for name, values, (low, usual, high), sign in zip(
         ("pitch", "yaw", "roll"), shares.T, ranges, (-1.0, 1.0, 1.0), strict=True

@@ -50,8 +50,10 @@ class Names(NamedTuple):
 
 
 def packed_group(members: Sequence[Region], clock: TempoMap) -> tuple[list[int], int]:
-    """Return the row of each region of a group, and the number of rows; expressions that last below others are in the
-    last row.
+    """Assign the regions of a group to rows so that regions in one row do not overlap in time.
+
+    Expressions that last throughout, below all others, are in the last row. Returns the row of each region and the
+    number of rows; ``clock`` converts ticks to seconds.
     """
     packed = sorted(
         (*extent(region, clock), region.event_id, place)
