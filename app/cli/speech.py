@@ -16,6 +16,7 @@ from typing import Final, Protocol, get_args
 from app.errors import AppError, Argument, Message
 from app.messages import LANGUAGES, TRANSPOSITION, text
 from app.messages.pitches import PitchNames, named_pitch
+from instrument_maps.instrument_names import vocabulary
 
 LANGUAGE, PITCH_NAMES, MIDDLE_C, PITCHES = "--language", "--pitch-names", "--middle-c", "--pitches"
 PITCH_CHOICES: Final = ("concert", "written")
@@ -23,6 +24,8 @@ PITCH_CHOICES: Final = ("concert", "written")
 PITCH_NAME_CHOICES: Final[tuple[PitchNames, ...]] = get_args(PitchNames)
 MIDDLE_C_OCTAVES: Final = {"C4": 4, "C3": 3}
 """Octave number of middle C, by the name of middle C."""
+INSTRUMENTS: Final = frozenset({"instrument", "said", "played"})
+"""Arguments of messages that are English names of instruments."""
 _JAPANESE: Final = ("ja", "japanese")
 _SAMPLE: Final = "あ"
 
@@ -63,7 +66,18 @@ class Speech:
     def __call__(self, message: Message) -> str:
         """Return the sentence of a message in the language of the command, with pitches spelled."""
         semitones = int(message.arguments.get(TRANSPOSITION, 0))
-        return text(message, self.language, lambda pitch: self.pitch(pitch, semitones))
+        named = self._with_instruments(message) if self.language == "ja" else message
+        return text(named, self.language, lambda pitch: self.pitch(pitch, semitones))
+
+    def _with_instruments(self, message: Message) -> Message:
+        """Return a message with the Japanese names of its instruments; unknown names are unchanged."""
+        given = {name: value for name, value in message.arguments.items() if name in INSTRUMENTS}
+        if not given:
+            return message
+        known = {one.names[0]: one.japanese for one in vocabulary().instruments.values() if one.japanese}
+        return Message(
+            message.id, {**message.arguments, **{name: known.get(str(value), value) for name, value in given.items()}}
+        )
 
     def name(self, words: InLanguages) -> str:
         """Return a name from a table; the English one if there is no Japanese one."""

@@ -20,6 +20,7 @@ from app.cli.speech import Speech, requested_speech, speaking, system_language
 from app.cli.status import BAD_USE, DONE
 from app.cli.summary import columns
 from app.cli.widths import width, wrapped
+from app.errors import Message
 from app.plan.problem_lines import problem_lines
 from instrument_maps.library import find_map
 from tests.unit.plan.test_problem_lines import SCORE, early
@@ -241,3 +242,10 @@ def test_every_bundled_table_is_described_in_japanese(capsys: pytest.CaptureFixt
     listed = [line for line in capsys.readouterr().out.splitlines() if line.startswith(("expressions ", "rules "))]
     assert len(listed) >= 16
     assert [line for line in listed if not JAPANESE.search(line)] == []
+
+
+def test_instruments_in_messages_have_their_japanese_names() -> None:
+    refused = Message("score.not_wind", {"instrument": "Double Bass"})
+    assert "コントラバス" in Speech("ja")(refused)
+    assert "Double Bass" not in Speech("ja")(refused)
+    assert "Double Bass" in Speech("en")(refused)
