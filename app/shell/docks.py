@@ -84,7 +84,7 @@ class Dock(QDockWidget):
         """Qt drags it."""
         self._session, self._title, self._bar = session, Label(), named(QWidget(), "dock_title")
         self._bar.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        float_tip, close_tip = "dock.float_or_dock_this_panel", "dock.close_this_panel_view_panels"
+        float_tip, close_tip = "dock.float_or_dock_this_panel", "dock.close_tip"
         buttons = (
             small(IconButton(session, "float", float_tip, self._toggle_floating, "float_panel", dim=True)),
             small(IconButton(session, "close", close_tip, self.close, "close_panel", dim=True)),

@@ -59,9 +59,9 @@ class LicencesDialog(Retranslated, QDialog):
 
     def retranslate(self) -> None:
         paragraphs = (
-            "suisou_is_under_apache_license",
-            "qt_pyside6_soxr_and_libsndfile",
-            "ffmpeg_is_under_gpl_separate",
+            "own_licence",
+            "lgpl_licences",
+            "ffmpeg_licence",
         )
         self._text.setText("\n\n".join(self.tr(f"licences_dialog.{id}") for id in paragraphs))
         self._data.setText(0, self.tr("licences_dialog.suisous_own_files"))

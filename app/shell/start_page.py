@@ -56,7 +56,7 @@ class StartPage(Retranslated, QScrollArea):
         lesson_ids = (
             "start_page.1_open_midi_of_piece",
             "start_page.2_change_what_you_would",
-            "start_page.3_export_players_and_instruments",
+            "start_page.export_step",
         )
         self._lessons = [
             self.texted(wrapped(_label(f"start_lesson_{number}", 9.5)), text=text_id)

@@ -394,7 +394,7 @@ class ExportDialog(WorkingDialog):
             replaced = self.tr("export_dialog.of_these_will_be_replaced")
             lines.append(replaced.format(count=len(seen.replaced), names=_some(seen.replaced)))
         if seen.removed:
-            removed = self.tr("export_dialog.no_longer_needed_will_be")
+            removed = self.tr("export_dialog.removed_files")
             lines.append(removed.format(count=len(seen.removed), names=_some(seen.removed)))
         lines += [f"⚠ {sentence(message)}" for message in (*seen.kept, *seen.remarks)]
         return "\n".join(lines)

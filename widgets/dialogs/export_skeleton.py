@@ -146,7 +146,7 @@ class SkeletonChooser(Retranslated, QWidget):
         elif self.asset is not None and self._checked:
             lines = self._differences() or [self.tr("skeleton_chooser.all_match")]
         elif self.asset is None and self.choice == "ue5":
-            lines = [self.tr("skeleton_chooser.with_fbx_of_mannequin_exported")]
+            lines = [self.tr("skeleton_chooser.mannequin_tip")]
         if len(lines) > MOST_LINES:
             lines = [
                 *lines[: MOST_LINES - 1],

@@ -58,7 +58,7 @@ class FaceMapPage(Retranslated, QWidget):
             self.list.addTopLevelItem(item)
         self.list.setCurrentItem(self._items[self._face])
         self.list.currentItemChanged.connect(self._chosen)
-        none = "nothing_character_does_not_do" if morphs else "file_has_no_morphs_face"
+        none = "nothing_character_does_not_do" if morphs else "no_morphs"
         self._title, self._none = Label(), self.texted(wrapped(Label()), text=f"face_map_page.{none}")
         self._add = named(Combo(), "face_add")
         self.texted(self._add, placeholder="face_map_page.add_morph", name="face_map_page.add_morph")

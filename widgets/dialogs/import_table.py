@@ -308,7 +308,7 @@ class ImportTable(Retranslated, QTableWidget):
         if self.is_percussion(row):
             return self.tr("import_dialog.percussion_track_no_player_plays")
         if row.assignment.map_id is None and self._effects.issuperset(row.assignment.channels):
-            return self.tr("import_dialog.sound_effects_no_player_plays")
+            return self.tr("import_dialog.sound_effects_explanation")
         return ""
 
     def _choose(self, place: int, map_id: str | None) -> None:

@@ -87,7 +87,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         )
         self._diagram = named(FingeringDiagram(session), "instruments_diagram")
         self._diagram.set_editable(True)
-        self._hint = wrapped(Caption("instruments_dialog.click_keys_to_change_fingering"))
+        self._hint = wrapped(Caption("instruments_dialog.chart_tip"))
         self._does: dict[str, tuple[str, Callable[[], object]]] = {
             "up": ("instruments_dialog.higher_choice", lambda: self._move(-1)),
             "down": ("instruments_dialog.lower_choice", lambda: self._move(1)),

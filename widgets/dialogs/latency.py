@@ -217,7 +217,7 @@ class LatencyDialog(Retranslated, QDialog):
                 text = self.tr("latency_dialog.there_is_no_audio_device")
                 return text, "warning"
             if beat <= LEAD:
-                return self.tr("latency_dialog.listen_and_play_along_first").format(count=LEAD), "text"
+                return self.tr("latency_dialog.instruction").format(count=LEAD), "text"
             text = self.tr("latency_dialog.blow_short_note_on_every")
             return text.format(count=beat - LEAD, all=COUNTED), "text"
         if self._stopped_why:

@@ -86,7 +86,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         # Enter in the list must not press the button.
         self._learn.setAutoDefault(False)
         self._close = Button("midi_devices_dialog.close", self.close, "midi_close")
-        beep_tip = "midi_devices_dialog.short_tone_on_audio_device"
+        beep_tip = "midi_devices_dialog.test_tone_tip"
         self._beep = Button("midi_devices_dialog.test_beep", self.beep, "midi_beep", beep_tip)
         self._measure = Button("midi_devices_dialog.measure", self.latency_asked.emit, "midi_measure")
         self._device, self._incoming = QGroupBox(), QGroupBox()
@@ -311,7 +311,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         if recording.refusal is not None:
             return sentence(recording.refusal, self._session)
         if not recording.ports:
-            return self.tr("midi_devices_dialog.connect_wind_controller_by_usb")
+            return self.tr("midi_devices_dialog.no_device_hint")
         return "" if recording.port else self.tr("midi_devices_dialog.select_device")
 
     def _show_kind(self) -> None:

@@ -99,7 +99,7 @@ class ReimportDialog(Retranslated, QDialog):
         unplayed = (
             *self._list(
                 "reimport_unplayed",
-                Caption("reimport_dialog.new_parts_without_player"),
+                Caption("reimport_dialog.new_parts_heading"),
                 [partial(_said_of, "import_dialog.is_not_played", part.name, part.reason) for part in parts],
             ),
             *self._list(
@@ -155,7 +155,7 @@ class ReimportDialog(Retranslated, QDialog):
         lost = Caption("reimport_dialog.these_corrections_have_lost_their")
         self._conflicts = self._list(
             "reimport_conflicts",
-            self.texted(Label(), text=lambda: tr("reimport_dialog.changed_here_and_in_file").format(count=counted[0])),
+            self.texted(Label(), text=lambda: tr("reimport_dialog.both_changed_heading").format(count=counted[0])),
             conflicts,
         )
         return (*self._conflicts, *self._list("reimport_orphans", lost, orphans))

@@ -166,5 +166,5 @@ class StreamDialog(Retranslated, QDialog):
         if state.state == "no_receiver":
             return (self.tr("stream_dialog.no_receiver_there_yet_start"), tokens.warning)
         if state.state == "sending":
-            return self.tr("stream_dialog.sending_frames_per_second_fewer").format(count=state.sent_hz), tokens.good
+            return self.tr("stream_dialog.sending_rate").format(count=state.sent_hz), tokens.good
         return self.tr("stream_dialog.not_streaming"), tokens.text_dim

@@ -42,7 +42,7 @@ _TOOLS = (
     ("duplicate", "duplicate", "expression_maker.duplicate_tip"),
     ("remove", "delete", ""),
     ("keep", "save", "expression_maker.keep_it_for_other_projects"),
-    ("both", "link", "expression_maker.move_both_sides_of_face"),
+    ("both", "link", "expression_maker.both_sides_tip"),
     ("preview", "eye", "expression_maker.preview_tip"),
 )
 """Buttons with their pictures and the ids of their tips; the tip of the second depends on the expression."""

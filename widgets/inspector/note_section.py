@@ -43,7 +43,7 @@ _WORDS: Final = {
     "onset": ("note_section.bar", "", "note_section.bar_beat_ticks_several_notes"),
     "length": ("note_section.length", "note_section.beats", "note_section.in_beats_of_metre"),
     "velocity": ("note_section.velocity", "", "note_section.velocity_tip"),
-    "tension": ("note_section.tension", "", "note_section.lips_0_relaxed_for_low"),
+    "tension": ("note_section.tension", "", "note_section.lips_tip"),
     "effort": ("note_section.effort", "", "note_section.effort_tip"),
     "air": ("note_section.air", "", "note_section.air_flow_tip"),
 }

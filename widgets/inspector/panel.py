@@ -159,7 +159,7 @@ class InspectorPanel(Retranslated, QWidget):
         notes, events, take = self._notes.show_notes(), self._events.show_events(), self._take.show_take()
         self._empty.setVisible(not notes and not events and not take and not self._maker.is_open)
         varied = any(EventId.parse(key.event_id).kind == "vary" for key in self._session.selection.events)
-        performed, click = "inspector_panel.regenerated_bars_hint", "inspector_panel.click_note_in_timeline_to"
+        performed, click = "inspector_panel.regenerated_bars_hint", "inspector_panel.nothing_selected_hint"
         self._empty.setText(self.tr(performed if varied else click))
 
     def _changed(self, change: Change) -> None:

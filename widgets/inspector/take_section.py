@@ -54,7 +54,7 @@ NUMBERS: Final = (
         300.0,
         5.0,
         "take_section.ghost_notes_shorter_than",
-        "take_section.soft_notes_shorter_than_this",
+        "take_section.least_note_tip",
     ),
     _Number(
         "ghost_loudness", 100.0, 100.0, 1.0, "take_section.and_softer_than", "take_section.soft_breath_stays_below_this"

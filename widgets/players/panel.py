@@ -110,7 +110,7 @@ class PlayersPanel(Retranslated, QWidget):
             "players_panel.randomise",
             partial(randomise_players, session),
             "randomise",
-            "players_panel.amplitude_sway_weight_shift_bell",
+            "players_panel.randomise_tip",
         )
         self._throw = PictureButton(session, "dice", *throw)
         reset = ("players_panel.reset", partial(reset_players, session), "reset_parameters")

@@ -91,7 +91,7 @@ class ParameterSections(Retranslated, QWidget):
         for name in _SECTIONS[:-1]:
             for parameter in rows_of(name):
                 self._make_row(parameter)
-        self.texted(self._colour, tip="parameter_sections.colour_of_player_in_timeline")
+        self.texted(self._colour, tip="parameter_sections.colour_tip")
         self.retranslate()
         session.instruments_changed.connect(self._instruments_changed)
         session.characters_changed.connect(self._characters_changed)

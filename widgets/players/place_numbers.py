@@ -22,9 +22,9 @@ def place_sliders(holder: Retranslated, session: Session, prefix: str) -> dict[s
     }
     for name, slider in sliders.items():
         slider.setObjectName(f"{prefix}_{name}")
-    holder.texted(sliders["x_m"], words=("place.x", "place.metres", "place.to_right_as_audience_sees"))
-    holder.texted(sliders["z_m"], words=("place.z", "place.metres", "place.towards_audience_from_middle"))
-    holder.texted(sliders["turn_rad"], words=("place.turn", "°", "place.0_faces_audience_positive_turns"))
+    holder.texted(sliders["x_m"], words=("place.x", "place.metres", "place.right_tip"))
+    holder.texted(sliders["z_m"], words=("place.z", "place.metres", "place.front_tip"))
+    holder.texted(sliders["turn_rad"], words=("place.turn", "°", "place.turn_tip"))
     return sliders
 
 

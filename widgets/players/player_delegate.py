@@ -169,7 +169,7 @@ class PlayerDelegate(RowDelegate):
         row: Row = index.data(ROW_ROLE)
         mute, solo = self.buttons(box)
         if mute.contains(at):
-            return self.tr("row_delegate.mute_silent_but_still")
+            return self.tr("row_delegate.mute_tip")
         if solo.contains(at):
             return self.tr("row_delegate.solo_only_these_sound")
         if isinstance(row, SectionRow):

@@ -25,7 +25,7 @@ class StageSection(Retranslated, QWidget):
         self._session = session
         self._section = Section(session, "players_stage", self)
         self.view = self.texted(named(StageView(session), "stage"), name="stage_section.stage_tip")
-        self._snap = IconButton(session, "snap", "stage_section.snap_to_0_1_m", self._set_snap, "stage_snap")
+        self._snap = IconButton(session, "snap", "stage_section.snap_tip", self._set_snap, "stage_snap")
         arc_tip = "stage_section.automatic_arc_everyone_in_order"
         self._arc = IconButton(session, "stage", arc_tip, self._arrange, "stage_arc")
         self._snap.setCheckable(True)

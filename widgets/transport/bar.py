@@ -88,15 +88,11 @@ class TransportBar(Retranslated, QWidget):
         self._build()
         self._connect()
         self._apply_theme()
-        self.texted(
-            self.bars, words=("", "", "transport_bar.bar_beat_ticks_click_to"), name="transport_bar.bar_beat_ticks"
-        )
-        self.texted(
-            self.clock, words=("", "", "transport_bar.minutes_and_seconds_click_to"), name="transport_bar.seconds"
-        )
+        self.texted(self.bars, words=("", "", "transport_bar.position_tip"), name="transport_bar.bar_beat_ticks")
+        self.texted(self.clock, words=("", "", "transport_bar.time_tip"), name="transport_bar.seconds")
         self.texted(
             self.frames,
-            words=("transport_bar.frame", "", "transport_bar.frame_click_to_type_drag"),
+            words=("transport_bar.frame", "", "transport_bar.frame_tip"),
             name="transport_bar.frame",
         )
         sources = {str(source): f"transport_bar.{source}" for source in SOURCES}

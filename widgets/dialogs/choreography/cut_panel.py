@@ -71,7 +71,7 @@ class CutPanel(Retranslated, QWidget):
         self._draft, self._found, self._history = PairDraft(), PairContents(), CutHistory()
         self.plot, self.figure = CutPlot(session), PoseFigure(session)
         self.player = PairPlayer(session, playback)
-        self._title, self._place, self._hint = Label(), Label(), Caption("cut_panel.angular_acceleration_rad_s_over")
+        self._title, self._place, self._hint = Label(), Label(), Caption("cut_panel.plot_tip")
         self._place.setObjectName("cut_place")
         self._hint.setObjectName("cut_hint")
         self._hint.setWordWrap(True)

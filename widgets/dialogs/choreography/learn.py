@@ -97,9 +97,9 @@ class LearnDialog(WorkingDialog):
         self._remove = Button("learn_dialog.remove", self._remove_pair, "learn_remove")
         self._states = self.texted(
             AutomaticNumber("learn_states", 1, MOST_STATES, step=1, decimals=0),
-            tip="learn_dialog.number_of_basic_motions_automatic",
+            tip="learn_dialog.states_tip",
         )
-        self._seed = self.texted(named(QSpinBox(), "learn_seed"), tip="learn_dialog.of_classification_same_pairs_and")
+        self._seed = self.texted(named(QSpinBox(), "learn_seed"), tip="learn_dialog.seed_tip")
         self._file = named(PathEdit(folder / f"choreography{SUFFIX}"), "learn_file")
         self._choose = Button("learn_dialog.choose", self._ask_where, "learn_file_choose")
         self._state = selectable(named(Label(), "learn_state"))

@@ -152,7 +152,7 @@ class PairForm(Retranslated, QWidget):
         elif self._busy:
             notes.append(self.tr("pair_form.reading_files"))
         elif self._draft.motion is None or self._draft.music is None:
-            notes.append(self.tr("pair_form.pair_is_motion_and_midi"))
+            notes.append(self.tr("pair_form.pair_explanation"))
         elif read is not None and analysis is not None:
             bounds = offset_range_s(self._found)
             if bounds is not None and is_offset_outside(self._draft, self._found):

@@ -150,7 +150,7 @@ def row_texts(row: PairRow) -> tuple[str, ...]:
 def missing_text(rows: Sequence[PairRow]) -> str:
     """Return the text of what must be done before learning; empty if nothing."""
     if not rows:
-        return tr("learn_dialog.add_motion_files_and_midi")
+        return tr("learn_dialog.no_pairs_hint")
     for at, row in enumerate(rows):
         if row.draft.motion is None:
             return tr("learn_dialog.motion_missing").format(n=at + 1)

@@ -63,7 +63,7 @@ class MotionModel(QAbstractListModel):
     def segments_text(self, state: int) -> str:
         """Return number and mean length of the segments of a basic motion as text."""
         motion = self.motions[state]
-        return self.tr("motion_model.segments_s_on_average").format(count=motion.segments, seconds=motion.mean_s)
+        return self.tr("motion_model.segments_summary").format(count=motion.segments, seconds=motion.mean_s)
 
     def sources_text(self, state: int) -> str:
         """Return the number of motion files that contain a basic motion as text."""

@@ -125,7 +125,7 @@ class ChoreographyDialog(Retranslated, QDialog):
         self.texted(self.tabs, tabs=titles)
         for view, title in zip((*views, self.credits), titles, strict=True):
             self.texted(view, name=title)
-        self.texted(self._hints["motions"], text="choreography_dialog.most_typical_segment_of_each")
+        self.texted(self._hints["motions"], text="choreography_dialog.gallery_heading")
         self.texted(self._hints["transitions"], text="choreography_dialog.transition_table_hint")
         self.texted(self._hints["graph"], text="choreography_dialog.transitions_hint")
         bottom = in_row(HelpButton(), STRETCH, self._close)
@@ -181,7 +181,7 @@ class ChoreographyDialog(Retranslated, QDialog):
         )
         length_s = sum((one.end - one.start) / float(model.clips[one.clip].fps) for one in model.segments)
         self._heading.setText(
-            self.tr("choreography_dialog.basic_motions_segments_min_sources").format(
+            self.tr("choreography_dialog.model_summary").format(
                 name=model.name,
                 motions=model.states,
                 segments=len(model.segments),
@@ -228,7 +228,7 @@ class ChoreographyDialog(Retranslated, QDialog):
             words = (
                 self.tr("choreography_dialog.repeat_probability")
                 if row == column
-                else self.tr("choreography_dialog.basic_motion_is_followed_by")
+                else self.tr("choreography_dialog.transition_probability")
             )
             return words.format(number=row + 1, next=column + 1, share=_percent(transition[row, column]))
 

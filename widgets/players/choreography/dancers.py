@@ -83,7 +83,7 @@ class DancersSection(Retranslated, QWidget):
         )
         look_tip, dice_tip = (
             "dancers_section.show_choreography",
-            "dancers_section.another_dance_to_same_music",
+            "dancers_section.new_seed_tip",
         )
         self._look = IconButton(session, "information", look_tip, self._show_choreography, "dancer_look")
         self._dice = IconButton(session, "dice", dice_tip, self._new_variation, "dancer_dice")

@@ -79,7 +79,7 @@ class AdditiveLane(CurveEditing):
         """Return the text of an empty lane: how to begin, or why that is not possible."""
         if self.limits == (0.0, 0.0):
             return self.tr("additive_lane.not_here")
-        return self.tr("additive_lane.double_click_to_add").format(channel=channel_name(self.channel))
+        return self.tr("additive_lane.add_key_hint").format(channel=channel_name(self.channel))
 
     # Display
 
