@@ -144,7 +144,7 @@ def grown(tmp_path_factory: pytest.TempPathFactory) -> Path:
     shutil.copytree(ROOT / "app", root / "app")
     for room in ("widgets", "instrument_maps", "metadata", "resources"):
         (root / room).symlink_to(ROOT / room)
-    put_in(root / "app/plan/kinds.py", "    # Of tables", ROW)
+    put_in(root / "app/plan/kinds.py", "    # Gestures from tables", ROW)
     put_in(root / "app/plan/player.py", "BY_MUSIC: Final", FUNCTION)
     put_in(root / "app/plan/player.py", '    "sways": sways,\n', '    "stomps": reading(stomps, times="rhythm"),\n')
     imports = "from app.errors import Message\nfrom app.plan.music.piece import NoteTimes\n"

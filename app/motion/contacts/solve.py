@@ -128,7 +128,8 @@ class PlayerBody(StillPlayer):
 def padding_frames(fps: Fraction) -> int:
     """Number of additional frames that `solve` needs before and after the requested ones."""
     smoothed = max(math.ceil(HELP_EASE_S * fps), math.ceil(OUT_EASE_S * fps))
-    return 2 * smoothed + 2 * math.ceil(OUT_EASE_S * fps) + _seen_every(fps)
+    wrists = 2 * math.ceil(SHOULDER_EASE_S * fps) + _seen_every(fps)
+    return 2 * smoothed + wrists + 2 * math.ceil(OUT_EASE_S * fps) + _seen_every(fps)
 
 
 def _seen_every(fps: Fraction) -> int:
@@ -182,7 +183,7 @@ def _with_elbows_along(
     along_rad = dict(quick_rad)
     for side, share in shares.items():
         whole = np.interp(frames, frames[seen], share)
-        along_rad[side] = partly_slow(quick_rad[side], slow_rad[side], whole, half // 2)
+        along_rad[side] = partly_slow(quick_rad[side], slow_rad[side], whole, quickly)
     return replace(curves.body, elbow_along_rad=along_rad)
 
 

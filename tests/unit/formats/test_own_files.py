@@ -17,7 +17,7 @@ from app.cli.batch import NOTES, _read_notes
 from app.errors import AppError, FileError
 from app.evaluation.answers import read_answers
 from app.evaluation.key import read_key
-from app.evaluation.keyframes import _start_s
+from app.evaluation.keyframes import _report
 from app.evaluation.measures import read_measures
 from app.export.file_names import REPORT
 from app.export.unreal.layout import MANIFEST
@@ -92,7 +92,7 @@ def test_what_lies_in_a_folder_is_a_problem_and_the_rest_goes_on(content: bytes,
 def test_reports_notes_and_caches(content: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / REPORT).write_bytes(content)
     with pytest.raises(FileError) as raised:
-        _start_s(None, tmp_path)
+        _report(tmp_path)
     assert raised.value.message.id == "evaluate.keyframes_report"
     (tmp_path / MANIFEST).write_bytes(content)
     with pytest.raises(FileError):
