@@ -124,11 +124,15 @@ def _hold(
 
 
 def hidden_on(player: Player, instrument: InstrumentMap) -> Message | None:
-    """Return a warning about hands and head that hide most of a fitted instrument; None if enough of it is in sight.
+    """Return a warning about hands and head that hide most of a fitted instrument; None if enough of it is in sight, as
+    always with the hands of bundled bodies.
 
     Cached for each grip, which is computed if it is not known.
     """
-    character, model = character_of(player), model_of(instrument)
+    character = character_of(player)
+    if character.hands_of is not None:
+        return None
+    model = model_of(instrument)
     return _HIDDEN.step(hidden_message, character, model, instrument, body_of(player), hold_of(player, instrument))
 
 
