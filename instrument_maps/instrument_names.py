@@ -121,6 +121,14 @@ class Vocabulary(InstrumentRelations):
         self._words = frozenset(word for name in (*self._by_tokens, *self._marks) for word in name)
         self._longest_mark = max(map(len, self._marks), default=0)
 
+    def names_in(self, language: str) -> dict[str, str]:
+        """Return the names of instruments in a language, by the English names that messages contain."""
+        japanese = language == "ja"
+        return {
+            one.names[0]: one.japanese if japanese and one.japanese else one.names[0]
+            for one in self.instruments.values()
+        }
+
     def stroke(self, text: str) -> int | None:
         """Return the drum kit key (MIDI number) for percussion with this name; None if it is unknown."""
         found = self.by_name(text)

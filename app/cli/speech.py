@@ -66,15 +66,15 @@ class Speech:
     def __call__(self, message: Message) -> str:
         """Return the sentence of a message in the language of the command, with pitches spelled."""
         semitones = int(message.arguments.get(TRANSPOSITION, 0))
-        named = self._with_instruments(message) if self.language == "ja" else message
+        named = message if self.language == "en" else self._with_instruments(message)
         return text(named, self.language, lambda pitch: self.pitch(pitch, semitones))
 
     def _with_instruments(self, message: Message) -> Message:
-        """Return a message with the Japanese names of its instruments; unknown names are unchanged."""
+        """Return a message with its instruments named in the language; unknown names are unchanged."""
         given = {name: value for name, value in message.arguments.items() if name in INSTRUMENTS}
         if not given:
             return message
-        known = {one.names[0]: one.japanese for one in vocabulary().instruments.values() if one.japanese}
+        known = vocabulary().names_in(self.language)
         return Message(
             message.id, {**message.arguments, **{name: known.get(str(value), value) for name, value in given.items()}}
         )

@@ -179,9 +179,7 @@ def parameter_text(text_id: str) -> str:
 
 def _instruments() -> dict[str, str]:
     """Return the names of instruments by map id and by their names in messages."""
-    in_japanese = language() == "ja"
-    known = {one.names[0]: one.japanese if in_japanese else one.names[0] for one in vocabulary().instruments.values()}
-    return known | _WORDS["map"]()
+    return vocabulary().names_in(language()) | _WORDS["map"]()
 
 
 _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
