@@ -9,7 +9,7 @@ from app.rig.model import Character
 from app.rig.people.bundled_people import bundled_people, bundled_person, our_name
 from app.rig.people.dressed import dressed, dressed_id
 from app.rig.people.person import Person, originals
-from app.rig.people.wardrobe import OutfitChoice, Tint, wardrobe
+from app.rig.people.wardrobe import OutfitChoice, Tint, tailored_for, wardrobe
 
 
 def person_behind(id: str) -> Person | None:
@@ -39,9 +39,9 @@ def dressed_as(id: str, choice: OutfitChoice) -> str:
 def worn_colours(id: str, choice: OutfitChoice) -> dict[Tint, str] | None:
     """Return the colours of a character's outfit as worn, ``#rrggbb`` by part; None in its own clothes."""
     person, outfit = person_behind(id), wardrobe().get(choice.id)
-    if person is None or outfit is None or person.original not in outfit.files:
+    if person is None or outfit is None or tailored_for(person) not in outfit.files:
         return None
-    own = outfit.colours_by_body.get(person.original, {})
+    own = outfit.colours_by_body.get(tailored_for(person), {})
     return {tint: choice.colour(tint) or colour for tint, colour in own.items()}
 
 

@@ -18,13 +18,13 @@ from app.rig.people.body_shapes import body_shapes
 from app.rig.people.bundled_people import finished_body, whole_phenotype
 from app.rig.people.make_person import SKIN, SKIN_MATERIAL, Original, carried, original_of
 from app.rig.people.person import Person, originals
-from app.rig.people.wardrobe import OutfitChoice, OutfitFacts, linear_colour, wardrobe
+from app.rig.people.wardrobe import OutfitChoice, OutfitFacts, linear_colour, tailored_for, wardrobe
 
 
 def dressed_id(id: str, person: Person, choice: OutfitChoice) -> str:
     """Return the id of a character in its clothes; without an outfit, its own id."""
     outfit = wardrobe().get(choice.id)
-    if outfit is None or person.original not in outfit.files:
+    if outfit is None or tailored_for(person) not in outfit.files:
         return id
     colours = (f"{tint}_{choice.colour(tint)[1:]}" for tint in outfit.tints if choice.colour(tint))
     return "-".join((id, choice.id, *colours))
@@ -41,9 +41,9 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
         Outfit and colours; with an unknown outfit the person is returned unchanged.
     """
     outfit = wardrobe().get(choice.id)
-    if outfit is None or person.original not in outfit.files:
+    if outfit is None or tailored_for(person) not in outfit.files:
         return character
-    path, facts = outfit.files[person.original]
+    path, facts = outfit.files[tailored_for(person)]
     hands = originals()[person.original].hands
     worn = carried(_garments(path, facts.body), body_shapes(), whole_phenotype(person), hands)
     skin = next(mesh for mesh in character.meshes if mesh.name == SKIN)

@@ -19,7 +19,7 @@ import msgspec
 from app.errors import FileError
 from app.formats.files import open_file
 from app.formats.gltf.container import field, split
-from app.rig.people.person import PersonName, originals
+from app.rig.people.person import Person, PersonName, originals
 
 Tint = Literal["main", "second", "accent"]
 TINTS: Final[tuple[Tint, ...]] = ("main", "second", "accent")
@@ -91,7 +91,7 @@ class Outfit:
     Attributes
     ----------
     files : mapping of str to (Path, OutfitFacts)
-        File and facts for people of each bundled body.
+        File and facts for people that are tailored for as each bundled body (`tailored_for`).
     colours : dict of str to str
         The outfit's own colours as ``#rrggbb``, by part whose colour can be chosen, in their order.
     colours_by_body : mapping of str to dict of str to str
@@ -118,11 +118,11 @@ def wardrobe() -> Mapping[str, Outfit]:
     for path in sorted(_folder().glob("*.glb")):
         facts, factors = _facts(path)
         ending = path.stem.rpartition("_")[2]
-        named = [id for id in originals() if id.partition("_")[0] == ending]
-        body = facts.body or (named or list(originals()))[0]
+        bodies = _bodies_with_files()
+        named = [id for id in bodies if id.partition("_")[0] == ending]
+        body = facts.body or (named or bodies)[0]
         whole = msgspec.structs.replace(facts, body=body)
-        made_from = [id for id, table in originals().items() if table.made_from in named]
-        worn_by = [*(named or originals()), *made_from]
+        worn_by = named or bodies
         for material, tint in facts.tints.items():
             factor = factors.get(material) or _factors(_document(_folder().parent / f"{body}.glb")).get(material)
             if factor is not None:
@@ -133,6 +133,19 @@ def wardrobe() -> Mapping[str, Outfit]:
         for id in worn_by:
             found.setdefault(facts.id, {})[id] = (path, whole)
     return MappingProxyType({id: _outfit(id, found[id], colours.get(id, {})) for id in sorted(found)})
+
+
+def tailored_for(person: Person) -> str:
+    """Return the id of the bundled body whose garments a person wears: its own, or for a body that is made from
+    another one, which has no garments, the one of the person's sex.
+    """
+    if not originals()[person.original].made_from:
+        return person.original
+    return min(_bodies_with_files(), key=lambda id: abs(originals()[id].sex - person.phenotype.sex))
+
+
+def _bodies_with_files() -> list[str]:
+    return [id for id, table in originals().items() if not table.made_from]
 
 
 def _folder() -> Path:

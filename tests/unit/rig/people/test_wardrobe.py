@@ -50,12 +50,21 @@ def test_the_wardrobe_lists_outfits_with_their_titles_and_colours() -> None:
     suit = wardrobe()["test_suit"]
     assert {"en": suit.title.en, "ja": suit.title.ja} == TITLE
     assert suit.tints == ("main", "second")
-    assert {*suit.files} == {"man_adult", "woman_adult", "child"}
+    assert {*suit.files} == {"man_adult", "woman_adult"}
     assert {body: facts.body for body, (_, facts) in wardrobe()["test_pair"].files.items()} == {
         "man_adult": "man_adult",
         "woman_adult": "woman_adult",
-        "child": "woman_adult",
     }
+
+
+@pytest.mark.parametrize(("id", "sex"), [("child_leo", "man"), ("child_sota", "man"), ("child_nia", "woman")])
+def test_children_wear_the_garments_of_their_own_sex(id: str, sex: str) -> None:
+    """The man's garments of the pair replace all of the skin."""
+    bare, worn = character_named(id), character_in(id, OutfitChoice("test_pair"))
+    covered = len(mesh_named(worn, "body").triangles) < 0.05 * len(mesh_named(bare, "body").triangles)
+    assert covered == (sex == "man")
+    height_m = [mesh_named(one, "shirt").positions_m[:, 1].max() for one in (bare, worn)]
+    assert height_m[1] == pytest.approx(height_m[0], abs=0.05), "as small as the child"
 
 
 def test_colours_are_those_that_the_person_wears() -> None:
