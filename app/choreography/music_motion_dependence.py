@@ -4,7 +4,7 @@ Two thirds of the motions of each source are learned from. For the last third, t
 sounds give about the basic motion, in bits per motion, beyond how often its dancer dances each. The same is measured
 with the music of each source divided into sections in another order: a meaningful pairing gives more information than
 nearly all of these (P. Good, "Permutation, Parametric and Bootstrap Tests of Hypotheses", 3rd ed. 2005; sections, since
-consecutive sounds are similar). Copies of a motion are all learned from, or all held out.
+consecutive sounds are similar). Copies of a take count once (`app.choreography.held_out`).
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
+from app.choreography.held_out import evidence_of, sounds_of
 from app.choreography.hit_log_odds import OF_ALL
 from app.choreography.model import ChoreographyModel
-from app.choreography.near_copies import groups_of_copies
 from app.choreography.rhythm import SYMBOLS
 from app.errors import Message
 
@@ -63,10 +63,7 @@ def pairing_of(model: ChoreographyModel, seed: int = 0) -> Pairing | None:
     """Test whether the music of a model gives information about its motion; None if it has no sounds or is
     too short.
     """
-    sounds = np.zeros((len(model.segments), len(SYMBOLS)))
-    for at, one in enumerate(model.segments):
-        np.add.at(sounds[at], list(one.sounds), 1.0)
-    test = _Test(model)
+    sounds, test = sounds_of(model), _Test(model)
     if not sounds.any() or not test.is_long_enough:
         return None
     random = np.random.default_rng(seed)
@@ -102,36 +99,17 @@ def verdict(found: Pairing) -> Message:
     return Message(id_, {"bits": found.bits, "chance": found.chance})
 
 
-def _earliest(groups: IntArray, places: FloatArray) -> FloatArray:
-    """For each of S elements the least place among the elements of its group (S,)."""
-    least = np.full(groups.max(initial=0) + 1, np.inf)
-    np.minimum.at(least, groups, places)
-    return np.asarray(least[groups])
-
-
 class _Test:
     """Motions of a model, divided into those that are learned from and those that are held out for the test."""
 
     def __init__(self, model: ChoreographyModel) -> None:
+        found = evidence_of(model)
         self._states = np.array([one.state for one in model.segments], np.int64)
-        self._clips = np.array([one.clip for one in model.segments], np.int64)
+        self._clips, self._takes = np.array([one.clip for one in model.segments], np.int64), found.takes
         self._shape = (len(model.clips), model.states)
-        places = np.zeros(len(self._states))
-        for clip in range(len(model.clips)):
-            own = np.flatnonzero(self._clips == clip)
-            places[own] = np.arange(len(own)) / max(len(own), 1)
-        groups, sounded = groups_of_copies(model), np.zeros((len(self._states), len(SYMBOLS)))
-        for at, one in enumerate(model.segments):
-            np.add.at(sounded[at], list(one.sounds), 1.0)
-        # A motion copied together with its sounds counts once; other copies are counted among the learned thirds.
-        once = np.zeros(len(places), bool)
-        once[np.unique(np.column_stack([groups, sounded]), axis=0, return_index=True)[1]] = True
-        places = np.where(once, _earliest(groups, places), np.nan)
-        learned = places < LEARNED
         # One half of the learned motions shows how reliably sounds predict the other half.
-        half = places < LEARNED / 2.0
-        self._parts = (np.flatnonzero(half), np.flatnonzero(learned & ~half))
-        self._learned, self._held_out = np.flatnonzero(learned), np.flatnonzero(once & ~learned)
+        self._parts = (found.within(0.0, LEARNED / 2.0), found.within(LEARNED / 2.0, LEARNED))
+        self._learned, self._held_out = found.within(0.0, LEARNED), found.within(LEARNED, np.inf)
 
     @property
     def is_long_enough(self) -> bool:
@@ -163,16 +141,16 @@ class _Test:
         at each of T levels of trust (T,).
         """
         counts = np.zeros((*self._shape, len(SYMBOLS)))
-        np.add.at(counts, (self._clips[learned], self._states[learned]), sounds[learned])
+        np.add.at(counts, (self._takes[learned], self._states[learned]), sounds[learned])
         of_all = counts.sum(axis=0) + 1.0 / len(SYMBOLS)
         own = counts + OF_ALL * of_all / of_all.sum(axis=-1, keepdims=True)
         log_emission = np.log(own / own.sum(axis=-1, keepdims=True))
         often = np.zeros(self._shape)
-        np.add.at(often, (self._clips[learned], self._states[learned]), 1.0)
+        np.add.at(often, (self._takes[learned], self._states[learned]), 1.0)
         often += 1.0 / self._shape[1]
-        clips, states, every = self._clips[asked], self._states[asked], np.arange(len(asked))
-        log_often = np.log(often / often.sum(axis=-1, keepdims=True))[clips]
-        heard = np.einsum("ao,ako->ak", sounds[asked], log_emission[clips])
+        takes, states, every = self._takes[asked], self._states[asked], np.arange(len(asked))
+        log_often = np.log(often / often.sum(axis=-1, keepdims=True))[takes]
+        heard = np.einsum("ao,ako->ak", sounds[asked], log_emission[takes])
         told = []
         for trust in trusts:
             both = log_often + trust * heard
