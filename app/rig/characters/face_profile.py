@@ -60,14 +60,17 @@ def nose_base_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float | No
 def at_height(profile: FloatArray, height_m: float, patch_m: float, count: int) -> IndexArray:
     """Return the indices of at most ``count`` vertices of a profile (V, 3) near a height, all within ``patch_m`` of it.
 
-    If none is that near, the next vertices above or below are used, or both if their middle is nearer to the height.
+    If none is that near, the next vertices above and below are used, repeated so that their mean is near the height.
     """
     off_m = np.abs(profile[:, 1] - height_m)
     if float(off_m.min()) > patch_m:
         over, under = profile[:, 1] >= height_m, profile[:, 1] < height_m
         sets = [np.flatnonzero(side & (off_m <= off_m[side].min() + patch_m)) for side in (over, under) if side.any()]
-        found = [*sets, *([np.concatenate(sets)] if len(sets) > 1 else [])]
-        return min(found, key=lambda rows: abs(float(np.unique(profile[rows, 1].round(4)).mean()) - height_m))
+        if len(sets) == 1:
+            return sets[0]
+        above_m, below_m = (float(profile[rows, 1].mean()) for rows in sets)
+        share = round(count * (height_m - below_m) / (above_m - below_m))
+        return np.concatenate([np.resize(sets[0], share), np.resize(sets[1], count - share)])
     nearest = np.argsort(off_m, kind="stable")[:count]
     nearest = nearest[off_m[nearest] <= 3.0 * patch_m]
     foremost: IndexArray = nearest[profile[nearest, 2] > profile[nearest, 2].max() - patch_m]

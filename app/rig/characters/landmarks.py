@@ -37,6 +37,10 @@ FACING = (0.7, 0.5)
 """Least cosine between a landmark's normals and its direction, and a second value if there are no such normals."""
 LEAST_WEIGHTS = (0.5, 0.25)
 """Least skin weights of a joint's vertices, tried in turn."""
+BEFORE = 0.35
+"""Distance of a face's skin from the head's joint, as a share of the foremost one's, above which it belongs to the
+front.
+"""
 EYES_M, HEAD_M = 0.06, 0.217
 """Distance of the eyes, and height of the head's skin, in metres, for which the lengths in this module were chosen."""
 
@@ -280,7 +284,8 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
     the notch of the profile if there is one."""
     profiles = [_profile(skin, head) for skin in skins]
     # Hair, lashes and teeth are attached to the head too: the face covers most of the lower half of its front.
-    place = max(range(len(skins)), key=lambda number: _covered(skins[number], profiles[number], head), default=-1)
+    covered = _covered(skins, profiles, head)
+    place = max(range(len(skins)), key=covered.__getitem__, default=-1)
     if place < 0 or len(profiles[place]) < 3:
         return {}
     skin, front = skins[place], profiles[place]
@@ -301,10 +306,12 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
     if base_m is not None and requested_m > base_m - (base_m - chin_m) / 6.0:
         requested_m = base_m - (base_m - chin_m) / 3.0
     if base_m is not None:
-        # The nose itself is excluded, if anything else is near.
+        # The nose itself is excluded if anything else is near, its base only if something between it and the chin is.
         under = at[:, 1] < base_m
-        if under.any() and np.abs(at[under, 1] - requested_m).min() < (eyes_m - chin_m) / 4.0:
-            front, at = front[under], at[under]
+        off_m = np.abs(at[under, 1] - requested_m).min(initial=np.inf)
+        if off_m < (eyes_m - chin_m) / 4.0:
+            kept = under if off_m < (base_m - chin_m) / 4.0 else at[:, 1] <= base_m
+            front, at = front[kept], at[kept]
     contact = front[at_height(at, requested_m, PATCH_M * head.size, LIP_VERTICES)]
     heights = skin.positions[contact, 1]
     upper, lower = contact[heights >= np.median(heights)], contact[heights <= np.median(heights)]
@@ -312,14 +319,23 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
     return {name: _landmark(skin, np.sort(rows)) for name, rows in found.items()}
 
 
-def _covered(skin: _Skin, front: IndexArray, head: _Head) -> int:
-    """Return the number of height steps, each as high as a landmark's patch, in which vertices below the eyes lie in
-    front of the head's joint.
+def _covered(skins: list[_Skin], profiles: list[IndexArray], head: _Head) -> list[tuple[int, float]]:
+    """Return how much of the front of a head below the eyes the profile of each of S meshes covers: the number of
+    height steps, each as high as a landmark's patch, in which it has vertices, and the height in metres between its
+    lowest vertex and the eyes.
+
+    Vertices far behind the foremost one, such as those of a neck, do not count.
     """
-    at = skin.positions[front]
     eyes_m = head.place[1] + 0.3 * HEAD_M * head.size if head.eyes_m is None else head.eyes_m
-    before = (at[:, 2] > head.place[2]) & (at[:, 1] < eyes_m)
-    return len(np.unique(np.floor(at[before, 1] / (PATCH_M * head.size))))
+    places = [skin.positions[front] for skin, front in zip(skins, profiles, strict=True)]
+    foremost_m = max((float(at[:, 2].max()) for at in places if len(at)), default=0.0)
+    least_m = head.place[2] + BEFORE * (foremost_m - head.place[2])
+    found = []
+    for at in places:
+        high_m = np.minimum(at[at[:, 2] > least_m, 1], eyes_m)
+        steps = np.unique(np.floor(high_m[high_m < eyes_m] / (PATCH_M * head.size)))
+        found.append((len(steps), float(np.ptp(high_m)) if len(high_m) else 0.0))
+    return found
 
 
 def _profile(skin: _Skin, head: _Head) -> IndexArray:

@@ -6,11 +6,13 @@ from typing import cast
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 
 from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.characters.landmarks import found_landmarks
 from app.rig.characters.t_pose import heaviest
 from app.rig.figure import Figure
+from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.skeleton import JointTransforms, forward, rest_positions
 from app.rig.skinning import landmark_positions, mesh_named, patch, skin_matrices
@@ -49,28 +51,52 @@ NOSE = ((0.20, 0.07), (0.11, 0.10), (0.09, 0.095), (0.06, 0.12), (0.05, 0.122), 
 """Profile of a head with few vertices, as height and distance in front of its joint: forehead, brow, nose, its base,
 chin.
 """
+WIDE_CHIN = (
+    *((0.447, 0.0), (0.428, 0.059), (0.38, 0.113), (0.315, 0.15), (0.241, 0.154), (0.159, 0.174)),
+    *((0.129, 0.184), (0.107, 0.169), *6 * ((0.041, 0.151),), (0.022, 0.127), (-0.004, 0.024)),
+)
+"""Profile of a large head without a vertex between the nose's base and the edge of the chin (Quaternius' knight)."""
 BALL = tuple((0.22 * float(np.cos(turn)) + 0.1, 0.22 * float(np.sin(turn))) for turn in np.linspace(0.1, 3.0, 20))
 COLLAR = ((0.03, -0.04), (-0.09, 0.11), (-0.10, 0.11))
 
 
 @pytest.mark.parametrize(
     ("profile", "lips"),
-    [(NOSE, (-0.01, 0.02)), (BALL, (-0.06, 0.05)), ((*BALL[:13], *COLLAR), (0.0, 0.15))],
-    ids=["nose", "ball", "collar"],
+    [(NOSE, (-0.01, 0.02)), (WIDE_CHIN, (0.06, 0.09)), (BALL, (-0.06, 0.05)), ((*BALL[:13], *COLLAR), (0.0, 0.15))],
+    ids=["nose", "wide chin", "ball", "collar"],
 )
 def test_a_still_face_of_few_vertices_has_its_mouth_below_the_nose(
     profile: tuple[tuple[float, float], ...], lips: tuple[float, float]
 ) -> None:
     """There is no vertex at the lips; neither the tip of the nose, which is nearest, nor a collar is used."""
     body = character_named("woman_adult")
-    head = body.skeleton.index("head")
-    place = rest_positions(body.skeleton)[head]
     points = np.array([(0.0, up, ahead) for up, ahead in profile] + [(side, 0.1, -0.1) for side in (-0.08, 0.08)] * 4)
-    count = len(points)
-    mesh = replace(
+    mesh = on_head(body, "head", points)
+    still = np.tile(np.eye(4), (len(body.skeleton.names), 1, 1))
+    still[:, :3, 3] = -rest_positions(body.skeleton)
+    found = found_landmarks(body.skeleton, still, (mesh,))
+    height_m = float(points[found["lips.contact"].vertices, 1].mean())
+    assert lips[0] < height_m < lips[1]
+
+
+def test_a_face_is_told_from_the_underside_of_its_chin() -> None:
+    """Two meshes: a face of few vertices, and the skin below it back to the neck, which has more."""
+    body = character_named("woman_adult")
+    face = on_head(body, "face", [(0.0, 0.24, 0.13), (0.0, 0.14, 0.16), (0.0, 0.06, 0.15), (0.0, -0.02, 0.13)])
+    under = [(0.0, up, ahead) for up, ahead in ((-0.021, 0.12), (-0.028, 0.121), (-0.05, 0.03), (-0.06, 0.03))]
+    still = np.tile(np.eye(4), (len(body.skeleton.names), 1, 1))
+    still[:, :3, 3] = -rest_positions(body.skeleton)
+    found = found_landmarks(body.skeleton, still, (on_head(body, "under", under), face))
+    assert found["lips.contact"].mesh == "face"
+
+
+def on_head(body: Character, name: str, points: ArrayLike) -> Mesh:
+    """Mesh of vertices (V, 3) in the head's frame that move with the head and face forwards."""
+    head, count = body.skeleton.index("head"), len(np.asarray(points))
+    return replace(
         body.meshes[0],
-        name="head",
-        positions_m=(place + points).astype(np.float32),
+        name=name,
+        positions_m=(rest_positions(body.skeleton)[head] + np.asarray(points)).astype(np.float32),
         normals=np.tile(np.float32([0.0, 0.0, 1.0]), (count, 1)),
         uvs=np.zeros((count, 2), np.float32),
         triangles=np.array([[0, 1, 2]], np.int32),
@@ -79,11 +105,6 @@ def test_a_still_face_of_few_vertices_has_its_mouth_below_the_nose(
         weights=np.ones((count, 1), np.float32),
         morphs=(),
     )
-    still = np.tile(np.eye(4), (len(body.skeleton.names), 1, 1))
-    still[:, :3, 3] = -rest_positions(body.skeleton)
-    found = found_landmarks(body.skeleton, still, (mesh,))
-    height_m = float(points[found["lips.contact"].vertices, 1].mean())
-    assert lips[0] < height_m < lips[1]
 
 
 def test_a_vertex_is_held_by_the_bone_with_most_of_its_weight() -> None:
