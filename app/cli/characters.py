@@ -293,6 +293,7 @@ def checked(
         "kind": reading.figure.origin,
         "plays": not lacking,
         "bones": len(names),
+        "skinned": reading.figure.is_skinned,
         "height_m": round(figure_height(figure) or 0.0, 4),
         "meshes": [mesh.name for mesh in reading.figure.meshes],
         "hidden_meshes": list(hidden),
@@ -334,7 +335,8 @@ def as_text(found: Mapping[str, Any]) -> list[str]:
     if found["notes"] or found["required_joints"]:
         lines += ["", *found["notes"]]
     if found["required_joints"]:
-        lines.append(said("characters.required", names=", ".join(found["required_joints"])))
+        names = ", ".join(found["required_joints"])
+        lines.append(said("characters.required", names=names) if found["skinned"] else said("characters.no_skeleton"))
     return lines
 
 

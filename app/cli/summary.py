@@ -128,6 +128,9 @@ def _judgement(report: Report) -> list[str]:
         lines += [said("export_report.measures", joints=BEYOND_DEG)]
         if any(one.measures is not None and one.measures.breaths.jaw_open is None for one in played):
             lines += [said("export_report.mouth_left_out")]
+        guessed = [one.name for one in played if one.measures is not None and one.measures.lips_guessed]
+        if guessed:
+            lines += [said("export_report.lips_guessed", names=", ".join(guessed))]
         lines += [f"! {one.name}: {', '.join(wrong)}" for one in played if (wrong := _beyond(one))]
     if any(dancer.measures is not None for dancer in report.dancers):
         lines += [
@@ -197,7 +200,7 @@ def _row(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
         f"{right}/{judged}",
         _worst(_contacts(measures, TOUCH_MM)),
         _worst(_contacts(measures, GRIP_MM)),
-        _worst([measures.lips]),
+        "?" if measures.lips_guessed and measures.lips.frames else _worst([measures.lips]),
         _worst(measures.feet.values()),
         _worst([measures.penetration]),
         f"{measures.arms.depth_mm:.1f}{'' if measures.arms.kept else '*'}",

@@ -77,7 +77,8 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
 
     ``hovering`` is the distance of unused fingers from their nearest keys and holes. ``guides`` is the distance of
     stiff fingers from their intended contact, reported without a bound. ``arms`` is the depth of a forearm in trunk and
-    clothes.
+    clothes. ``lips_guessed`` is True for a face without a mouth that opens: `lips` is then the distance from the place
+    guessed for it.
     """
 
     sounding_frames: int
@@ -94,6 +95,7 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
     hovering: dict[str, Spread] = {}
     guides: dict[str, Spread] = {}
     arms: ArmDepth = ArmDepth()
+    lips_guessed: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,6 +191,7 @@ class PlayerJudge:
                 limits=limits,
                 acceleration=acceleration,
                 arms=arms[0],
+                lips_guessed="lips.contact" in character.landmarks and not opens,
                 breaths=_breaths(self.plan.breaths, times_s, jaw, walk.torso_rad, opens),
                 **self._lips(traces, notes),
                 **self._touches(traces, notes, held),

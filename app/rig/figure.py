@@ -10,6 +10,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Final, Literal, TypeAlias
 
+import numpy as np
+
 from app.arrays import FloatArray
 from app.errors import FileError, Message
 from app.rig.mesh import Mesh
@@ -79,6 +81,13 @@ class Figure:
         if not shown:
             raise FileError("figure.all_hidden", file=self.file)
         return replace(self, meshes=shown)
+
+    @property
+    def is_skinned(self) -> bool:
+        """True if different bones move parts of a mesh; False for meshes without a skeleton."""
+        return any(
+            bool(np.ptp(mesh.joints[mesh.weights > 0.0]) > 0) for mesh in self.meshes if (mesh.weights > 0.0).any()
+        )
 
     @property
     def morph_names(self) -> tuple[str, ...]:

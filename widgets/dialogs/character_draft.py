@@ -173,7 +173,9 @@ def not_played(figure: Figure, made: Mapped) -> tuple[str, ...]:
     """Return texts about what a character will not do, the most severe first."""
     _translate, reported = QCoreApplication.translate, list[str]()
     bones, faces = made.joints.bones, made.faces.morphs
-    if made.lacking:
+    if made.lacking and not figure.is_skinned:
+        reported.append(tr("character_words.no_skeleton"))
+    elif made.lacking:
         reported.append(
             tr("character_words.it_cannot_play_yet_choose").format(
                 joints=", ".join(joint_name(joint) for joint in made.lacking)

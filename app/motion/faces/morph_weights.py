@@ -183,10 +183,15 @@ def usual_morphs(embouchure: EmbouchureWeights, lips: Lips) -> dict[str, float]:
 
 def _part_lips(morphs: dict[str, FloatArray], lips: Lips, around: FloatArray, formed: FloatArray) -> None:
     """Set the weight of the jaw in ``morphs`` so that the lips have the required distance, plus the opening for a
-    breath. ``around`` and ``formed`` (F,) are the degrees, 0..1, to which the lips enclose the mouthpiece and form an
-    opening.
+    breath; reduce vowels that alone would part them further. ``around`` and ``formed`` (F,) are the degrees, 0..1, to
+    which the lips enclose the mouthpiece and form an opening.
     """
-    needed = lips.jaw_for(lips.apart_m + lips.opening_m * formed, morphs, len(around))
+    apart_m = lips.apart_m + lips.opening_m * formed
+    shown = [name for name in lips.vowels if name in morphs]
+    if shown:
+        share = 1.0 - around * (1.0 - lips.share_of_vowels(apart_m, morphs, len(around)))
+        morphs.update({name: share * morphs[name] for name in shown})
+    needed = lips.jaw_for(apart_m, morphs, len(around))
     beyond = morphs.get(lips.jaw, np.zeros(len(around)))
     morphs[lips.jaw] = np.clip(around * needed + beyond, 0.0, 1.0)
 

@@ -105,6 +105,8 @@ def _shapes(figure: Figure, table: FaceNames) -> dict[str, dict[str, float]]:
         holders = {
             name: dict.fromkeys(morphs, 1.0) for name, morphs in _named(figure.morph_names, known).items() if morphs
         }
+    eyes = [name for name in holders if table.of == "expressions" and name.startswith(("blink", "look"))]
+    of_eyes = {morph for name in eyes for morph in holders[name]}
     made = {}
     for shape, own in ways.items():
         way = next((way for way in own if all(name in holders for name in way)), None)
@@ -112,7 +114,9 @@ def _shapes(figure: Figure, table: FaceNames) -> dict[str, dict[str, float]]:
             weights: dict[str, float] = defaultdict(float)
             for name, weight in way.items():
                 for morph, share in holders[name].items():
-                    weights[morph] += weight * share
+                    # A smile of the whole face moves lids and gaze too, which have shapes of their own.
+                    if not (shape.startswith("mouth") and morph in of_eyes):
+                        weights[morph] += weight * share
             made[shape] = dict(weights)
     return made
 

@@ -63,6 +63,8 @@ def figure_character(
         A required joint has no bone.
     """
     missing = [name for name in REQUIRED_JOINTS if name not in bones]
+    if missing and not figure.is_skinned:
+        raise FileError("character.no_skeleton", file=figure.file)
     if missing:
         raise FileError("character.incomplete", file=figure.file, joints=", ".join(missing))
     figure = at_height(upright(figure, bones), height_m)

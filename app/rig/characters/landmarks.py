@@ -252,7 +252,7 @@ def _eyes(skeleton: Skeleton, meshes: tuple[Mesh, ...]) -> tuple[FloatArray, Flo
 
 def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
     """Return the landmarks of the lips from the morph that opens the jaw: adjacent vertices near the midline of which
-    it moves one and not the other.
+    it lowers one and not the other.
     """
     jaw = next((morph for name in JAW_MORPHS for morph in skin.mesh.morphs if morph.name == name), None)
     if jaw is None or not len(jaw.vertices):
@@ -264,7 +264,7 @@ def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
     if most <= 0.0:
         return {}
     lower = np.flatnonzero(middle & (drop > 0.6 * most))
-    upper = np.flatnonzero(middle & (np.abs(drop) < 0.3 * most))
+    upper = np.flatnonzero(middle & (drop < 0.3 * most))
     if not len(lower) or not len(upper):
         return {}
     gaps = np.linalg.norm(skin.positions[upper][:, None] - skin.positions[lower][None], axis=2)
@@ -320,7 +320,7 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
 
 
 def _covered(skins: list[_Skin], profiles: list[IndexArray], head: _Head) -> list[tuple[int, float]]:
-    """Return how much of the front of a head below the eyes the profile of each of S meshes covers: the number of
+    """Return the part of a head's front below the eyes that the profile of each of S meshes covers: the number of
     height steps, each as high as a landmark's patch, in which it has vertices, and the height in metres between its
     lowest vertex and the eyes.
 

@@ -241,6 +241,9 @@ class Lips:
         Change of that distance by each morph at weight 1; empty if the lips are neither held apart nor open.
     jaw : str
         Morph that opens the mouth.
+    vowels : tuple of str
+        Other morphs that open it on a face without a shape that closes the lips, such as one with mouth shapes by
+        vowel.
     """
 
     contact_rest_m: FloatArray
@@ -252,6 +255,7 @@ class Lips:
     gap_rest_m: float = 0.0
     gap_deltas_m: Mapping[str, float] = field(default_factory=dict)
     jaw: str = ""
+    vowels: tuple[str, ...] = ()
 
     def contact_m(self, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
         """Return the mouthpiece's position (F, 3) in the head's frame for morph weights (F,) by name."""
@@ -284,6 +288,19 @@ class Lips:
         others = {name: values for name, values in morphs.items() if name != self.jaw}
         needed: FloatArray = (gap_m - self.gap_m(others, frames)) / self.gap_deltas_m[self.jaw]
         return np.clip(needed, 0.0, 1.0)
+
+    def share_of_vowels(self, gap_m: FloatArray, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
+        """Return the share (F,) 0..1 of the weights of `vowels` at which the lips are not more than ``gap_m`` apart
+        while the jaw is closed, with all other weights given.
+        """
+        opened = np.zeros(frames)
+        for name in self.vowels:
+            if name in morphs:
+                opened += self.gap_deltas_m[name] * np.asarray(morphs[name], dtype=np.float64)
+        others = {name: values for name, values in morphs.items() if name != self.jaw and name not in self.vowels}
+        left_m = np.maximum(gap_m - self.gap_m(others, frames), 0.0)
+        share: FloatArray = np.divide(left_m, opened, out=np.ones(frames), where=opened > left_m)
+        return share
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
@@ -40,6 +41,10 @@ MOUTH_M = (0.0, -0.031, 0.104)
 """Position of an adult's lips in the head's frame, for a head without lips."""
 WIDER = (1.0, 2.0, 4.0)
 """Factors of the distance from the middle, tried in turn if there are few vertices."""
+LEAST_PARTED_M = 0.002
+"""Least distance in metres by which the morph that opens an adult's mouth must part the lips."""
+CLOSING_MORPH: Final = "mouthClose"
+"""Shape that closes the lips while the jaw is open; on faces with it, shapes of the lips do not open the mouth."""
 ROUNDS = 3
 """Rounds in which the edges are found with the jaw position that they require; two suffice for convergence."""
 
@@ -98,7 +103,7 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
     contact_m, contact = _in_head(character, places.contact)
     _, carrier = _in_head(character, places.carrier)
     opening_m = body.embouchure[embouchure.kind].opening_m
-    usual_m, gap_m, gap, jaw = contact_m, 0.0, dict[str, float](), ""
+    usual_m, gap_m, gap, jaw, vowels = contact_m, 0.0, dict[str, float](), "", tuple[str, ...]()
     mouth = None if embouchure.lips_apart_m + opening_m == 0.0 else _mouth(character)
     if mouth is not None:
         up, _ = _mouthpiece_axes(character, instrument_map, body)
@@ -109,7 +114,10 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
             name: float((upper.get(name, still) - lower.get(name, still)) @ up)
             for name in sorted(upper.keys() | lower.keys())
         }
-        jaw = mouth.jaw
+        # Lips that the morph hardly parts cannot be set by it: the mouth would stay open for nothing.
+        jaw = mouth.jaw if gap.get(mouth.jaw, 0.0) > LEAST_PARTED_M * mouth.size else ""
+        if jaw and CLOSING_MORPH not in mouth.deltas_m:
+            vowels = tuple(name for name, opens_m in gap.items() if name.startswith("mouth") and opens_m > 0.0)
         if embouchure.lips_apart_m > 0.0:
             # Independent of the face's weights, so that holds need not be fitted again when they change.
             usual_m = _in_head(character, character.landmarks["lips.contact"])[0] - 0.5 * embouchure.lips_apart_m * up
@@ -123,6 +131,7 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
         gap_rest_m=gap_m,
         gap_deltas_m=gap,
         jaw=jaw,
+        vowels=vowels,
     )
 
 
@@ -280,11 +289,14 @@ def _mouth(character: Character) -> _Mouth | None:
     if jaw not in deltas_m:
         return None
     seam_m, _ = _in_head(character, lips)
-    drop = np.linalg.norm(deltas_m[jaw], axis=1)
+    # A drawn mouth that is a slit at rest opens upwards too.
+    drop = np.linalg.norm(deltas_m[jaw], axis=1) * np.where(deltas_m[jaw][:, 1] > 0.0, -1.0, 1.0)
     for wider in WIDER:
         middle = np.abs(positions_m[:, 0] - seam_m[0]) < wider * MIDDLE_M * size
         most = drop[middle].max(initial=0.0)
         upper, lower = middle & (drop < UPPER_SHARE * most), middle & (drop > LOWER_SHARE * most)
+        # A chin that does not move with the mouth lies below it.
+        upper &= positions_m[:, 1] > positions_m[lower, 1].min(initial=np.inf)
         if upper.any() and lower.any():
             return _Mouth(lips.mesh, around.vertices, positions_m, deltas_m, seam_m, jaw, upper, lower, size)
     return None

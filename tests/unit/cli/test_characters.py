@@ -15,6 +15,7 @@ from app.rig.characters import character_library, figure_build, load_character
 from app.rig.characters.character_library import FOLDER_VARIABLE, characters
 from app.rig.characters.joint_mapping import JointMapping, map_joints
 from app.rig.figure import Figure
+from instrument_maps.library import find_map, model_path
 from tests.support.wardrobe import wardrobe_in, write_outfit
 
 DATA = Path(__file__).parents[2] / "data" / "characters"
@@ -143,6 +144,17 @@ def test_a_person_is_made_and_ours_are_named(folder: Path, capsys: pytest.Captur
     assert "Hina / 陽菜" in capsys.readouterr().out
     assert main(["characters", "make", "Tom", "--like", "tom"]) == 2
     assert main(["characters", "make", "Tom", "--like", "cast_thomas", "--age", "7"]) == 2
+
+
+def test_a_mesh_without_a_skeleton_is_refused_with_a_remedy(capsys: pytest.CaptureFixture[str]) -> None:
+    """A list of every joint that is missing would not help."""
+    file = str(model_path(find_map("flute")))
+    assert main(["characters", "check", file]) == 1
+    printed = capsys.readouterr().out
+    assert "Rig it first" in printed
+    assert "leftHand" not in printed
+    assert main(["characters", "add", file]) == 1
+    assert "rig it first" in capsys.readouterr().err
 
 
 def test_a_file_that_is_no_figure_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

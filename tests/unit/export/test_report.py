@@ -151,5 +151,13 @@ def test_the_table_says_that_a_mouth_without_curves_is_not_judged() -> None:
     assert not said(3)
 
 
+def test_the_table_says_that_a_mouth_is_guessed() -> None:
+    """The distance from a guessed place is 0.00 by itself."""
+    lines = summary(report(player(measures(lips=Spread(0.0, 0.0, 2.0, 10), lips_guessed=True))), Path("out"))
+    assert "?" in next(line for line in lines if line.startswith("Ünal"))
+    assert any("its place is guessed" in line and line.endswith("Ünal 🎺)") for line in lines)
+    assert not any("guessed" in line for line in summary(report(player(measures())), Path("out")))
+
+
 def test_columns_stand_below_each_other() -> None:
     assert columns([("a", "bb"), ("ccc", "d")]) == ["a    bb", "ccc   d"]

@@ -10,7 +10,7 @@ from app.errors import Message
 from app.motion.faces.exertion import Lungs
 from app.motion.faces.face_curves import FACE, FaceCurves, breath_opening
 from app.motion.faces.gaze import GAZE, Watching, plan_gaze
-from app.motion.faces.morph_weights import face_morphs, face_sizes
+from app.motion.faces.morph_weights import face_morphs, face_sizes, usual_morphs
 from app.plan.acting import Acting
 from app.plan.model import EmbouchureEvent, ExpressionEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
@@ -108,6 +108,18 @@ def test_the_tongue_is_up_just_before_the_attack_and_down_soon_after() -> None:
     tongue = curves(plan()).tongue.sample(np.array([13.90, 13.96, 13.99, 14.0, 14.04, 14.09]))
     np.testing.assert_allclose(tongue[[0, 2, 3, 5]], [0.0, 1.0, 1.0, 0.0], atol=1e-9)
     assert 0.0 < tongue[4] < tongue[1] < 1.0
+
+
+def test_vowels_part_the_lips_no_further_than_the_mouthpiece_while_notes_sound() -> None:
+    """A face whose shapes of the lips are mouths wide open, as those of vowels are."""
+    opens = {"jawOpen": 0.03, "mouthFunnel": 0.02, "mouthPucker": 0.01}
+    reed = replace(LIPS, apart_m=0.006, gap_deltas_m=opens, jaw="jawOpen", vowels=("mouthFunnel", "mouthPucker"))
+    body, kind = load_body(), "single_reed"
+    usual = usual_morphs(body.embouchure[kind], reed)
+    assert reed.gap_m({name: np.array([weight]) for name, weight in usual.items()}, 1)[0] == pytest.approx(0.006)
+    assert 0.0 < usual["mouthFunnel"] < body.embouchure[kind].usual["mouthFunnel"]
+    shut = replace(reed, apart_m=0.0)
+    assert usual_morphs(body.embouchure[kind], shut)["mouthFunnel"] == 0.0
 
 
 def test_no_morph_jumps() -> None:

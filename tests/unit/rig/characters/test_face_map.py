@@ -224,3 +224,10 @@ def test_a_correction_that_names_nothing_is_refused(
     assert caught.value.message.id == message
     assert named.items() <= caught.value.message.arguments.items()
     assert WORDINGS[message][0].format(**caught.value.message.arguments)
+
+
+def test_a_smile_of_the_whole_face_turns_no_eyes() -> None:
+    expressions = {"aa": {"ah": 1.0}, "happy": {"oh": 0.5, "up": 0.25}, "lookUp": {"up": 1.0}}
+    made = map_morphs(face_of(["ah", "oh", "up"], expressions)).morphs
+    assert made["mouthSmileLeft"] == {"oh": pytest.approx(0.2)}
+    assert made["eyeLookUpLeft"] == {"up": 0.5}

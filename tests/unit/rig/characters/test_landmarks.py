@@ -12,10 +12,13 @@ from app.rig.characters.character_library import bundled_characters, character_n
 from app.rig.characters.landmarks import found_landmarks
 from app.rig.characters.t_pose import heaviest
 from app.rig.figure import Figure
-from app.rig.mesh import Mesh
+from app.rig.grip.lips import fit_lips
+from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character
 from app.rig.skeleton import JointTransforms, forward, rest_positions
 from app.rig.skinning import landmark_positions, mesh_named, patch, skin_matrices
+from instrument_maps.load import bundled_maps
+from metadata.load import load_body
 
 TOLERANCE_M = {"thumb": 0.008, "pad": 0.006, "side": 0.006, "palm": 0.006, "lips": 0.008, "sole": 0.03}
 
@@ -88,6 +91,30 @@ def test_a_face_is_told_from_the_underside_of_its_chin() -> None:
     still[:, :3, 3] = -rest_positions(body.skeleton)
     found = found_landmarks(body.skeleton, still, (on_head(body, "under", under), face))
     assert found["lips.contact"].mesh == "face"
+
+
+DRAWN = [(side, up, 0.12) for up in (0.02, 0.04, -0.015, -0.07, 0.08) for side in (-0.02, 0.0, 0.02)]
+SLIT = [(side, up, 0.121) for up in (0.0005, -0.0005) for side in (-0.003, 0.0, 0.003)]
+
+
+@pytest.mark.parametrize(("opens_m", "jaw"), [(0.022, "jawOpen"), (0.001, "")], ids=["opens", "hardly opens"])
+def test_a_drawn_mouth_opens_upwards_and_downwards(opens_m: float, jaw: str) -> None:
+    """A slit whose shape moves both lips and nothing else; a shape that leaves it shut does not set the lips apart."""
+    body = character_named("woman_adult")
+    slit = np.arange(len(DRAWN), len(DRAWN) + len(SLIT), dtype=np.int32)
+    opened = np.array([(0.0, 0.5 * opens_m if up > 0.0 else -0.5 * opens_m, 0.0) for _, up, _ in SLIT], np.float32)
+    morph = Morph("jawOpen", slit, opened, None)
+    mesh = replace(on_head(body, "face", [*DRAWN, *SLIT]), morphs=(morph,))
+    still = np.tile(np.eye(4), (len(body.skeleton.names), 1, 1))
+    still[:, :3, 3] = -rest_positions(body.skeleton)
+    found = found_landmarks(body.skeleton, still, (mesh,))
+    person = replace(body, joint_from_mesh=still, meshes=(mesh,), landmarks=found)
+    lips = fit_lips(person, bundled_maps()["flute"], load_body())
+    assert lips.jaw == jaw
+    if jaw:
+        assert set(found["lips.contact"].vertices) <= set(slit.tolist())
+        assert lips.gap_rest_m == pytest.approx(0.001, abs=2e-4)
+        assert lips.gap_deltas_m[jaw] == pytest.approx(0.022, abs=0.003)
 
 
 def on_head(body: Character, name: str, points: ArrayLike) -> Mesh:
