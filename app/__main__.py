@@ -94,9 +94,9 @@ def edit(parsed: Namespace) -> int:
     # A warning about sound libraries missing on this system would not help the user.
     os.environ.setdefault("QT_LOGGING_RULES", "qt.multimedia.symbolsresolver=false;qt.multimedia.ffmpeg=false")
     from app.cli.speech import error_sentence
-    from app.cli.status import BAD_INPUT, STOPPED
+    from app.cli.status import BAD_INPUT, BAD_USE, STOPPED
     from app.cli.terminal import warn
-    from app.errors import AppError
+    from app.errors import AppError, UsageError
     from app.shell.app import LaunchOptions
     from app.shell.app import run as run_editor
 
@@ -113,7 +113,7 @@ def edit(parsed: Namespace) -> int:
         return run_editor(start)
     except AppError as error:
         warn(error_sentence(error))
-        return BAD_INPUT
+        return BAD_USE if isinstance(error, UsageError) else BAD_INPUT
     except KeyboardInterrupt:
         return STOPPED
 

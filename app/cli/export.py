@@ -239,6 +239,7 @@ def say_what_is_there(request: ExportRequest, unreal: Path | None) -> None:
             bars=bars,
             props=request.with_props,
             motion_only=request.motion_only,
+            keys=request.keys,
         )
     for id, files in (("export_report.will_replace", seen.replaced), ("export_report.will_remove", seen.removed)):
         if files:

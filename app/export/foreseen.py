@@ -10,9 +10,10 @@ from app.encoding import shown
 from app.errors import Message
 from app.export.earlier_exports import other_bars, remark_on_files_that_stay
 from app.export.file_names import REPORT, file_names, sound_name, stage_names
-from app.export.formats import Format, requested
+from app.export.formats import Format, files_of, requested
 from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import plan_export
+from app.formats.keys import KeyChoice
 from app.performance.ensemble import Performance
 
 
@@ -29,8 +30,8 @@ class Foreseen:
     kept : tuple of Message
         Messages about existing files that will be kept.
     remarks : tuple of Message
-        Remarks about an earlier export (with other bars, of the same music under another name, or files that stay), and
-        about formats whose files will have no face.
+        Remarks about an earlier export (with other bars, of the same music under another name, or files that stay),
+        about formats whose files will have no face, and about keys that not every program reads completely.
     project : UnrealProject or None
         The Unreal project; None for an export into a folder.
     """
@@ -84,6 +85,7 @@ def foresee_folder(
     bars: tuple[int, int] | None = None,
     props: bool = True,
     motion_only: bool = False,
+    keys: KeyChoice = "every",
 ) -> Foreseen:
     """Return a preview of an export into a folder.
 
@@ -99,6 +101,8 @@ def foresee_folder(
         Whether straps and chairs are written.
     motion_only : bool
         Whether meshes are left out.
+    keys : KeyChoice
+        Choice of the frames with keys.
     """
     names = file_names(performance, formats, props)
     project = performance.project
@@ -115,6 +119,7 @@ def foresee_folder(
     replaced = tuple(name for name in written if os.path.exists(folder / name))
     remarks = [other_bars(folder, bars) if replaced else None, remark_on_files_that_stay(folder, written)]
     remarks.append(_without_face(formats) if motion_only else None)
+    remarks.append(_with_tangents(formats) if keys == "reduced" else None)
     return Foreseen(len(written), replaced, remarks=tuple(remark for remark in remarks if remark is not None))
 
 
@@ -124,3 +129,9 @@ def _without_face(formats: frozenset[Format]) -> Message | None:
     """
     faceless = [row.label for row in requested(formats) if row.without_meshes and not row.face_without_meshes]
     return Message("motion_only.no_face", {"formats": ", ".join(faceless)}) if faceless else None
+
+
+def _with_tangents(formats: frozenset[Format]) -> Message | None:
+    """Return a remark about formats whose reduced keys have tangents that Blender ignores; None if there are none."""
+    labels = dict.fromkeys(row.label for row, _ in files_of(formats) if row.tangents)
+    return Message("keys.tangents", {"formats": ", ".join(labels)}) if labels else None

@@ -85,6 +85,8 @@ class FileFormat:
         Whether it is written by default.
     reduces_keys : bool
         Whether it allows fewer keys than one on every frame.
+    tangents : bool
+        Whether reduced keys have tangents, which not every program reads.
     keys_by_pose : bool
         Whether all bones share their keys.
     without_meshes : bool
@@ -113,6 +115,7 @@ class FileFormat:
     read: Callable[[Path, Sequence[SkinnedMesh]], Scene] | None = None
     usual: bool = False
     reduces_keys: bool = True
+    tangents: bool = False
     keys_by_pose: bool = False
     without_meshes: bool = False
     face_without_meshes: bool = False
@@ -213,6 +216,7 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             _write_fbx,
             read=_read_fbx,
             usual=True,
+            tangents=True,
             without_meshes=True,
             face_without_meshes=True,
             textured=True,
@@ -229,7 +233,18 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             reduces_keys=False,
             bones_by_name=True,
         ),
-        FileFormat("glb", "GLB", ".glb", _ALL, 2.0, _write_glb, read=_read_glb, without_meshes=True, textured=True),
+        FileFormat(
+            "glb",
+            "GLB",
+            ".glb",
+            _ALL,
+            2.0,
+            _write_glb,
+            read=_read_glb,
+            tangents=True,
+            without_meshes=True,
+            textured=True,
+        ),
         FileFormat(
             "usd",
             "USD",

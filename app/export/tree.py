@@ -20,6 +20,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePath, PureWindowsPath
 from typing import Final
 
+from app.encoding import shown
 from app.errors import FileError
 from app.formats.files import cannot_write, read_file
 from app.formats.locks import is_locked, lock
@@ -95,7 +96,10 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
             with contextlib.suppress(OSError):  # the file system has no locks
                 lock(stream)
             change = TreeChange(partial / _NEW)
-            yield change
+            try:
+                yield change
+            except FileError as error:
+                raise _named_in_tree(error, change.new, root) from error
             _commit(root, partial, change)
     finally:
         # Files that could not be restored are kept, for the next export to try.
@@ -105,6 +109,18 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
             with contextlib.suppress(OSError):  # it is in use again
                 scratch.rmdir()
         noted.close()
+
+
+def _named_in_tree(error: FileError, new: Path, root: Path) -> FileError:
+    """Return an error that names a file by its place in the tree instead of by the temporary folder ``new``, which the
+    user has not chosen and which is deleted.
+    """
+    file = Path(str(error.message.arguments["file"]))
+    temporary = Path(shown(os.fspath(new)))
+    if not file.is_relative_to(temporary):
+        return error
+    named = {**error.message.arguments, "file": os.fspath(root / file.relative_to(temporary))}
+    return FileError(error.message.id, **named)
 
 
 def clean_up() -> None:

@@ -10,7 +10,7 @@ import subprocess
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
-from typing import IO
+from typing import IO, Final
 
 import imageio_ffmpeg
 import numpy as np
@@ -28,6 +28,10 @@ QUALITY_CRF = 18
 """Constant rate factor of x264 at which most people see no loss."""
 _TOLD = 2000
 """Greatest number of characters of the encoder's error output that are shown."""
+_REFUSALS: Final = tuple(
+    getattr(errno, name) for name in ("ENOSPC", "EDQUOT", "EFBIG", "EROFS") if hasattr(errno, name)
+)
+"""Numbers of the system's reasons for refusing to write a large file."""
 
 
 class VideoWriter:
@@ -148,7 +152,13 @@ def _encoder(
 
 
 def _failed(path: Path, complaint: bytes, status: int) -> FileError:
+    """Return the error for an encoder that failed with a complaint and an exit status: the system's reason alone if it
+    names one of those for which another place or more space helps.
+    """
     detail = complaint.decode(errors="replace").strip()[-_TOLD:]
+    for number in _REFUSALS:
+        if os.strerror(number) in detail:
+            return FileError("file.cannot_write", file=str(path), reason=os.strerror(number))
     return FileError("video.failed", file=str(path), detail=detail or f"status {status}")
 
 

@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QBuffer, QCoreApplication, QEventLoop, QIODevice, QObject, Qt, QTimer
-from PySide6.QtGui import QGuiApplication, QImage
+from PySide6.QtGui import QGuiApplication, QImage, QImageWriter
 from PySide6.QtWidgets import QApplication
 
 from app.audio.playback import Playback
@@ -28,7 +28,7 @@ from app.editor.sound import EditorSound
 from app.editor.streamer import Streamer
 from app.editor.tasks import Tasks, ThreadTasks
 from app.editor.video import ReferenceVideo
-from app.errors import AppError, FileError, Message
+from app.errors import AppError, Message, UsageError
 from app.formats.atomic import atomic_write
 from app.formats.temporary_folders import scratch_folder
 from app.project.autosave import Autosave
@@ -256,8 +256,15 @@ def _end_on_signal(application: QApplication) -> None:
 def picture(start: LaunchOptions, target: Path) -> int:
     """Draw the editor's window once, independent of the user's settings, write it to an image file, and return the exit
     status.
+
+    Raises
+    ------
+    UsageError
+        If the target's suffix is not that of a kind of picture.
     """
     application = make_application()
+    if target.suffix[1:].lower() not in {bytes(kind.data()).decode() for kind in QImageWriter.supportedImageFormats()}:
+        raise UsageError("picture.screenshot_ending", file=str(target))
     stopped = threading.Event()
     signal.signal(signal.SIGINT, lambda number, frame: stopped.set())
 
@@ -329,10 +336,13 @@ def _working(program: Program) -> bool:
 
 
 def _write_picture(image: QImage, target: Path) -> None:
-    """Write a picture in the format given by the file's suffix. Raises FileError."""
+    """Write a picture in the format given by the file's suffix.
+
+    Raises FileError, and UsageError for a kind of picture that cannot be this large.
+    """
     data = QBuffer()
     data.open(QIODevice.OpenModeFlag.WriteOnly)
     if not image.save(data, target.suffix[1:]):  # type: ignore[call-overload]
-        raise FileError("file.cannot_write", file=str(target), reason=f"unknown kind of picture {target.suffix!r}")
+        raise UsageError("picture.screenshot_ending", file=str(target))
     with atomic_write(target) as stream:
         stream.write(data.data().data())

@@ -142,6 +142,7 @@ class ExportDialog(WorkingDialog):
         self._place.changed.connect(lambda: self._skeleton.set_destination(self._place.destination))
         for chooser in (self._skeleton, self._rig, self._place, self._range, self._formats):
             chooser.changed.connect(self._show_outcome)
+        self._keys.currentIndexChanged.connect(self._show_outcome)
         self._players.itemChanged.connect(self._show_players)
         self.texted(self, title="export_dialog.export")
         self.retranslate()
@@ -182,17 +183,8 @@ class ExportDialog(WorkingDialog):
         )
         self._form.addRow(Label(), self._outcome)
         self.fields = (self._players, self._everyone, self._place, self._formats, self._bvh_names, self._keys)
-        self.fields += (
-            self._textures,
-            self._levels,
-            self._skeleton,
-            self._rig,
-            self._face,
-            self._range,
-            self._preroll,
-            self._lead_in,
-            self._rate,
-        )
+        self.fields += (self._textures, self._levels, self._skeleton, self._rig, self._face)
+        self.fields += (self._range, self._preroll, self._lead_in, self._rate)
         columns = in_row((left, 1), (named(Scrolled(self._form), "export_choices"), 2), spacing=18)
         buttons = self._box("export_dialog.export", self.start, self._show_folder)
         in_column((columns, 1), self._under_way, self._progress, buttons, of=self)
@@ -384,6 +376,7 @@ class ExportDialog(WorkingDialog):
                 bars=bars,
                 props=made.props,
                 motion_only=made.motion_only,
+                keys=self.keys,
             )
         lines = []
         if seen.project is not None:

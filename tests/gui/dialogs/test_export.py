@@ -95,8 +95,11 @@ def test_reduced_keys_are_written_where_a_format_can_have_them(
     QTest.mouseClick(fbx, Qt.MouseButton.LeftButton)
     QTest.mouseClick(bvh, Qt.MouseButton.LeftButton)
     assert keys.isVisible()
+    outcome = child(dialog, QLabel, "export_outcome")
+    assert "⚠ Reduced keys of FBX have tangents, which Blender does not read" in outcome.text()
     QTest.keyClick(keys, Qt.Key.Key_Up)
     assert dialog.keys == "every"
+    assert "Blender" not in outcome.text()
     QTest.keyClick(keys, Qt.Key.Key_Down)
     start(dialog)
     report = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))

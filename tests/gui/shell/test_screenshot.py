@@ -65,6 +65,14 @@ def test_a_file_that_cannot_be_read_is_reported(tmp_path: Path) -> None:
     assert not (tmp_path / "window.png").exists()
 
 
+def test_another_ending_than_a_pictures_is_refused_with_those_that_are_possible(tmp_path: Path) -> None:
+    done = suisou("edit", "--screenshot", str(tmp_path / "window.abc"))
+    assert done.returncode == 2
+    assert "window.abc" in done.stderr
+    assert ".png, .jpg" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize("arguments", [(), ("edit",), ("piece.suisou",), ("PIECE.MID",)])
 def test_without_a_display_it_says_so(arguments: tuple[str, ...]) -> None:
     done = suisou(*arguments, DISPLAY="", WAYLAND_DISPLAY="", QT_QPA_PLATFORM="")

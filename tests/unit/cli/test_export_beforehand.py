@@ -61,3 +61,33 @@ def test_an_unreal_project_is_looked_at_before_it_is_written(
     assert f"will be replaced in {tmp_path}: " in said[0]
     assert "SK_Trumpet.fbx" in said[0]
     assert "the export that was there has bars 1 to 1; this one has bars 2 to 3" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("formats", "keys", "named"),
+    [
+        ("glb,usd,fbx", "reduced", "FBX, GLB"),
+        ("vrma", "reduced", "GLB"),
+        ("usd", "reduced", ""),
+        ("glb", "linear", ""),
+        ("glb", "every", ""),
+    ],
+)
+def test_tangents_that_blender_drops_are_named_with_the_remedy(
+    formats: str,
+    keys: str,
+    named: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """The instrument in a GLB beside a VRM Animation has tangents; the character has none."""
+
+    def refuse(*_args: object, **_named: object) -> None:
+        raise FileError("file.cannot_write", file=str(tmp_path), reason="the disk is full")
+
+    monkeypatch.setattr("app.cli.export.write", refuse)
+    main(["export", piece(tmp_path / "x.mid"), "--to", str(tmp_path / "out"), "--format", formats, "--keys", keys])
+    said = capsys.readouterr().err
+    assert (f"reduced keys of {named} have tangents" in said) == bool(named)
+    assert ("--keys linear" in said) == bool(named)

@@ -68,6 +68,18 @@ def test_an_error_changes_nothing(root: Path, error: type[BaseException]) -> Non
     assert contents(root) == BEFORE
 
 
+@pytest.mark.parametrize("folder", ["äöü", "演奏"])
+def test_an_error_names_the_file_at_its_place_and_not_in_the_temporary_folder(tmp_path: Path, folder: str) -> None:
+    root = tmp_path / folder
+    root.mkdir()
+    with pytest.raises(FileError) as caught, tree_into(root, root) as tree:
+        raise FileError("file.cannot_write", file=str(tree.new / "a" / "one"), reason="no space")
+    assert caught.value.message.arguments == {"file": str(root / "a" / "one"), "reason": "no space"}
+    with pytest.raises(FileError) as caught, tree_into(root, root):
+        raise FileError("file.cannot_read", file=str(tmp_path / "two"), reason="gone")
+    assert caught.value.message.arguments["file"] == str(tmp_path / "two")
+
+
 def test_a_folder_made_for_a_failure_goes_again(tmp_path: Path) -> None:
     (tmp_path / "project").mkdir()
     with pytest.raises(LookupError), tree_into(tmp_path / "project", tmp_path / "project" / "src"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import subprocess
 import sys
@@ -78,6 +79,16 @@ def test_an_encoder_that_refuses_is_reported(tmp_path: Path, monkeypatch: pytest
     assert refused.value.message.id == "video.failed"
     assert refused.value.message.arguments == {"file": str(tmp_path / "film.mp4"), "detail": "no room"}
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_full_disk_is_reported_without_the_encoders_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    reason = os.strerror(errno.ENOSPC)
+    says = f"import sys; sys.exit('[out#0/mp4 @ 0x3be] Error writing trailer: {reason}')"
+    monkeypatch.setattr(video, "_command", lambda *given: [sys.executable, "-c", says])
+    with pytest.raises(FileError) as refused:
+        film(tmp_path / "film.mp4", 2000)
+    assert refused.value.message.id == "file.cannot_write"
+    assert refused.value.message.arguments == {"file": str(tmp_path / "film.mp4"), "reason": reason}
 
 
 def test_a_folder_that_is_missing_is_reported_and_not_made(tmp_path: Path) -> None:
