@@ -19,6 +19,8 @@ from app.errors import FileError, Message, UsageError
 from app.plan.generate import COME_UP_S, PREROLL_BEATS, PREROLL_LEAST_S
 from app.project import limits
 from app.project.casting import ConductorPlace, conductor_place
+from app.project.choreography_files import bundled_choreographies
+from app.project.dancer_settings import USUAL_NAME, setting_names, with_dancer_settings, with_dancers
 from app.project.edit.outfits import with_outfits
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_preroll
 from app.project.frame_rate import exact_number
@@ -169,7 +171,9 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
     settings = command.add_argument(
         "--set", dest="settings", action="append", default=[], metavar='"PLAYER.parameter=value"'
     )
-    fill_help(settings, parameters=", ".join(parameter_names()))
+    fill_help(settings, parameters=", ".join(parameter_names()), dancers=", ".join(setting_names()))
+    dancers = command.add_argument("--dancer", dest="dancers", action="append", default=[], metavar='"[NAME=]DANCE"')
+    fill_help(dancers, usual=USUAL_NAME, possible=", ".join(bundled_choreographies()) or "-")
     command.add_argument("--outfit", dest="outfits", action="append", default=[], metavar='"[NAME=]OUTFIT[,COLOUR...]"')
     command.add_argument("--seed", type=whole_number, metavar="N")
     preroll = command.add_argument("--preroll", type=beats, metavar="BEATS")
@@ -218,19 +222,27 @@ def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
     for problems in metadata_library().problems.values():
         warn(sentence(problems[0]))
     project, message = _opened(arguments, maps)
+    project = with_dancers(project, getattr(arguments, "dancers", ()))
     if if_empty and not project.performers:
-        refused = message or Message(if_empty, {"file": shown(arguments.file)})
+        refused = _drums_only(arguments, project) or message or Message(if_empty, {"file": shown(arguments.file)})
         raise FileError(refused.id, **refused.arguments)
     if message is not None:
         warn(sentence(message))
-    settings = parse_settings(
-        arguments.settings, [player.name for player in project.players], maps, tuple(characters())
-    )
+    project, of_players = with_dancer_settings(project, arguments.settings, tuple(characters()))
+    settings = parse_settings(of_players, [player.name for player in project.players], maps, tuple(characters()))
     found = set_piece_settings(project, _piece(arguments, project))
     if getattr(arguments, "preroll", None) is None and not is_project_file(arguments.file):
         # A new piece starts as early as a player needs to raise the instrument, rounded to its beat.
         found = set_preroll(found, preroll_of_new(found))
     return with_outfits(with_settings(found, settings, maps), getattr(arguments, "outfits", ()))
+
+
+def _drums_only(arguments: argparse.Namespace, project: Project) -> Message | None:
+    """Return a message about a piece of percussion only, to which a dancer can dance; None for other pieces."""
+    known = bundled_choreographies()
+    if not (known and project.score.percussion):
+        return None
+    return Message("dancer.drums_only", {"file": shown(arguments.file), "choreography": known[0]})
 
 
 def _piece(arguments: argparse.Namespace, project: Project) -> PieceSettings:

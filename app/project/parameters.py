@@ -114,22 +114,29 @@ def with_settings(parameters: PlayerParameters, settings: Iterable[ParameterSett
     return msgspec.structs.replace(parameters, **changes)
 
 
-def _split(text: str, names: Sequence[str]) -> tuple[tuple[int, ...], str, str]:
-    """Split a setting such as ``Flute.amplitude=0.5`` into indices of players, parameter and value, trying every place
-    of ``.word=``."""
+def setting_readings(text: str) -> list[tuple[str, str, str]]:
+    """Return the possible readings of a setting such as ``Flute.amplitude=0.5``, one for every place of ``.word=``: the
+    performer, the parameter and the value. Raises UsageError if there is none.
+    """
     readings = [
-        (text[: seam.start()], seam.group(1).strip(), text[seam.end() :])
+        (text[: seam.start()], seam.group(1).strip(), text[seam.end() :].strip())
         for seam in re.finditer(r"\.\s*(\w+)\s*=", text)
         if text[: seam.start()].strip()
     ]
     if not readings:
         raise UsageError("set.syntax", text=text)
+    return readings
+
+
+def _split(text: str, names: Sequence[str]) -> tuple[tuple[int, ...], str, str]:
+    """Split a setting into indices of players, parameter and value."""
+    readings = setting_readings(text)
     for player, parameter, value in readings:
         found = matching_players(player, names)
         if found:
             if parameter not in parameter_names():
                 raise UsageError("set.parameter_unknown", parameter=parameter, possible=", ".join(parameter_names()))
-            return found, parameter, value.strip()
+            return found, parameter, value
     raise UsageError("set.player_unknown", player=readings[0][0], possible=", ".join(names) or "-")
 
 
