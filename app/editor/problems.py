@@ -21,6 +21,7 @@ _VIEWS: Final[dict[str, View]] = {
     "character.no_hand": "hands",
     "character.no_lips": "mouth",
     "character.touches_missed": "hands",
+    "character.hands_slid": "hands",
     "character.instrument_hidden": "hands",
     "character.instrument_too_small": "hands",
     "choreography": "ensemble",

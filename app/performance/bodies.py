@@ -21,6 +21,7 @@ from app.rig.grip.fitting.fitted_instrument import FittedInstrument, fitted_to_b
 from app.rig.grip.fitting.grip_files import bundled_path, hold_for, own_hold
 from app.rig.grip.grip_pose import GripPose
 from app.rig.grip.visible_share import hidden_message
+from app.rig.grip.whole_hands import within_reach
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
 from app.rig.people.bundled_people import hands_id
@@ -113,7 +114,8 @@ def _hold(
     with _worked_out(character, instrument):
         hands = character.hands_of
         if hands is None:
-            return hold_for(character, model, instrument, body, progress)
+            grip = hold_for(character, model, instrument, body, progress)
+            return within_reach(character, model, instrument, body, grip)
         own = own_hold(character, model, instrument, load_body())
         if own is not None:
             return own

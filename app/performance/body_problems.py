@@ -13,6 +13,7 @@ from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.performers import Player
 from app.rig.characters.character_library import character_revision, our_characters
+from app.rig.grip.whole_hands import slid_message
 from app.rig.people.bundled_people import not_cast_for
 from app.steps import StepRuns, StepTable
 from instrument_maps.load import bundled_maps
@@ -64,7 +65,8 @@ def body_problems(
             lacking = (*lacking, Message("character.not_cast", {}))
         if waiting:
             return BodyProblems((*lacking, Message("character.hold_waiting", {})))
-        found = (missed_message(hold_of(player, held)), hidden_on(player, held)) if known else ()
+        grip = hold_of(player, held) if known else None
+        found = () if grip is None else (missed_message(grip), slid_message(grip.slid_m), hidden_on(player, held))
         revision = character_revision(player.character_id)
         given = {"instrument": held, "revision": revision, "fingerings": fingerings}
         unreached = runs.begin(REACH, player.id, player=_posed(player), **given).of(_reached).problems

@@ -305,12 +305,17 @@ class Lips:
 
 @dataclass(frozen=True)
 class GripPose:
-    """A character's grip on an instrument: both hands, the lips, and the accuracy of the contacts."""
+    """A character's grip on an instrument: both hands, the lips, and the accuracy of the contacts.
+
+    ``slid_m`` has the distances in metres by which hands lie nearer to the mouthpiece than usual, by side
+    (`app.rig.grip.whole_hands`).
+    """
 
     character_id: str
     instrument_id: str
     hands: tuple[HandHold, ...]
     lips: Lips
+    slid_m: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def finger_joints(self) -> tuple[int, ...]:

@@ -104,7 +104,7 @@ def _touched(character: Character, instrument: InstrumentMap) -> tuple[Instrumen
             hands = tuple(seed for seed in hands if seed.hand != side)
             reported.append(Message("character.no_hand", {"side": side}))
             continue
-        stiff = frozenset(finger for finger in FINGERS if not _bends(character, side, finger))
+        stiff = frozenset(finger for finger in FINGERS if not bends(character, side, finger))
         if stiff and any(_of(contact, side) in stiff for contact in contacts):
             contacts = _guided(contacts, side, stiff)
             reported.append(_stiff(side, stiff))
@@ -144,7 +144,7 @@ def _guided(contacts: tuple[Contact, ...], side: Hand, stiff: frozenset[str]) ->
     return tuple(result)
 
 
-def _bends(character: Character, side: Hand, finger: str) -> bool:
+def bends(character: Character, side: Hand, finger: str) -> bool:
     """Return whether the skin of a fingertip moves with the finger."""
     mark = character.landmarks.get(f"{side}.{finger}.pad")
     if mark is None:
@@ -213,11 +213,12 @@ def _in_sight(
     Arms may then be too short, which is reported; an instrument inside the hands is not seen at all.
     """
     sides = {seed.hand for seed in instrument.hands}
-    if not any(not _bends(character, side, finger) for side in sides for finger in FINGERS):
+    if not any(not bends(character, side, finger) for side in sides for finger in FINGERS):
         return instrument
     whole, shape, lips = scaled(instrument, 1.0 / instrument.size), model(), fit_lips(character, instrument, body)
     places = {
-        seed.hand: (*_palm_place(character, whole, model, seed), _palm_m(character, seed.hand)) for seed in whole.hands
+        seed.hand: (*_palm_place(character, whole, model, seed), palm_middle_m(character, seed.hand))
+        for seed in whole.hands
     }
 
     def seen(size: float) -> float:
@@ -283,7 +284,7 @@ def _asked(
     mouth_m = stand.instrument_m + quaternion.rotate(stand.instrument_rotation, rim_m)
     back = quaternion.conjugate(stand.instrument_rotation)
     shoulder_m = quaternion.rotate(back, stand.joints_m[skeleton.index(f"{side}UpperArm")] - mouth_m)
-    palm_m = _palm_m(character, side)
+    palm_m = palm_middle_m(character, side)
     place_m, turn = _palm_place(character, instrument, model, seed)
     carrier = next((control for control in instrument.controls if control.node == seed.node), None)
     ways_m = np.zeros((2, 3)) if carrier is None else np.stack([np.zeros(3), travel(carrier)])
@@ -306,11 +307,11 @@ def _palm_place(
             seed_turn(seed),
         )
     wrist_m, turn = known
-    palm_m = _palm_m(character, seed.hand)
+    palm_m = palm_middle_m(character, seed.hand)
     return wrist_m + quaternion.rotate(turn, palm_m / _hands(character)), turn
 
 
-def _palm_m(character: Character, side: Hand) -> FloatArray:
+def palm_middle_m(character: Character, side: Hand) -> FloatArray:
     """Return the middle (3,) of the palm's skin in the wrist's frame at rest."""
     skeleton = character.skeleton
     name = f"{side}.palm"
