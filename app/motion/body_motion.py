@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from app.arrays import FloatArray
+from app.arrays import FloatArray, IndexArray
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
 from metadata.model import Posture
 
@@ -99,7 +99,7 @@ class BodyMotion:
     hands: dict[str, FloatArray] = field(default_factory=dict)
     looks: dict[str, FloatArray] = field(default_factory=dict)
 
-    def __getitem__(self, frames: slice) -> BodyMotion:
+    def __getitem__(self, frames: slice | IndexArray) -> BodyMotion:
         """Return the motion in a range of frames."""
         return self._each(lambda values: values[frames])
 

@@ -20,13 +20,12 @@ ArrayLike = npt.ArrayLike
 IDENTITY: FloatArray = np.array([0.0, 0.0, 0.0, 1.0])
 IDENTITY.setflags(write=False)
 
-_FEW = 48
-"""Number of quaternions up to which calls of NumPy dominate, so that rows are multiplied instead of components."""
-# Components of the right factor that meet components 3, 0, 1, 2 of the left one, and their signs; the order of
-# summation is fixed, so results are equal to the bit.
-_LEFT = np.array([[3], [0], [1], [2]])
-_RIGHT = np.array([[0, 1, 2, 3], [3, 2, 1, 0], [2, 3, 0, 1], [1, 0, 3, 2]])
-_SIGN = np.array([[1.0, 1.0, 1.0, 1.0], [1.0, -1.0, 1.0, -1.0], [1.0, 1.0, -1.0, -1.0], [-1.0, 1.0, 1.0, -1.0]])
+_FEW = 1024
+"""Number of quaternions up to which calls of NumPy dominate, so that all products of components are made at once."""
+# Components of the right factor, or of its negative (4 to 7), that meet components 3, 0, 1, 2 of the left one; the
+# order of summation is fixed, so results are equal to the bit.
+_LEFT = np.array([3, 0, 1, 2])
+_RIGHT = np.array([[0, 1, 2, 3], [3, 6, 1, 4], [2, 3, 4, 5], [5, 0, 3, 6]])
 # Indices of both halves of a cross product.
 _NEXT = np.array([[1, 2, 0], [2, 0, 1]])
 _PREVIOUS = np.array([[2, 0, 1], [1, 2, 0]])
@@ -51,6 +50,10 @@ def _is_one(a: npt.NDArray[Any], size: int) -> bool:
 def _are_few(a: npt.NDArray[Any], b: npt.NDArray[Any]) -> bool:
     few = a.ndim <= 2 and b.ndim <= 2 and len(a) <= _FEW and len(b) <= _FEW
     return few and a.dtype == np.float64 and b.dtype == np.float64
+
+
+def _rows(a: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    return a if a.ndim == 2 else a[None]
 
 
 def columns(*components: ArrayLike) -> FloatArray:
@@ -97,11 +100,12 @@ def multiply(a: ArrayLike, b: ArrayLike) -> FloatArray:
         one: FloatArray = np.array(row).reshape(a.shape if a.ndim >= b.ndim else b.shape)
         return one
     if _are_few(a, b):
-        terms = a.take(_LEFT, axis=-1) * (b.take(_RIGHT, axis=-1) * _SIGN)
-        product: FloatArray = terms[..., 0, :] + terms[..., 1, :]
-        product += terms[..., 2, :]
-        product += terms[..., 3, :]
-        return product
+        factors = _rows(b).T
+        terms = _rows(a).T.take(_LEFT, axis=0)[:, None] * np.concatenate((factors, -factors)).take(_RIGHT, axis=0)
+        product: FloatArray = terms[0] + terms[1]
+        product += terms[2]
+        product += terms[3]
+        return product.T
     left, right = [a[..., i] for i in (3, 0, 1, 2)], [b[..., i] for i in range(4)]
     shape, kind = np.broadcast(left[0], right[0]).shape, np.result_type(a, b)
     result, term = np.empty((4, *shape), kind), np.empty(shape, kind)
@@ -131,14 +135,16 @@ def rotate(q: ArrayLike, v: ArrayLike) -> FloatArray:
         one: FloatArray = np.array(row).reshape(v.shape if v.ndim >= q.ndim else (*q.shape[:-1], 3))
         return one
     if _are_few(q, v):
-        axis = q.take(_NEXT, axis=-1)
-        halves = axis * v.take(_PREVIOUS, axis=-1)
-        twice = 2.0 * (halves[..., 0, :] - halves[..., 1, :])
-        halves = axis * twice.take(_PREVIOUS, axis=-1)
-        turned: FloatArray = v + q[..., 3:] * twice
-        turned += halves[..., 0, :]
-        turned -= halves[..., 1, :]
-        return turned
+        components, vectors = _rows(q).T, _rows(v).T
+        axis = components.take(_NEXT, axis=0)
+        halves = axis * vectors.take(_PREVIOUS, axis=0)
+        twice = halves[0] - halves[1]
+        twice *= 2.0
+        halves = axis * twice.take(_PREVIOUS, axis=0)
+        turned: FloatArray = vectors + components[3] * twice
+        turned += halves[0]
+        turned -= halves[1]
+        return turned.T
     x, y, z, w = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
     vx, vy, vz = v[..., 0], v[..., 1], v[..., 2]
     # v + 2 w (u x v) + 2 u x (u x v), with t = 2 u x v

@@ -61,9 +61,11 @@ class TrunkShape:
     radii_m: dict[Side, FloatArray]
 
     @cached_property
-    def sizes_m(self) -> tuple[FloatArray, ...]:
-        """Size (3,) of each joint's grid."""
-        return tuple((np.array(grid.shape) - 1) * CELL_M for grid in self.grids_m)
+    def bounds_m(self) -> tuple[FloatArray, FloatArray]:
+        """Lowest and highest corner (J, 1, 3) of each joint's grid in the joint's frame."""
+        low_m = np.stack(self.corners_m)
+        high_m = low_m + [(np.array(grid.shape) - 1) * CELL_M for grid in self.grids_m]
+        return low_m[:, None], high_m[:, None]
 
     def depths_m(self, number: int, points_m: FloatArray) -> FloatArray:
         """Return the depth (N,) inside the surface of points (N, 3) in the frame of ``joints[number]``.

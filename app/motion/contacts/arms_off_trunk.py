@@ -45,11 +45,11 @@ LEAST_ROOM_RAD = float(np.deg2rad(0.5))
 
 @dataclass(frozen=True, eq=False)
 class TrunkPose:
-    """A body's trunk and thighs at some frames: rotation (F, 4) and position (F, 3) of each joint of the shape."""
+    """A body's trunk and thighs at some frames: rotation (J, F, 4) and position (J, F, 3) of the shape's J joints."""
 
     shape: TrunkShape
-    rotations: tuple[FloatArray, ...]
-    positions_m: tuple[FloatArray, ...]
+    rotations: FloatArray
+    positions_m: FloatArray
 
     @classmethod
     def of(cls, shape: TrunkShape, skeleton: Skeleton, upper: UpperBody, legs: Mapping[int, FloatArray]) -> TrunkPose:
@@ -69,21 +69,20 @@ class TrunkPose:
             turn = quaternion.multiply(above, local[joint]) if joint in local else above
             world[joint] = turn, above_m + quaternion.rotate(above, skeleton.offsets_m[joint])
         rotations, positions_m = zip(*(world[joint] for joint in shape.joints), strict=True)
-        return cls(shape, rotations, positions_m)
+        return cls(shape, np.stack(rotations), np.stack(positions_m))
 
     @cached_property
-    def matrices(self) -> tuple[FloatArray, ...]:
-        """Return the rotation (F, 3, 3) of each joint."""
-        return tuple(map(quaternion.to_matrix, self.rotations))
+    def matrices(self) -> FloatArray:
+        """Return the rotation (J, F, 3, 3) of each joint."""
+        return quaternion.to_matrix(self.rotations)
 
     def depths_m(self, points_m: FloatArray) -> FloatArray:
         """Return the depth (F, P) of P points (F, P, 3) in each frame; at least minus `BEYOND_M`."""
         deepest = np.full(points_m.shape[:2], -BEYOND_M)
+        low_m, high_m = self.shape.bounds_m
         for number, (matrix, position_m) in enumerate(zip(self.matrices, self.positions_m, strict=True)):
             local_m = np.matmul(points_m - position_m[:, None], matrix)
-            low_m = self.shape.corners_m[number]
-            high_m = low_m + self.shape.sizes_m[number]
-            near = ((local_m > low_m) & (local_m < high_m)).all(axis=2)
+            near = ((local_m > low_m[number]) & (local_m < high_m[number])).all(axis=2)
             if near.any():
                 deepest[near] = np.maximum(deepest[near], self.shape.depths_m(number, local_m[near]))
         return deepest
@@ -215,15 +214,15 @@ class _Forearm:
         Room for the forearm at `ALONG`.
     wrist_m : (F, 3) float64
         World position of the wrist.
-    seen_m : tuple of (4, F, 3) float64
-        In the frame of each joint of the shape: centre of the elbow's circle, wrist, vector from the centre to the
+    seen_m : (4, J, F, 3) float64
+        In the frame of each of the shape's J joints: centre of the elbow's circle, wrist, vector from the centre to the
         elbow, and the vector a quarter of a turn further.
     """
 
     shape: TrunkShape
     thick_m: FloatArray
     wrist_m: FloatArray
-    seen_m: tuple[FloatArray, ...]
+    seen_m: FloatArray
 
     @classmethod
     def of(cls, side: Side, solved: SolvedArm, posed: TrunkPose) -> _Forearm:
@@ -234,27 +233,23 @@ class _Forearm:
         along_m = line * quaternion.dot(line, elbow_m)[:, None]
         centre_m, off_m = solved.shoulder.joint_m + along_m, elbow_m - along_m
         vectors_m = np.stack([centre_m, wrist_m, off_m, quaternion.cross(line, off_m)], axis=1)
-        seen_m = []
-        for matrix, position_m in zip(posed.matrices, posed.positions_m, strict=True):
-            from_joint_m = vectors_m.copy()
-            from_joint_m[:, :2] -= position_m[:, None]
-            seen_m.append(np.ascontiguousarray(np.matmul(from_joint_m, matrix).transpose(1, 0, 2)))
-        return cls(posed.shape, posed.shape.radii_m[side] + CLOTH_M, wrist_m, tuple(seen_m))
+        from_joints_m = np.repeat(vectors_m[None], len(posed.positions_m), axis=0)
+        from_joints_m[:, :, :2] -= posed.positions_m[:, :, None]
+        seen_m = np.ascontiguousarray(np.matmul(from_joints_m, posed.matrices).transpose(2, 0, 1, 3))
+        return cls(posed.shape, posed.shape.radii_m[side] + CLOTH_M, wrist_m, seen_m)
 
     def inside_m(self, frames: IndexArray, turn_rad: float) -> FloatArray:
         """Return the greatest depth (K,) in K frames with the elbow turned about the line by ``turn_rad``."""
         deepest_m = np.full((len(frames), len(ALONG)), -BEYOND_M)
         cosine, sine = float(np.cos(turn_rad)), float(np.sin(turn_rad))
-        for number, seen_m in enumerate(self.seen_m):
-            centre_m, wrist_m, off_m, across_m = seen_m[:, frames]
-            elbow_m = centre_m + cosine * off_m + sine * across_m
-            low_m = self.shape.corners_m[number]
-            high_m = low_m + self.shape.sizes_m[number]
-            reaches = (np.maximum(elbow_m, wrist_m) > low_m) & (np.minimum(elbow_m, wrist_m) < high_m)
-            near = np.flatnonzero(reaches.all(axis=1))
+        centres_m, wrists_m, off_m, across_m = self.seen_m[:, :, frames]
+        elbows_m = centres_m + cosine * off_m + sine * across_m
+        low_m, high_m = self.shape.bounds_m
+        reaches = (np.maximum(elbows_m, wrists_m) > low_m) & (np.minimum(elbows_m, wrists_m) < high_m)
+        for number, near in enumerate(map(np.flatnonzero, reaches.all(axis=2))):
             if not len(near):
                 continue
-            elbow_m, wrist_m = elbow_m[near, None], wrist_m[near, None]
+            elbow_m, wrist_m = elbows_m[number, near, None], wrists_m[number, near, None]
             points_m = (elbow_m + ALONG[:, None] * (wrist_m - elbow_m)).reshape(-1, 3)
             found_m = self.shape.depths_m(number, points_m).reshape(len(near), -1)
             deepest_m[near] = np.maximum(deepest_m[near], found_m)

@@ -13,7 +13,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.arms import solve_arms
-from app.motion.contacts.arms_off_trunk import Outward, outward, slow_share
+from app.motion.contacts.arms_off_trunk import outward
 from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.controls_within_reach import controls_within_reach
 from app.motion.contacts.endpin import EndpinStand
@@ -25,14 +25,12 @@ from app.motion.contacts.shares_of_help import (
     HELP_EASE_S,
     OUT_EASE_S,
     SHOULDER_EASE_S,
-    elbows_along,
     leaned_to_far_hand,
-    partly_slow,
     smoothed_help,
-    smoothed_outward,
     turned_to_far_hand,
     with_room,
 )
+from app.motion.contacts.smooth_elbows import seen_every, with_elbows_along, with_elbows_off_trunk
 from app.motion.contacts.still_player import ContactCurves, StillPlayer
 from app.motion.contacts.trunk_and_legs import hips_path, solve_legs, trunk
 from app.motion.contacts.upper_body import UpperBody, joined, upper_body
@@ -57,8 +55,6 @@ from instrument_maps.model import Endpin
 
 CHUNK = 4096
 """Number of frames solved at a time, so that they fit the processor's cache."""
-OUT_SEEN_S = 0.07
-"""Interval in seconds at which the turns of elbows away from the trunk are computed."""
 LEAST_DRAWN_M = 0.01
 """Least divisor in metres for the effect of the help, if the help has hardly any."""
 LEAST_LEANT_M = 0.005
@@ -128,13 +124,9 @@ class PlayerBody(StillPlayer):
 def padding_frames(fps: Fraction) -> int:
     """Number of additional frames that `solve` needs before and after the requested ones."""
     smoothed = max(math.ceil(HELP_EASE_S * fps), math.ceil(OUT_EASE_S * fps))
-    wrists = 2 * math.ceil(SHOULDER_EASE_S * fps) + _seen_every(fps)
-    return 2 * smoothed + wrists + 2 * math.ceil(OUT_EASE_S * fps) + _seen_every(fps)
-
-
-def _seen_every(fps: Fraction) -> int:
-    """Frames apart at which it is seen how far elbows have to go out."""
-    return max(1, math.floor(OUT_SEEN_S * fps))
+    # Between the frames seen, both neighbours are needed.
+    wrists = 2 * math.ceil(SHOULDER_EASE_S * fps) + seen_every(fps) - 1
+    return 2 * smoothed + wrists + 2 * math.ceil(OUT_EASE_S * fps) + seen_every(fps) - 1
 
 
 def solve(
@@ -160,50 +152,13 @@ def solve(
     curves = replace(curves, body=body_with_help(player, curves.body, given))
     if given.moves_trunk:
         uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
-    curves = replace(curves, body=_with_elbows_along(player, curves, joined(uppers), needed, fps, first_frame - pad))
+    curves = replace(curves, body=with_elbows_along(player, curves, joined(uppers), needed, fps, first_frame - pad))
     if player.shape is not None:
-        curves = replace(curves, body=_with_elbows_out(player, curves, joined(uppers), fps, first_frame - pad))
+        curves = replace(
+            curves, body=with_elbows_off_trunk(player, curves, joined(uppers), fps, first_frame - pad, player.put_aside)
+        )
     asked = slice(pad, len(curves) - pad, every)
     return poses(player, curves[asked], fps / every, first_frame_s, joined(uppers)[asked])
-
-
-def _with_elbows_along(
-    player: PlayerBody, curves: ContactCurves, upper: UpperBody, needed: list[Help], fps: Fraction, first_frame: int
-) -> BodyMotion:
-    """Body motion with elbows that go outwards beside a reaching shoulder, slowly where their wrists allow it."""
-    half, quickly = (math.ceil(seconds * fps) for seconds in (OUT_EASE_S, SHOULDER_EASE_S))
-    slow_rad, quick_rad = elbows_along(needed, half), elbows_along(needed, quickly)
-    if not any(np.any(along) for along in slow_rad.values()):
-        return curves.body
-    apart, frames = _seen_every(fps), np.arange(len(curves))
-    seen = slice(-first_frame % apart, len(curves), apart)
-    curves = replace(curves, body=replace(curves.body, elbow_along_rad=quick_rad))
-    seen_rad = {side: along[seen] for side, along in slow_rad.items()}
-    shares = slow_share(player, curves[seen], upper[seen], seen_rad)
-    along_rad = dict(quick_rad)
-    for side, share in shares.items():
-        whole = np.interp(frames, frames[seen], share)
-        along_rad[side] = partly_slow(quick_rad[side], slow_rad[side], whole, quickly)
-    return replace(curves.body, elbow_along_rad=along_rad)
-
-
-def _with_elbows_out(
-    player: PlayerBody, curves: ContactCurves, upper: UpperBody, fps: Fraction, first_frame: int
-) -> BodyMotion:
-    """Body motion with elbows smoothly turned out of the trunk's way. It is seen at the same frames in every span."""
-    apart, frames, half = _seen_every(fps), np.arange(len(curves)), math.ceil(OUT_EASE_S * fps)
-    seen = slice(-first_frame % apart, len(curves), apart)
-    # An elbow is out up to 2 half before and after, where the greatest turn is the least of as many frames.
-    within = math.ceil(4 * half / apart) + 1
-    found = outward(player, curves[seen], upper[seen], player.put_aside, within)
-    if found is None:
-        return curves.body
-    needed_rad, most_rad = (
-        {side: np.interp(frames, frames[seen], turn) for side, turn in turns.items()}
-        for turns in (found.needed_rad, found.most_rad)
-    )
-    turned_rad = smoothed_outward(Outward(needed_rad, most_rad), half)
-    return replace(curves.body, elbow_out_rad=turned_rad)
 
 
 def poses(

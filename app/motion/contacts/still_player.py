@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from app.arrays import FloatArray
+from app.arrays import FloatArray, IndexArray
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.endpin import EndpinStand
@@ -95,7 +95,7 @@ class ContactCurves:
     def __len__(self) -> int:
         return len(self.mouth_open)
 
-    def __getitem__(self, frames: slice) -> ContactCurves:
+    def __getitem__(self, frames: slice | IndexArray) -> ContactCurves:
         return ContactCurves(
             self.body[frames],
             {name: values[frames] for name, values in self.controls.items()},

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.arrays import FloatArray
+from app.arrays import FloatArray, IndexArray
 from app.motion.by_hand.pose_corrections import within
 from app.motion.contacts.carried_instrument import (
     Z_AXIS,
@@ -38,7 +38,7 @@ class UpperBody:
     trunk: Trunk
     carried: InstrumentTransform
 
-    def __getitem__(self, frames: slice) -> UpperBody:
+    def __getitem__(self, frames: slice | IndexArray) -> UpperBody:
         trunk, carried = self.trunk, self.carried
         parts = (trunk.chest, trunk.chest_m, trunk.head, trunk.head_m)
         return UpperBody(
