@@ -12,12 +12,15 @@ from typing import Final
 
 import msgspec
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from app.arrays import AnyIntArray, FloatArray, IndexArray
 from app.export.joint_playback import JointPlayback
 from app.export.playback import PlaybackBones, ScenePlayback, Surface
 from app.formats.scene import SkinnedMesh
+from app.rig import quaternion
 
 ARM_MM: Final = 10.0
 """Depth in millimetres of a forearm inside cloth that is tolerated, since cloth yields."""
@@ -32,6 +35,16 @@ _ASIDE_M: Final = 0.015
 """Sideways distance in metres from the nearest vertex above which a point is beyond an edge such as a hem or collar,
 and not inside.
 """
+_ENCLOSED: Final = 0.6
+"""Least winding number of a surface about a point inside it. Beside a closed surface with holes, such as a jacket with
+neck and hem, it is near 1 inside; on either side of an open sheet, such as a trim, at most 0.5."""
+_SEAM_M: Final = 1e-4
+"""Distance in metres within which vertices are one, as at seams of textures."""
+_BELOW_M, _PROBES = 0.004, 16
+"""Depth in metres below a part of a surface, and number of points there, that show whether it encloses a volume."""
+_TESTED: Final = 24
+"""Number of points whose winding numbers are computed at a time."""
+_MOST_TESTED: Final = 480
 _MOST_FRAMES, _APART_S, _SAMPLES, _CHUNK = 12, 0.25, 8, 2048
 
 
@@ -110,7 +123,30 @@ class _TrunkSurface:
         away, nearest = cKDTree(places_m).query(points_m)
         inside = -np.einsum("pi,pi->p", points_m - places_m[nearest], self.normals(places_m)[nearest])
         aside = np.sqrt(np.maximum(away**2 - inside**2, 0.0))
-        return float(np.where(aside < _ASIDE_M, inside, 0.0).max(initial=0.0))
+        deep = np.flatnonzero((aside < _ASIDE_M) & (inside > 0.0))
+        deep = deep[np.argsort(-inside[deep], kind="stable")]
+        # Of very many points of open sheets, some of all depths are tested.
+        deep = deep[:: 1 + len(deep) // _MOST_TESTED]
+        corners_m = places_m[self._triangles]
+        for first in range(0, len(deep), _TESTED):
+            tested = deep[first : first + _TESTED]
+            enclosed = np.flatnonzero(_winding_numbers(points_m[tested], corners_m) > _ENCLOSED)
+            if len(enclosed):
+                return float(inside[tested[enclosed[0]]])
+        return 0.0
+
+
+def _winding_numbers(points_m: FloatArray, corners_m: FloatArray) -> FloatArray:
+    """Return the winding numbers (P,) of a surface of T triangles (T, 3, 3) about P points (P, 3): the sum of the solid
+    angles of its triangles (van Oosterom and Strackee 1983) over a full sphere's; positive inside.
+    """
+    a, b, c = (corners_m[None, :, corner] - points_m[:, None] for corner in range(3))
+    far_a, far_b, far_c = (np.sqrt(quaternion.dot(side, side)) for side in (a, b, c))
+    volume = quaternion.dot(a, quaternion.cross(b, c))
+    flat = far_a * far_b * far_c
+    flat += quaternion.dot(a, b) * far_c + quaternion.dot(b, c) * far_a + quaternion.dot(c, a) * far_b
+    turns: FloatArray = np.arctan2(volume, flat).sum(axis=1) / (2.0 * np.pi)
+    return turns
 
 
 def _surfaces(joints: JointPlayback, mesh: SkinnedMesh) -> Iterator[_TrunkSurface]:
@@ -125,7 +161,31 @@ def _surfaces(joints: JointPlayback, mesh: SkinnedMesh) -> Iterator[_TrunkSurfac
         if len(faces):
             # Polygons are split into fans of triangles.
             fans = [faces[:, [0, corner, corner + 1]] for corner in range(1, faces.shape[1] - 1)]
-            yield _TrunkSurface(joints.playback, mesh, np.unique(faces), np.concatenate(fans))
+            triangles = _enclosing(np.asarray(mesh.vertices_cm, np.float64) / 100.0, np.concatenate(fans))
+            if len(triangles):
+                yield _TrunkSurface(joints.playback, mesh, np.unique(triangles), triangles)
+
+
+def _enclosing(places_m: FloatArray, triangles: AnyIntArray) -> AnyIntArray:
+    """Return those of the triangles (T, 3) over vertices (V, 3) whose connected parts enclose a volume, alone or
+    together: no trims, linings or single panels, which have no inside."""
+    used, corners = np.unique(triangles, return_inverse=True)
+    # Vertices that lie together, as at seams of textures, are one.
+    _, together = np.unique(np.rint(places_m[used] / _SEAM_M).astype(np.int64), axis=0, return_inverse=True)
+    corners = together.reshape(-1)[corners.reshape(-1)].reshape(-1, 3)
+    links = (np.ones(2 * len(corners)), (corners[:, [0, 1]].ravel(), corners[:, [1, 2]].ravel()))
+    _, part_of = connected_components(coo_matrix(links, shape=(int(corners.max()) + 1,) * 2), directed=False)
+    part = part_of[corners[:, 0]]
+    kept = np.zeros(int(part.max()) + 1, np.bool_)
+    shape_m = places_m[triangles]
+    across = np.cross(shape_m[:, 1] - shape_m[:, 0], shape_m[:, 2] - shape_m[:, 0])
+    below_m = shape_m.mean(axis=1) - _BELOW_M * across / np.maximum(np.linalg.norm(across, axis=1), 1e-12)[:, None]
+    for number in range(len(kept)):
+        own = np.flatnonzero(part == number)
+        probed = own[:: 1 + len(own) // _PROBES]
+        kept[number] = np.median(_winding_numbers(below_m[probed], shape_m)) > _ENCLOSED
+    enclosing: AnyIntArray = triangles[kept[part]]
+    return enclosing
 
 
 def _share(joints: JointPlayback, mesh: SkinnedMesh, names: Collection[str]) -> FloatArray:

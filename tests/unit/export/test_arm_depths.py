@@ -40,8 +40,19 @@ def mesh(name: str, bone: int, places_m: np.ndarray, faces: np.ndarray, binds: n
     )  # fmt: skip
 
 
-def judged(left_m: np.ndarray, open_below: bool = False) -> ArmDepth:
-    """Depth of a left forearm that is a small sphere at positions (F, 3) relative to the trunk's centre."""
+def sheet(at_m: float, normal: float) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices in metres, and triangles of a square trim before the trunk that faces forwards (1) or backwards (-1)."""
+    x, y = np.meshgrid(np.linspace(-0.15, 0.15, 13), np.linspace(-0.15, 0.15, 13))
+    places = np.stack([x.ravel(), y.ravel(), np.full(x.size, at_m)], axis=1)
+    row, column = np.meshgrid(np.arange(12), np.arange(12), indexing="ij")
+    here = (13 * row + column).ravel()
+    faces = np.concatenate([np.stack([here, here + 1, here + 14], -1), np.stack([here, here + 14, here + 13], -1)])
+    return places, faces if normal > 0.0 else faces[:, ::-1]
+
+
+def judged(left_m: np.ndarray, open_below: bool = False, trim: tuple[np.ndarray, np.ndarray] | None = None) -> ArmDepth:
+    """Depth of a left forearm that is a small sphere at positions (F, 3) relative to the trunk's centre; with a
+    ``trim`` of the trunk's material."""
     offsets_cm = np.array([[0, 100, 0], [0, 30, 0], [80, 0, 0], [10, 0, 0], [-80, 0, 0], [-10, 0, 0]], np.float64)
     binds = np.tile(np.eye(4), (len(BONES), 1, 1))
     for bone, parent in enumerate(PARENTS):
@@ -49,6 +60,9 @@ def judged(left_m: np.ndarray, open_below: bool = False) -> ArmDepth:
     places_m, faces = sphere(TRUNK_M, 48)
     if open_below:
         faces = faces[(places_m[faces][:, :, 1] > -0.1).all(axis=1)]
+    if trim is not None:
+        faces = np.concatenate([faces, trim[1] + len(places_m)])
+        places_m = np.concatenate([places_m, trim[0]])
     small_m, small = sphere(ARM_M, 12)
     meshes = (mesh("shirt", 1, places_m, faces, binds), mesh("sleeve", 2, small_m, small, binds))
     bones = tuple(
@@ -89,3 +103,18 @@ def test_below_an_open_hem_is_outside() -> None:
     way = np.tile([0.02, -0.16, 0.0], (FRAMES, 1))
     assert judged(way).depth_mm > 20.0
     assert judged(way, open_below=True) == ArmDepth()
+
+
+@pytest.mark.parametrize("normal", [1.0, -1.0], ids=["outwards", "inwards"])
+def test_an_open_trim_has_no_inside(normal: float) -> None:
+    """The trim hangs 8 cm before the trunk, of whose material it is; the arm is between them, and nearer to it."""
+    way = np.tile([0.0, 0.0, TRUNK_M + 0.05], (FRAMES, 1))
+    assert judged(way, trim=sheet(TRUNK_M + 0.08, normal)) == ArmDepth()
+    before = np.tile([0.0, 0.0, TRUNK_M + 0.11], (FRAMES, 1))
+    assert judged(before, trim=sheet(TRUNK_M + 0.08, normal)) == ArmDepth()
+
+
+def test_depths_below_an_open_trim_are_those_of_the_trunk() -> None:
+    way = np.tile([0.0, 0.0, TRUNK_M + ARM_M - 0.03], (FRAMES, 1))
+    found = judged(way, trim=sheet(TRUNK_M + 0.002, -1.0))
+    assert found.depth_mm == pytest.approx(30.0, abs=1.5)
