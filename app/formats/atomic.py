@@ -28,7 +28,7 @@ belongs to no process for a moment.
 
 @contextlib.contextmanager
 def atomic_write(
-    path: str | os.PathLike[str], backup: Path | None = None, follow_link: bool = True
+    path: str | os.PathLike[str], backup: Path | None = None, follow_link: bool = True, durable: bool = True
 ) -> Iterator[BinaryIO]:
     """Open a file for writing; it gets its name only once it is complete and synced to disk.
 
@@ -46,6 +46,9 @@ def atomic_write(
     follow_link : bool
         Whether a symbolic link is kept and its target replaced, as for files named by the user. Otherwise the link
         itself is replaced, for files whose names only this program chooses.
+    durable : bool
+        Whether the file is synced to the disk before it gets its name, which takes some hundredths of a second. A cache
+        that is checked when it is read needs none of it.
 
     Yields
     ------
@@ -69,12 +72,14 @@ def atomic_write(
         with stream:
             yield stream
             stream.flush()
-            os.fsync(stream.fileno())
+            if durable:
+                os.fsync(stream.fileno())
             if backup is not None and os.path.exists(target):
                 shutil.copymode(target, partial)
                 _keep(target, backup)
             _rename(stream, partial, target)
-        _sync_folder(target.parent)
+        if durable:
+            _sync_folder(target.parent)
     except OSError as error:
         raise cannot_write(path, error) from error
     finally:

@@ -91,12 +91,12 @@ def kept(
     # If the cache cannot be written, only the next start takes some tenths of a second longer.
     with contextlib.suppress(OSError, FileError):
         path.parent.mkdir(parents=True, exist_ok=True)
-        with atomic_write(path) as file:
+        with atomic_write(path, durable=False) as file:
             _write(file, made)
         files = sorted(path.parent.glob("*.shapes"), key=lambda one: one.stat().st_mtime)
         for older in files[:-MOST_FILES]:
             older.unlink(missing_ok=True)
-    return _read(path) or made
+    return _read(path, just_written=True) or made
 
 
 def _digest(meshes: Sequence[Mesh], made_with: tuple[object, ...]) -> str:
@@ -152,15 +152,21 @@ def _write(file: BinaryIO, levels: Sequence[Geometry]) -> None:
     file.writelines(blocks)
 
 
-def _read(path: Path) -> tuple[Geometry, ...] | None:
-    """Return the geometries (levels of detail) in a cache file; None if it is missing or damaged."""
+def _sum_of(file: BinaryIO) -> int:
+    """Return the CRC-32 of the content from the present place on."""
+    check = 0
+    while block := file.read(2**20):
+        check = zlib.crc32(block, check)
+    return check
+
+
+def _read(path: Path, just_written: bool = False) -> tuple[Geometry, ...] | None:
+    """Return the geometries (levels of detail) in a cache file; None if it is missing or damaged. The sum of a file
+    that was just written is not checked."""
     try:
         with open_file(path) as file:
             length, expected = _BEGINNING.unpack(file.read(_BEGINNING.size))
-            check = 0
-            while block := file.read(2**20):
-                check = zlib.crc32(block, check)
-            if check != expected:
+            if not just_written and _sum_of(file) != expected:
                 return None
             file.seek(_BEGINNING.size)
             head = _DECODER.decode(file.read(length))
