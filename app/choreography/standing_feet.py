@@ -36,6 +36,10 @@ STEP_S: Final = 0.30
 STEP_HIGH_M: Final = 0.03
 """Height in metres of such a step over `STEP_FAR_M` or more; less for shorter ones."""
 STEP_FAR_M: Final = 0.10
+CLEARS_M: Final = 0.012
+"""Least height in metres of a foot's tip that is far from where it stood and will stand, so that it does not skid."""
+CLEARS_WITHIN_M: Final = 0.035
+"""Distance in metres from such a place within which most of that height is gained."""
 SAME_M: Final = 0.04
 """Distance in metres below which places are equal if the foot hardly leaves the floor between them."""
 LIFTED_M: Final = 0.03
@@ -165,6 +169,7 @@ def planted(
     for foot in range(2):
         own = [stand for stand in standing if stand.foot == foot]
         targets[:, foot] += _correction(tips[:, foot], own, float(clip.fps))
+        targets[:, foot, 1] = _cleared(targets[:, foot], own, rest_tip_m(clip, foot))
     length_m = leg(clip.shape.skeleton, "left").length_m
     lower_m = weight * length_m * (DEEPER if weight > 0.0 else HIGHER)
     towards = _towards_m(clip, world, targets, standing, lower_m)
@@ -262,6 +267,24 @@ def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> Flo
             low = np.maximum(0.0, STEP_HIGH_M - np.ptp(tip_m[start:stop, 1])) * min(1.0, way / STEP_FAR_M)
             result[start:stop, 1] += low * np.sin(np.pi * (times - start + 1) / (stop - start + 1)) ** 2
     return result
+
+
+def _cleared(tip_m: FloatArray, standing: list[FootPlant], rest_m: float) -> FloatArray:
+    """Return the heights (F,) of the path (F, 3) of a foot's tip, raised where it would move low over the floor from
+    one plant to the next; ``rest_m`` is the height of a standing tip.
+    """
+    height = tip_m[:, 1] - rest_m
+    for before, after in pairwise([None, *standing, None]):
+        start, stop = 0 if before is None else before.stop, len(tip_m) if after is None else after.start
+        places = [stand.place_m for stand in (before, after) if stand is not None]
+        if stop <= start or not places:
+            continue
+        away = (tip_m[start:stop, None] - np.array(places))[..., [0, 2]]
+        near = np.square(away).sum(axis=-1).min(axis=1) / CLEARS_WITHIN_M**2
+        least, own = -CLEARS_M * np.expm1(-near), height[start:stop]
+        # Smooth maximum of both, the least height itself where that is 0.
+        height[start:stop] = 0.5 * (own + least + np.hypot(own - least, 0.5 * least))
+    return height + rest_m
 
 
 def _edge(correction: FloatArray, frame: int, inwards: int) -> tuple[FloatArray, FloatArray]:

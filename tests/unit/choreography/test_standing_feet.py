@@ -40,6 +40,24 @@ def test_a_foot_that_comes_down_elsewhere_takes_a_step() -> None:
     assert angular_jumps(planted(clip, standing)).max() < 4.0
 
 
+def test_a_foot_that_glides_over_the_floor_is_raised_until_it_lands() -> None:
+    clip = still(120)
+    share = np.clip((np.arange(120) - 45) / 30.0, 0.0, 1.0)
+    lifted_m = 0.05 * np.sin(np.pi * np.clip((np.arange(120) - 45) / 10.0, 0.0, 1.0))
+    hips = clip.hips_m + 0.5 * share[:, None] * (1.0, 0.0, 0.0) + (lifted_m - 0.03)[:, None] * (0.0, 1.0, 0.0)
+    places = tips_m(clip)[0] + [[0.5, 0.0, 0.0]]
+    standing = tuple(
+        FootPlant(foot, start, stop, tuple((place - (0.5 * first, 0.0, 0.0)).tolist()))
+        for foot, place in enumerate(places)
+        for start, stop, first in ((0, 45, True), (75, 120, False))
+    )
+    tips = tips_m(planted(replace(clip, hips_m=hips), standing))
+    way_m = np.linalg.norm(np.diff(tips[..., [0, 2]], axis=0), axis=-1)
+    low = tips[:-1, :, 1] < tips_m(clip)[0, :, 1] + 0.007
+    assert (way_m[60:75] * low[60:75]).sum(axis=0).max() < 0.03
+    assert tips[75:, :, 1] == pytest.approx(places[0, 1], abs=1e-6)
+
+
 def test_a_foot_that_comes_down_where_it_was_goes_on_standing() -> None:
     clip, contacts = carried(0.02)
     standing = stands(clip, contacts)
