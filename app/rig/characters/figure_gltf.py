@@ -15,11 +15,13 @@ from typing import Any, Final
 import numpy as np
 
 from app.arrays import FloatArray
+from app.rig import quaternion
 from app.rig.characters.figure_build import (
     SINGULAR,
     FigurePart,
     NodeHierarchy,
     build_figure,
+    nearest_rotations,
     rest_pose,
     transforms_differ,
     turned,
@@ -55,7 +57,7 @@ def gltf_figure(path: Path) -> Figure:
     """Read a figure from a glTF 2.0 or VRM file. Raises FileError."""
     source = read_source(path)
     posed = source.world_from_node
-    bound = bind_pose(source)
+    bound = bind_pose(source, squared=True)
     source = replace(source, world_from_node=rest_pose([node.parent for node in source.gltf.nodes], posed, bound))
     nodes, parts = _nodes(source), tuple(_parts(source))
     extensions = source.gltf.extensions
@@ -73,12 +75,18 @@ def gltf_figure(path: Path) -> Figure:
     return build_figure(source.file, origin, nodes, parts, humanoid, expressions)
 
 
-def bind_pose(source: GltfSource) -> Mapping[int, FloatArray]:
+def bind_pose(source: GltfSource, *, squared: bool = False) -> Mapping[int, FloatArray]:
     """Return the world transform (4, 4) of each joint in the pose in which its skin was bound, by node; empty if skins
     contradict each other.
 
     A skin is bound in a space of its own, whose place in the world follows from the root joint of the skin, or from a
     joint that another skin has bound too.
+
+    Parameters
+    ----------
+    squared : bool
+        Whether to place that space at right angles to the world if the nodes are posed: a root joint that leans in a
+        jump leans for the nodes alone.
     """
     bound: dict[int, FloatArray] = {}
     depths = _depths(source)
@@ -92,10 +100,26 @@ def bind_pose(source: GltfSource) -> Mapping[int, FloatArray]:
         else:
             top = min(range(len(skin.joints)), key=lambda place: depths[skin.joints[place]])
             world_from_mesh = source.world_from_node[skin.joints[top]] @ skin.joint_from_mesh_bind[top]
+            posed = source.world_from_node[list(skin.joints)]
+            if squared and any(map(transforms_differ, world_from_mesh @ mesh_from_joint, posed)):
+                world_from_mesh = _at_right_angles(world_from_mesh, posed[top, :3, 3])
         for joint, placed in zip(skin.joints, world_from_mesh @ mesh_from_joint, strict=True):
             if transforms_differ(bound.setdefault(joint, placed), placed):
                 return {}
     return bound
+
+
+def _at_right_angles(world_from_mesh: FloatArray, pivot_m: FloatArray) -> FloatArray:
+    """Return a transform (4, 4) turned about a point (3,) of the world to the nearest right angles."""
+    from scipy.spatial.transform import Rotation  # slow to import; figures are rarely read
+
+    turn = quaternion.to_matrix(nearest_rotations(world_from_mesh[None]))[0]
+    group = Rotation.create_group("O").as_matrix()
+    back = np.eye(4)
+    back[:3, :3] = group[int(np.argmax(np.einsum("gij,ij->g", group, turn)))] @ turn.T
+    back[:3, 3] = pivot_m - back[:3, :3] @ pivot_m
+    result: FloatArray = back @ world_from_mesh
+    return result
 
 
 def _depths(source: GltfSource) -> list[int]:

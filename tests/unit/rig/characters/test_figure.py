@@ -4,6 +4,7 @@ format.
 
 import contextlib
 import io
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,7 +26,7 @@ from app.rig.characters.figure_to_character import figure_character
 from app.rig.characters.landmarks import found_landmarks
 from app.rig.characters.load_character import load_character, read_character
 from app.rig.characters.read_figure import read_figure
-from app.rig.characters.t_pose import turned_figure
+from app.rig.characters.t_pose import rest_of, turned_figure
 from app.rig.figure import Figure
 from app.rig.mesh import Mesh
 from app.rig.model import Character
@@ -343,6 +344,33 @@ def test_every_required_joint_is_asked_for_by_name(ours: Character, tmp_path: Pa
     for name in REQUIRED_JOINTS:
         with pytest.raises(FileError, match=name):
             figure_character(figure, "x", {joint: bone for joint, bone in bones.items() if joint != name}, {})
+
+
+LEAN, KNEE = (-0.254, 0.12, -0.066, 0.957), (0.5, 0.0, 0.0, 0.866)
+"""Rotations of a root joint and a knee in a jump."""
+
+
+def test_a_figure_whose_file_shows_a_jump_stands_as_it_was_bound(ours: Character, tmp_path: Path) -> None:
+    """The root joint leans by 34 degrees in the nodes, and a knee is bent; the skin was bound upright."""
+    made = foreign(ours)
+    path = write_glb(tmp_path / "x.glb", made)
+    bound = rest_of(read_figure(path))
+    content = path.read_bytes()
+    size = int.from_bytes(content[12:16], "little")
+    document = json.loads(content[20 : 20 + size])
+    nodes, joints = document["nodes"], document["skins"][0]["joints"]
+    below = {child for joint in joints for child in nodes[joint].get("children", ())}
+    knee = next(node for node in nodes if node.get("name") == made.names[made.joints["leftLowerLeg"]])
+    for node, bend in ((nodes[next(one for one in joints if one not in below)], LEAN), (knee, KNEE)):
+        turn = quaternion.multiply(np.array(node.get("rotation", [0.0, 0.0, 0.0, 1.0])), np.array(bend))
+        node["rotation"] = (turn / np.linalg.norm(turn)).tolist()
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    whole = content[:8] + (20 + len(text) + len(content) - 20 - size).to_bytes(4, "little")
+    path.write_bytes(whole + len(text).to_bytes(4, "little") + b"JSON" + text + content[20 + size :])
+    jumping = rest_of(read_figure(path))
+    off_m = jumping.positions_m - bound.positions_m
+    assert np.ptp(off_m, axis=0).max() < 1e-3
 
 
 @pytest.mark.parametrize("turn", [(0, 180, 0), (0, 90, 0), (90, 0, 0), (-90, 0, 180), (0, 37, 0)])
