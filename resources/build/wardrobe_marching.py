@@ -5,20 +5,20 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from character_cloth import Cloth, cut, grid_faces, hang, join, smoothed, to_triangles
+from character_cloth import Cloth, cut, grid_faces, hull_profile, join, smoothed, to_triangles
 from character_garments import band
 from scipy.interpolate import LinearNDInterpolator
-from scipy.ndimage import gaussian_filter1d
-from scipy.spatial import cKDTree
 from wardrobe_pieces import Wearer
 from wardrobe_sewn import Sewn, gold, plain, weights_near
 from wardrobe_shirt import neck_of
+from wardrobe_tunic import TUNIC_M, tunic_drape
 
 OVER_EYES_M, HAIR_M, SHAKO_M = 0.052, 0.020, 0.150
 """Height of a shako's rim over the eyes, room for hair about the head, and its height."""
 PEAK_M, AROUND = 0.048, 48
 STRIPE_HALF_M, LIFT_M = 0.014, 0.0025
 CUFF_M = 0.075
+BELT_M = 0.007
 
 
 def _rigid(wearer: Wearer, rings: np.ndarray, bone: str, *, closed: bool = True) -> Cloth:
@@ -65,13 +65,13 @@ def shako(wearer: Wearer) -> tuple[list[Sewn], list[Sewn], list[Sewn]]:
 
 
 def epaulettes(wearer: Wearer, shell: Cloth) -> list[Sewn]:
-    """Boards on both shoulders, with a fringe at their outer end; they go with the collar bone."""
+    """Boards on both shoulders, with a fringe at their outer end; they go with the cloth below them."""
     joint = wearer.tailoring.shoulder
     points = shell.points[np.unique(shell.faces)]
     upper = points[points[:, 1] > joint[1] - 0.01]
     top = LinearNDInterpolator(upper[:, [0, 2]], upper[:, 1])
     parts = []
-    for side, sign in (("left", 1.0), ("right", -1.0)):
+    for sign in (1.0, -1.0):
         x = np.linspace(joint[0] * 0.52, joint[0] + 0.004, 9)
         rows = []
         for z, lift in ((-0.031, -0.004), (-0.029, 0.011), (0.0, 0.014), (0.029, 0.011), (0.031, -0.004)):
@@ -87,16 +87,23 @@ def epaulettes(wearer: Wearer, shell: Cloth) -> list[Sewn]:
         away = np.array([sign, 0.0, 0.0])
         fringe = np.stack([end, end + 0.006 * away, end + 0.010 * away - [0.0, 0.038, 0.0], end - [0.0, 0.038, 0.0]])
         for rings in (board[:: int(sign)], fringe[:: int(sign)]):
-            parts.append(gold(_rigid(wearer, rings[:, ::-1], f"{side}Shoulder", closed=False)))
+            rows_of = rings[:, ::-1].reshape(-1, 3)
+            faces = grid_faces(len(rings), rings.shape[1], closed=False)[:, ::-1]
+            parts.append(gold(to_triangles(Cloth(rows_of, weights_near(shell, rows_of), faces))))
     return parts
 
 
-def belt(wearer: Wearer) -> Sewn:
+def belt(wearer: Wearer, shell: Cloth) -> Sewn:
     """A broad belt over the tunic."""
     tailoring = wearer.tailoring
-    fall, at = smoothed(hang(tailoring.trunk, 0.12), 2.0, 1.5), tailoring.belt_m
-    rows = [(at - 0.022, 0.012), (at - 0.021, 0.027), (at + 0.021, 0.027), (at + 0.022, 0.012)]
-    return plain(band(fall, tailoring.suit, rows))
+    fall, at = tunic_drape(wearer), tailoring.belt_m
+    out = TUNIC_M + BELT_M
+    rows = [(at - 0.023, TUNIC_M - 0.004), (at - 0.022, out), (at + 0.022, out), (at + 0.023, TUNIC_M - 0.004)]
+    hoop = band(fall, tailoring.suit, rows)
+    columns = len(hoop.points) // len(rows)
+    return plain(
+        replace(hoop, weights=np.tile(weights_near(shell, hoop.points[columns : 2 * columns]), (len(rows), 1)))
+    )
 
 
 def cuffs(wearer: Wearer, shell: Cloth) -> Sewn:
@@ -115,28 +122,24 @@ def cuffs(wearer: Wearer, shell: Cloth) -> Sewn:
 
 def stripes(wearer: Wearer, legs: Cloth) -> Sewn:
     """Stripes down the outer seams of trousers."""
-    tailoring, parts = wearer.tailoring, []
-    heights = np.linspace(tailoring.belt_m - 0.05, float(legs.points[:, 1].min()) + 0.004, 60)
-    tree = cKDTree(legs.points)
-    middle = wearer.fit.positions_t[wearer.fit.index("leftUpperLeg")][2]
+    tailoring, fit, parts = wearer.tailoring, wearer.fit, []
+    hip, foot = (fit.positions_t[fit.index(f"left{part}")] for part in ("UpperLeg", "Foot"))
+    levels = np.arange(float(legs.points[:, 1].min()) - 0.005, tailoring.belt_m - 0.03, 0.012)
+    down = (levels - foot[1]) / (hip[1] - foot[1])
+    middle = np.stack([foot[0] + (hip[0] - foot[0]) * down, foot[2] + (hip[2] - foot[2]) * down], axis=1)
+    heights = np.linspace(levels[0] + 0.008, levels[-1] - 0.02, 48)
     for sign in (1.0, -1.0):
-        own = legs.points[legs.points[:, 0] * sign > 0.02]
-        outer = np.array([np.abs(own[np.abs(own[:, 1] - y) < 0.02, 0]).max() for y in heights])
-        places = own[
-            [
-                np.argmin(np.abs(own[:, 1] - y) * 3 + (x - np.abs(own[:, 0])))
-                for x, y in zip(outer, heights, strict=True)
-            ]
-        ]
-        depth = gaussian_filter1d(np.where(np.abs(places[:, 2] - middle) < 0.05, places[:, 2], middle), 6.0)
+        own = legs.points[legs.points[:, 0] * sign > 0] * np.array([sign, 1.0, 1.0])
+        drape = smoothed(hull_profile(own[:, 1], own[:, [0, 2]], levels, middle, 0.02), 1.5, 0.7)
         rows = []
-        for z, lift in ((-STRIPE_HALF_M, LIFT_M / 2), (0.0, LIFT_M), (STRIPE_HALF_M, LIFT_M / 2)):
-            flat = np.stack([sign * (outer - 0.004), heights, depth + z], axis=1)
-            _, rows_near = tree.query(flat, k=6)
-            x = np.abs(legs.points[rows_near, 0]).max(axis=1)
-            rows.append(np.stack([sign * (gaussian_filter1d(x, 2.0) + lift), heights, depth + z], axis=1))
-        grid = np.stack(rows)[:: int(sign)]
+        for half, lift in ((-1.0, 0.0005), (-0.9, LIFT_M), (0.0, LIFT_M), (0.9, LIFT_M), (1.0, 0.0005)):
+            angle = half * STRIPE_HALF_M / drape.radius_at(heights, np.zeros(len(heights)))
+            radius = drape.radius_at(heights, angle) + lift
+            centre = np.stack([np.interp(heights, levels, middle[:, axis]) for axis in range(2)], axis=1)
+            x, z = centre[:, 0] + radius * np.cos(angle), centre[:, 1] + radius * np.sin(angle)
+            rows.append(np.stack([sign * x, heights, z], axis=1))
+        grid = np.stack(rows)[:: int(-sign)]
         points = grid.reshape(-1, 3)
-        faces = grid_faces(3, len(heights), closed=False)
+        faces = grid_faces(len(rows), len(heights), closed=False)
         parts.append(to_triangles(Cloth(points, weights_near(legs, points), faces)))
     return plain(join(*parts))

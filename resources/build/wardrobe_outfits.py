@@ -6,15 +6,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from character_cloth import Cloth, cut, relaxed, smoothstep
-from character_garments import collar, front_of
+from character_cloth import Cloth, cut, join
 from character_surface import Surface, modelled
+from wardrobe_fitted import going_with, straight_legs, tail
 from wardrobe_marching import belt, cuffs, epaulettes, shako, stripes
 from wardrobe_pieces import ACCENT, MAIN, SECOND, Wearer, all_of, four_bones, linen_apart, piece, skin
+from wardrobe_polo import polo_shirt
 from wardrobe_sailor import sailor_collar, scarf
-from wardrobe_sewn import Skirt, bow_tie, moved_to, neck_band, over, plain, sewn_surface, shell, skirt, throat
-from wardrobe_shirt import neck_of, own_shirt
-from wardrobe_tunic import buttons, close_dress, front_strip, ribbon, stand_collar, tunic
+from wardrobe_sewn import Skirt, bow_tie, moved_to, over, plain, sewn_surface, shell, skirt, throat
+from wardrobe_shirt import own_shirt
+from wardrobe_tunic import TUNIC_M, buttons, close_dress, front_strip, ribbon, stand_collar, tunic, tunic_drape
 
 Colour = tuple[float, float, float]
 Pieces = list[tuple[Surface, str]]
@@ -63,7 +64,7 @@ def suit_jacket(wearer: Wearer, linen: str = SECOND, tie: str = ACCENT) -> Surfa
 
 def suit_trousers(wearer: Wearer, material: str = MAIN, patch: str = "suit") -> Surface:
     """Straight trousers of a suit."""
-    return piece(wearer, "trousers", patch, _trousers_part, all_of(material))
+    return straight_legs(wearer, piece(wearer, "trousers", patch, _trousers_part, all_of(material)))
 
 
 def grey_trousers(wearer: Wearer) -> Surface:
@@ -87,7 +88,7 @@ def bare_chest(wearer: Wearer, depth_m: float = 0.17, width_m: float = 0.05) -> 
     def shown(places: np.ndarray, weights: np.ndarray) -> np.ndarray:
         low = wearer.tailoring.collar_point[1] - depth_m
         front = places[:, 2] > wearer.tailoring.collar_point[2] + 0.02
-        wide = width_m + 1.2 * np.maximum(places[:, 1] - low - 0.08, 0.0)
+        wide = np.minimum(width_m + 1.2 * np.maximum(places[:, 1] - low - 0.08, 0.0), 0.11)
         return (np.abs(places[:, 0]) < wide) & (places[:, 1] > low) & front
 
     return skin(wearer, "skin_chest", shown)
@@ -173,8 +174,10 @@ def _blazer_and_skirt(wearer: Wearer) -> Pieces:
 
 
 def _roomy_jacket(wearer: Wearer, below: Surface) -> Surface:
-    """Jacket of all women's suits, which leaves room for a skirt."""
-    return worn_over(wearer, suit_jacket(wearer), below)
+    """Jacket of all women's suits, which leaves room for a skirt and goes with it."""
+    cloth, waist = cloth_of(wearer, below), wearer.tailoring.belt_m
+    jacket = going_with(wearer, suit_jacket(wearer), cloth, waist - 0.02)
+    return moved_to(wearer, jacket, over(wearer, cloth_of(wearer, jacket), cloth, waist + 0.05, 0.013, 0.05).points)
 
 
 def _roomy_suit(wearer: Wearer) -> Pieces:
@@ -206,14 +209,12 @@ def _sailor(wearer: Wearer) -> Pieces:
 
 
 def _closed(wearer: Wearer, hem_m: float, below: Surface) -> Cloth:
-    own = tunic(wearer, hem_m)
-    behind = (np.abs(own.points[:, 0]) < 0.035) & (own.points[:, 1] < wearer.tailoring.belt_m - 0.03)
-    own = relaxed(own, behind * (own.points[:, 1] > hem_m + 0.004) * 1.0, 30)
-    hung = over(wearer, own, cloth_of(wearer, below), wearer.tailoring.belt_m + 0.05, 0.014)
-    # Folds of the base mesh between the legs are pulled out flat.
-    low = 1.0 - smoothstep(hung.points[:, 1], wearer.tailoring.crotch_m + 0.13, wearer.tailoring.crotch_m + 0.20)
-    middle = 1.0 - smoothstep(np.abs(hung.points[:, 0]), 0.07, 0.12)
-    return relaxed(hung, low * middle * (hung.points[:, 1] > hem_m + 0.004), 40)
+    """A tunic from the neck to its hem, over trousers."""
+    waist, drape = wearer.tailoring.belt_m, tunic_drape(wearer)
+    own, legs = tunic(wearer, waist), cloth_of(wearer, below)
+    low = tail(own, legs, np.linspace(waist + 0.002, hem_m, 11), drape, TUNIC_M)
+    low = over(wearer, low, legs, waist, 0.006)
+    return join(own, low)
 
 
 def _gakuran(wearer: Wearer) -> Pieces:
@@ -244,7 +245,7 @@ def _marching(wearer: Wearer) -> Pieces:
     crown, metal, plume = shako(wearer)
     parts = {
         MAIN: [plain(own), front_strip(own, top + 0.03, hem + 0.01)],
-        SECOND: [plain(stand_collar(wearer, own)), belt(wearer), cuffs(wearer, own), *cords],
+        SECOND: [plain(stand_collar(wearer, own)), belt(wearer, own), cuffs(wearer, own), *cords],
         ACCENT: [buttons(own, np.array(places), 0.010), *epaulettes(wearer, own)],
     }
     hat = {SECOND: crown, ACCENT: metal, MAIN: plume}
@@ -259,19 +260,11 @@ def _marching(wearer: Wearer) -> Pieces:
 
 def _polo(wearer: Wearer) -> Pieces:
     legs = grey_trousers(wearer)
-    top = worn_over(wearer, tee(wearer), legs, 0.016)
-    cloth = cloth_of(wearer, top)
-    yoke = neck_band(wearer, -0.06, 0.012, 0.0015)
-    turned = collar(wearer.tailoring, cloth, front_of(cloth), neck_of(wearer))
-    row = wearer.tailoring.collar_point[1] - 0.075
-    strip = front_strip(cloth, row, row - 0.14)
-    parts = {MAIN: [plain(turned), strip, yoke]}
-    arms = bare_arms(wearer, sleeve_end_m(wearer, top) - 0.06)
+    top, trim, ends = polo_shirt(wearer, cloth_of(wearer, legs))
     return [
-        (top, "top"),
-        (sewn_surface("collar", parts, wearer), "top"),
+        (sewn_surface("shirt", {MAIN: [top, *trim]}, wearer), "top"),
         (legs, "bottom"),
-        (arms, "skin"),
+        (bare_arms(wearer, ends - 0.06), "skin"),
     ]
 
 

@@ -85,7 +85,8 @@ def piece(
     ----------
     patch : the name of its picture in `PATCHES`.
     chosen : gives the faces (F,) that are wanted from the texture coordinates (F, 2) of their middles.
-    materials : gives the material of each triangle (flags (T,) by name) from middles (T, 2) and linear dyes (T, 3).
+    materials : gives the material of each triangle (flags (T,) by name) from its middle (T, 2) and the linear dye of
+        its quad (T, 3).
     """
     place = PATCHES[patch]
     asset = _asset(wearer.assets, place.folder)
@@ -98,9 +99,13 @@ def piece(
     uvs = asset.uvs[uv_index]
     triangles = triangulate(faces, positions)
     centres = uvs[triangles].mean(axis=1)
+    # Both triangles of a quad have one dye.
+    corner = np.sort(faces, axis=1)
+    quad = np.repeat(np.arange(len(faces)), np.where((corner[:, 1:] == corner[:, :-1]).any(axis=1), 1, 2))
+    middles = uvs[faces].mean(axis=1)[quad]
     dyes = _dyes(wearer.assets, place.folder)
     height, width = dyes.shape[:2]
-    at = [(1.0 - centres[:, 1]) * height - 0.5, centres[:, 0] * width - 0.5]
+    at = [(1.0 - middles[:, 1]) * height - 0.5, middles[:, 0] * width - 0.5]
     dye = np.stack([map_coordinates(dyes[:, :, k], at, order=1, mode="nearest") for k in range(3)], axis=1)
     parts = {material: triangles[own] for material, own in materials(centres, dye).items() if own.any()}
     weights = four_bones(binding.skin_weights(wearer.fit.weights))

@@ -169,8 +169,11 @@ def _arm_share(wearer: Wearer, cloth: Cloth) -> np.ndarray:
     return cloth.weights[:, arms].sum(axis=1)
 
 
-def over(wearer: Wearer, outer: Cloth, inner: Cloth, from_m: float, margin_m: float) -> Cloth:
-    """Garment moved out below a height until it covers another one; sleeves are unchanged."""
+def over(
+    wearer: Wearer, outer: Cloth, inner: Cloth, from_m: float, margin_m: float, farthest_m: float = FARTHEST_M
+) -> Cloth:
+    """Garment moved out below a height until it covers another one, but no farther than `farthest_m`; sleeves are
+    unchanged."""
     low = float(outer.points[:, 1].min()) - 0.02
     # The hull is incomplete at the upper edge of the garment below.
     from_m = min(from_m, float(inner.points[:, 1].max()) - 0.02)
@@ -184,7 +187,7 @@ def over(wearer: Wearer, outer: Cloth, inner: Cloth, from_m: float, margin_m: fl
     target = profile.radius_at(outer.points[:, 1], angle) + margin_m
     share = 1.0 - smoothstep(outer.points[:, 1], from_m, from_m + 0.05)
     share *= _arm_share(wearer, outer) < 0.3
-    target = np.minimum(target, radius + FARTHEST_M)
+    target = np.minimum(target, radius + farthest_m)
     return replace(outer, points=move_out(outer.points, profile, (1, 0, 2), target, share))
 
 

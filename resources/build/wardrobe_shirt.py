@@ -59,7 +59,7 @@ def _without_collar(wearer: Wearer, cloth: Cloth, uvs: np.ndarray) -> Cloth:
     return replace(cloth, faces=cloth.faces[kept[cloth.faces].all(axis=1)])
 
 
-def _closed(wearer: Wearer, cloth: Cloth) -> Cloth:
+def closed(wearer: Wearer, cloth: Cloth) -> Cloth:
     """An open neck drawn together, and down to the skin of the throat."""
     tailoring, points = wearer.tailoring, cloth.points.copy()
     ahead = smoothstep(points[:, 2], tailoring.collar_point[2] + 0.02, tailoring.collar_point[2] + 0.06)
@@ -89,24 +89,38 @@ def neck_of(wearer: Wearer) -> Cloth:
     return Cloth(places[first], whole.weights[first], place.reshape(-1)[whole.triangles["skin"]])
 
 
+def untucked(wearer: Wearer, material: str) -> Cloth:
+    """The asset's shirt without its collar, in the T-pose; its texture coordinates are cut as the weights are."""
+    surface = piece(
+        wearer, SHIRT, wearer.shirt, connected(wearer, wearer.shirt, wearer.tailoring.shoulder[1]), all_of(material)
+    )
+    places = wearer.fit.to_t_pose(surface.positions, surface.weights)
+    cloth = Cloth(places, np.concatenate([surface.weights, surface.uvs], axis=1), surface.triangles[material])
+    return drop_unused(_without_collar(wearer, cloth, surface.uvs))
+
+
+def laid(wearer: Wearer, cloth: Cloth) -> Sewn:
+    """Cloth whose weights (N, J + 2) end with its texture coordinates."""
+    joints = len(wearer.fit.names)
+    return Sewn(replace(cloth, weights=cloth.weights[:, :joints]), cloth.weights[:, joints:])
+
+
+def without_neck(wearer: Wearer, cloth: Cloth) -> Cloth:
+    seam = above_collar(wearer.tailoring, cloth.points)
+    return cut(cloth, np.maximum(-seam, np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M))
+
+
 def own_shirt(wearer: Wearer) -> Surface:
     """The shirt of a finished body with collar, placket and buttons."""
-    tailoring, joints = wearer.tailoring, len(wearer.fit.names)
-    surface = piece(wearer, SHIRT, wearer.shirt, connected(wearer, wearer.shirt, tailoring.shoulder[1]), all_of(SHIRT))
-    places = wearer.fit.to_t_pose(surface.positions, surface.weights)
-    # Texture coordinates are cut as the weights are.
-    cloth = Cloth(places, np.concatenate([surface.weights, surface.uvs], axis=1), surface.triangles[SHIRT])
-    cloth = drop_unused(_without_collar(wearer, cloth, surface.uvs))
-    cloth = cut(cloth, cloth.points[:, 1] - (tailoring.belt_m - TUCK_M))
-    neck = np.maximum(-above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M)
-    cloth = cut(cloth, neck)
-    cloth = _closed(wearer, _tucked(wearer, cloth))
-    uvs = cloth.weights[:, joints:]
-    cloth = replace(cloth, weights=cloth.weights[:, :joints])
+    tailoring = wearer.tailoring
+    cloth = untucked(wearer, SHIRT)
+    cloth = without_neck(wearer, cut(cloth, cloth.points[:, 1] - (tailoring.belt_m - TUCK_M)))
+    sewn = laid(wearer, closed(wearer, _tucked(wearer, cloth)))
+    cloth = sewn.cloth
     under = neck_band(wearer, -0.06, 0.012, 0.0008, 0.10)
     front = front_of(join(cloth, under.cloth))
     top_m = float(throat(wearer, tailoring.suit.points, 0.0)[1]) - 0.006
     strip, row = placket(tailoring, cloth, lambda x, y: front(x, y) + STRIP_M, top_m)
     turned = collar(tailoring, cloth, front, neck_of(wearer))
-    parts = {SHIRT: [Sewn(cloth, uvs), plain(turned), plain(strip), under], BUTTONS: [gold(row)]}
+    parts = {SHIRT: [sewn, plain(turned), plain(strip), under], BUTTONS: [gold(row)]}
     return sewn_surface(SHIRT, parts, wearer)

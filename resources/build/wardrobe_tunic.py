@@ -5,14 +5,30 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from character_cloth import Cloth, cut, folds, grid_faces, hang, hull_profile, join, smoothed, smoothstep, to_triangles
-from character_garments import NECK_HALF_WIDTH_M, OFF_NECK_M, above_collar, front_of, move_out, neck_ring
+from character_cloth import (
+    Cloth,
+    Profile,
+    cut,
+    folds,
+    grid_faces,
+    hang,
+    hull_profile,
+    join,
+    smoothed,
+    smoothstep,
+    to_triangles,
+)
+from character_garments import NECK_HALF_WIDTH_M, OFF_NECK_M, above_collar, move_out, neck_ring
+from scipy.interpolate import LinearNDInterpolator
+from wardrobe_fitted import drawn_to
 from wardrobe_pieces import Wearer
 from wardrobe_sewn import Sewn, gold, plain, weights_near
 from wardrobe_shirt import neck_of
 
 COLUMNS = 49
 BUTTON_M = 0.0075
+TUNIC_M = 0.011
+"""Distance of a tunic from the drape of the trunk."""
 
 
 def _grown(cloth: Cloth, out_m: np.ndarray) -> Cloth:
@@ -26,22 +42,37 @@ def _grown(cloth: Cloth, out_m: np.ndarray) -> Cloth:
     return replace(cloth, points=cloth.points + out_m[:, None] * normals)
 
 
-def tunic(wearer: Wearer, hem_m: float) -> Cloth:
-    """Trunk and sleeves of stiff cloth: straight from chest to hem, sleeves of even width."""
+def tunic_drape(wearer: Wearer) -> Profile:
+    """The trunk of a tunic, drawn in a little at the waist."""
+    return smoothed(hang(wearer.tailoring.trunk, 0.30), 2.0, 1.5)
+
+
+def front_of_tunic(shell: Cloth) -> LinearNDInterpolator:
+    """z of a tunic's front over (x, y), as far as its sides."""
+    points = shell.points[np.unique(shell.faces)]
+    near = points[np.abs(points[:, 0]) < 0.18]
+    middle = np.median(near[:, 2])
+    front = near[near[:, 2] > middle]
+    return LinearNDInterpolator(front[:, :2], front[:, 2])
+
+
+def tunic(wearer: Wearer, low_m: float) -> Cloth:
+    """Trunk and sleeves of stiff cloth down to a height: smooth from chest to waist, sleeves of even width."""
     tailoring = wearer.tailoring
     suit, arm = tailoring.suit, tailoring.arm
     points = suit.points
-    fall = smoothed(hang(tailoring.trunk, 0.12), 2.0, 1.5)
+    fall = tunic_drape(wearer)
     angle, _, _ = fall.polar(points[:, 1], points[:, [0, 2]])
     crease = folds(points[:, 1], angle, 0.16, seed=41) * 0.0012
-    target = fall.radius_at(points[:, 1], angle) + 0.013 + crease
-    share = (1 - smoothstep(arm, 0.15, 0.6)) * (
-        1 - smoothstep(points[:, 1], tailoring.armpit_m - 0.02, tailoring.shoulder[1] + 0.01)
-    )
+    share = 1 - smoothstep(arm, 0.15, 0.6)
+    high = 1 - smoothstep(points[:, 1], tailoring.armpit_m - 0.02, tailoring.shoulder[1] + 0.01)
+    low = 1 - smoothstep(points[:, 1], tailoring.armpit_m - 0.12, tailoring.armpit_m - 0.04)
     cloth = _grown(suit, 0.007 * np.ones(len(points)))
-    cloth = replace(cloth, points=move_out(cloth.points, fall, (1, 0, 2), target, share))
+    target = fall.radius_at(cloth.points[:, 1], angle) + TUNIC_M + crease
+    cloth = replace(cloth, points=move_out(cloth.points, fall, (1, 0, 2), target, share * high))
+    cloth = replace(cloth, points=drawn_to(cloth.points, fall, TUNIC_M + crease * high * (1 - low), share * low))
     cloth = _even_sleeves(wearer, cloth)
-    cloth = cut(cloth, cloth.points[:, 1] - hem_m)
+    cloth = cut(cloth, cloth.points[:, 1] - low_m)
     cloth = cut(cloth, tailoring.wrist_m + 0.006 - np.abs(cloth.points[:, 0]))
     neck = np.maximum(-above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M)
     return cut(cloth, neck)
@@ -84,7 +115,7 @@ def stand_collar(wearer: Wearer, shell: Cloth) -> Cloth:
 
 def buttons(shell: Cloth, places: np.ndarray, radius_m: float = BUTTON_M) -> Sewn:
     """Domed buttons on the front at (x, y) places (N, 2)."""
-    front = front_of(shell)
+    front = front_of_tunic(shell)
     angles = 2 * np.pi * np.arange(10) / 10
     rings = ((1.0, -0.002), (0.95, 0.0035), (0.55, 0.0060), (0.0, 0.0068))
     parts = []
@@ -110,7 +141,7 @@ def buttons(shell: Cloth, places: np.ndarray, radius_m: float = BUTTON_M) -> Sew
 
 def ribbon(shell: Cloth, path: np.ndarray, half_m: float, lift_m: float) -> Cloth:
     """A flat ribbon laid on the front of a shell along (x, y) places (K, 2)."""
-    front = front_of(shell)
+    front = front_of_tunic(shell)
     along = np.gradient(path, axis=0)
     along /= np.linalg.norm(along, axis=1, keepdims=True)
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)

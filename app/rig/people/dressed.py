@@ -44,8 +44,9 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
     if outfit is None or tailored_for(person) not in outfit.files:
         return character
     path, facts = outfit.files[tailored_for(person)]
-    hands = originals()[person.original].hands
-    worn = carried(_garments(path, facts.body), body_shapes(), whole_phenotype(person), hands)
+    table = originals()[person.original]
+    other = None if facts.body in (person.original, table.made_from) else character
+    worn = carried(_garments(path, facts.body), body_shapes(), whole_phenotype(person), table.hands, other)
     skin = next(mesh for mesh in character.meshes if mesh.name == SKIN)
     finished = character if character.hands_of is None else character.hands_of
     own = [_uncovered(mesh, facts, finished) for mesh in character.meshes if mesh.name not in facts.hides]

@@ -20,7 +20,7 @@ from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character, Skeleton
 from app.rig.people.body_shapes import BodyShapes, Phenotype, body_m
 from app.rig.people.displacement import NO_CHANGE, Attaching, Binding, FaceChange, face_change, normals_of, places_of
-from app.rig.people.moved_joints import SIDES, MovedJoints, moved_joints, t_positions
+from app.rig.people.moved_joints import SIDES, MovedJoints, moved_joints, t_positions, with_arms_to
 from app.rig.people.person import Color
 from app.rig.skeleton import ancestors
 
@@ -160,10 +160,23 @@ def person_character(
     return _standing(replace(before, id=id, meshes=tuple(meshes), hands_of=hands_of, made_from=before), joints)
 
 
-def carried(original: Original, shapes: BodyShapes, phenotype: Phenotype, hands: float = 1.0) -> tuple[Mesh, ...]:
-    """Return the meshes of garments (without a face), fitted to the body of a phenotype with hands of a size."""
+def carried(
+    original: Original,
+    shapes: BodyShapes,
+    phenotype: Phenotype,
+    hands: float = 1.0,
+    wearer: Character | None = None,
+) -> tuple[Mesh, ...]:
+    """Return the meshes of garments (without a face), fitted to the body of a phenotype with hands of a size.
+
+    ``wearer`` is a character made from another bundled body than the garments, whose arms are a little longer or
+    shorter; their sleeves are adjusted to its elbows and wrists.
+    """
     body = body_m(shapes, phenotype)
     joints = _joints(original, shapes, body, hands)
+    if wearer is not None:
+        places_m = np.linalg.inv(wearer.joint_from_mesh)[:, :3, 3].astype(np.float64)
+        joints = with_arms_to(joints, wearer.skeleton, places_m)
     return tuple(_changed(original, mesh, body, joints, NO_CHANGE) for mesh in original.character.meshes)
 
 

@@ -5,7 +5,7 @@ their frames.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -45,6 +45,20 @@ class MovedJoints:
         """Return points (N, 3) moved and rotated with a joint, and scaled about it by ``size``."""
         moved: FloatArray = size * (points - self.before[joint, :3, 3]) @ self.turn(joint).T + self.after[joint, :3, 3]
         return moved
+
+
+def with_arms_to(moved: MovedJoints, skeleton: Skeleton, places_m: FloatArray) -> MovedJoints:
+    """Return moved joints with elbows and wrists at those of another body whose joints are at ``places_m`` (J, 3)."""
+    after, lengthened = moved.after.copy(), moved.lengthened.copy()
+    for place, (side, _) in enumerate(SIDES):
+        elbow, wrist = (skeleton.index(f"{side}{part}") for part in ("LowerArm", "Hand"))
+        steps = places_m[[elbow, wrist]] - after[[elbow, wrist], :3, 3]
+        lengthened[2 * place : 2 * place + 2] += steps
+        after[elbow, :3, 3] += steps[0]
+        for joint in range(len(skeleton.names)):
+            if wrist in ancestors(skeleton, joint):
+                after[joint, :3, 3] += steps[1]
+    return replace(moved, after=after, lengthened=lengthened)
 
 
 def moved_joints(original: Character, moved_m: Mapping[str, FloatArray], hands: float = 1.0) -> MovedJoints:

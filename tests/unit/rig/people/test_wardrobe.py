@@ -65,6 +65,9 @@ def test_children_wear_the_garments_of_their_own_sex(id: str, sex: str) -> None:
     assert covered == (sex == "man")
     height_m = [mesh_named(one, "shirt").positions_m[:, 1].max() for one in (bare, worn)]
     assert height_m[1] == pytest.approx(height_m[0], abs=0.05), "as small as the child"
+    wrist_m = np.linalg.inv(bare.joint_from_mesh)[bare.skeleton.index("leftHand"), :3, 3]
+    short_m = [np.linalg.norm(mesh_named(one, "shirt").positions_m - wrist_m, axis=1).min() for one in (bare, worn)]
+    assert short_m[1] == pytest.approx(short_m[0], abs=0.012), "sleeves end at the child's own wrists"
 
 
 def test_colours_are_those_that_the_person_wears() -> None:

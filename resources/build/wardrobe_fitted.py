@@ -1,0 +1,126 @@
+"""Parts of garments drawn onto smooth drapes: straight trouser legs, and the part of a coat below its waist."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from character_cloth import (
+    Cloth,
+    Profile,
+    folds,
+    grid_faces,
+    hang,
+    hull_profile,
+    smoothed,
+    smoothstep,
+    to_triangles,
+)
+from character_surface import Surface
+from scipy.ndimage import gaussian_filter
+from wardrobe_pieces import Wearer, four_bones
+from wardrobe_sewn import moved_to, weights_near
+
+EASE_M, HEM_M = 0.009, 0.050
+"""Distance of trouser legs from the drape of the legs, and height of their hem over the sole of the base mesh."""
+SEAT_M = 0.006
+"""Greatest distance of trousers from the hull of seat and waist."""
+TAPER = 0.075
+AROUND, FLARE = 73, 0.04
+
+
+def drawn_to(points: np.ndarray, profile: Profile, out_m: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Points (N, 3) moved in or out to `out_m` (N,) off a profile about the Y axis, by `share` (N,)."""
+    angle, radius, centre = profile.polar(points[:, 1], points[:, [0, 2]])
+    wanted = radius + (profile.radius_at(points[:, 1], angle) + out_m - radius) * share
+    moved = points.copy()
+    moved[:, 0] = centre[:, 0] + wanted * np.cos(angle)
+    moved[:, 2] = centre[:, 1] + wanted * np.sin(angle)
+    return moved
+
+
+def leg_drape(wearer: Wearer) -> Profile:
+    """A left trouser leg that hangs straight from the thigh, slightly tapered to the hem."""
+    tailoring, fit = wearer.tailoring, wearer.fit
+    hip, foot = (fit.positions_t[fit.index(f"left{part}")] for part in ("UpperLeg", "Foot"))
+    leg = tailoring.suit.points[(tailoring.suit.points[:, 0] > 0) & (tailoring.arm < 0.3)]
+    levels = np.arange(tailoring.foot_m + 0.10, tailoring.crotch_m + 0.005, 0.01)
+    down = (levels - foot[1]) / (hip[1] - foot[1])
+    middle = np.stack([foot[0] + (hip[0] - foot[0]) * down, foot[2] + (hip[2] - foot[2]) * down], axis=1)
+    hulls = hull_profile(leg[:, 1], leg[:, [0, 2]], levels, middle, 0.016)
+    return smoothed(hang(hulls, TAPER), 4.0, 1.5)
+
+
+def _close_seat(wearer: Wearer, places: np.ndarray) -> np.ndarray:
+    """Points (N, 3) of trousers, drawn in at seat and waist to lie under other garments."""
+    tailoring = wearer.tailoring
+    angle, radius, _ = tailoring.trunk.polar(places[:, 1], places[:, [0, 2]])
+    out_m = np.minimum(radius - tailoring.trunk.radius_at(places[:, 1], angle), SEAT_M)
+    share = smoothstep(places[:, 1], tailoring.crotch_m, tailoring.crotch_m + 0.12)
+    return drawn_to(places, tailoring.trunk, out_m, share)
+
+
+def straight_legs(wearer: Wearer, trousers: Surface) -> Surface:
+    """Trousers of an asset with smooth, straight legs and level hems; seat and waist stay."""
+    tailoring, fit = wearer.tailoring, wearer.fit
+    weights = trousers.weights.copy()
+    for side in ("left", "right"):
+        # Below the ankle cloth hangs from the shin, whatever the foot does.
+        shin = fit.index(f"{side}LowerLeg")
+        for bone in ("Foot", "Toes"):
+            weights[:, shin] += weights[:, fit.index(f"{side}{bone}")]
+            weights[:, fit.index(f"{side}{bone}")] = 0.0
+    places = fit.to_t_pose(trousers.positions, trousers.weights)
+    places = _close_seat(wearer, places)
+    drape, top = leg_drape(wearer), tailoring.crotch_m
+    parts = [fit.index(f"{side}{part}Leg") for side in ("left", "right") for part in ("Upper", "Lower")]
+    left = weights[:, parts[:2]].sum(axis=1) - weights[:, parts[2:]].sum(axis=1)
+    for sign in (1.0, -1.0):
+        own = (left * sign > 0) & (places[:, 1] < top + 0.04)
+        leg = places[own] * np.array([sign, 1.0, 1.0])
+        low, hem = float(leg[:, 1].min()), tailoring.foot_m + HEM_M
+        # Let down or taken up to a level hem, a little lower behind.
+        reach = np.clip((tailoring.knee_m - leg[:, 1]) / (tailoring.knee_m - low - 0.012), 0.0, 1.0)
+        below = leg[:, 1] < tailoring.knee_m
+        angle, _, _ = drape.polar(leg[:, 1], leg[:, [0, 2]])
+        leg[below, 1] = tailoring.knee_m - reach[below] * (tailoring.knee_m - hem)
+        knee = np.exp(-(((leg[:, 1] - tailoring.knee_m) / 0.12) ** 2))
+        break_m = 1.0 - smoothstep(leg[:, 1], hem + 0.03, hem + 0.16)
+        crease = folds(leg[:, 1], angle, 0.10, seed=31 if sign > 0 else 32) * (0.0012 * knee + 0.0016 * break_m)
+        share = 1.0 - smoothstep(leg[:, 1], top - 0.10, top + 0.02)
+        draped = drawn_to(leg, drape, EASE_M + crease, share)
+        draped[:, 0] = np.maximum(draped[:, 0], np.minimum(leg[:, 0], 0.004))
+        places[own] = draped * np.array([sign, 1.0, 1.0])
+    return moved_to(wearer, replace(trousers, weights=four_bones(weights)), places)
+
+
+def tail(body: Cloth, below: Cloth, heights: np.ndarray, profile: Profile, out_m: float) -> Cloth:
+    """The part of a coat below its waist, from the highest to the lowest of `heights`, `out_m` off a drape; its upper
+    edge goes with the `body` of the coat, its hem with the trousers `below` it.
+    """
+    angles = 2 * np.pi * np.arange(AROUND) / (AROUND - 1)
+    rows = []
+    for height in heights:
+        middle = [np.interp(height, profile.levels, profile.centres[:, axis]) for axis in range(2)]
+        radius = profile.radius_at(np.full(AROUND, height), angles) + out_m + FLARE * (heights[0] - height)
+        rows.append(
+            np.stack(
+                [middle[0] + radius * np.cos(angles), np.full(AROUND, height), middle[1] + radius * np.sin(angles)], 1
+            )
+        )
+    points = np.concatenate(rows)
+    legs = weights_near(below, points).reshape(len(heights), AROUND, -1)
+    weights = gaussian_filter(legs, (1.0, 2.5, 0.0), mode=("nearest", "wrap", "nearest")).reshape(len(points), -1)
+    near = smoothstep(points[:, 1], heights[0] - 0.07, heights[0] - 0.01)[:, None]
+    weights = near * weights_near(body, points) + (1.0 - near) * weights
+    return to_triangles(Cloth(points, weights, grid_faces(len(heights), AROUND, closed=False)))
+
+
+def going_with(wearer: Wearer, outer: Surface, below: Cloth, from_m: float) -> Surface:
+    """A garment whose part below a height in the T-pose moves as the garment below it does, with no step between."""
+    places = wearer.fit.to_t_pose(outer.positions, outer.weights)
+    arms = [index for index, name in enumerate(wearer.fit.names) if "Arm" in name or "Hand" in name]
+    share = 1.0 - smoothstep(places[:, 1], from_m - 0.10, from_m)
+    share = (share * (outer.weights[:, arms].sum(axis=1) < 0.3))[:, None]
+    weights = four_bones((1.0 - share) * outer.weights + share * weights_near(below, places))
+    return moved_to(wearer, replace(outer, weights=weights), places)
