@@ -23,6 +23,8 @@ JAW_MORPHS = ("jawOpen", "aa", "A")
 """Morphs that open the mouth, by common names."""
 PAD_VERTICES, SIDE_VERTICES, PALM_VERTICES, WEB_VERTICES, LIP_VERTICES = 6, 4, 8, 5, 6
 MIDLINE_M, SOLE_M = 0.008, 0.008
+FIRM = 0.95
+"""Weight of the foot above which a vertex of the sole stands with it."""
 COINCIDE_M = 1e-6
 """Distance in metres below which joints coincide."""
 PATCH_M = 0.006
@@ -188,7 +190,10 @@ def _sole(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
         if own:
             skin, rows = min(own, key=lambda one: float(one[0].positions[one[1], 1].min()))
             height = skin.positions[rows, 1]
-            return {f"{side}.foot.sole": _landmark(skin, rows[height < height.min() + SOLE_M])}
+            lowest = rows[height < height.min() + SOLE_M]
+            # The shaft of a boot, which the shin moves by its share, does not stand.
+            firm = lowest[skin.weights[lowest][:, joints].sum(axis=1) > FIRM]
+            return {f"{side}.foot.sole": _landmark(skin, firm if len(firm) else lowest)}
     return {}
 
 

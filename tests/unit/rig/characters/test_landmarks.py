@@ -117,6 +117,22 @@ def test_a_drawn_mouth_opens_upwards_and_downwards(opens_m: float, jaw: str) -> 
         assert lips.gap_deltas_m[jaw] == pytest.approx(0.022, abs=0.003)
 
 
+def test_a_sole_is_what_stands_with_the_foot() -> None:
+    """Half of the lowest vertices move with the shin by a part, as in a boot whose shaft reaches the floor."""
+    body = character_named("woman_adult")
+    foot, shin = body.skeleton.index("leftFoot"), body.skeleton.index("leftLowerLeg")
+    place = rest_positions(body.skeleton)[foot]
+    points = [(0.01 * step, 0.001 * step - place[1], 0.0) for step in range(6)]
+    boot = on_head(body, "boot", points)
+    weights = np.array([[1.0, 0.0]] * 3 + [[0.6, 0.4]] * 3, np.float32)
+    joints = np.tile(np.array([foot, shin], np.int32), (6, 1))
+    boot = replace(boot, positions_m=(place + np.asarray(points)).astype(np.float32), joints=joints, weights=weights)
+    still = np.tile(np.eye(4), (len(body.skeleton.names), 1, 1))
+    still[:, :3, 3] = -rest_positions(body.skeleton)
+    sole = found_landmarks(body.skeleton, still, (boot,))["left.foot.sole"]
+    assert sole.vertices.tolist() == [0, 1, 2]
+
+
 def on_head(body: Character, name: str, points: ArrayLike) -> Mesh:
     """Mesh of vertices (V, 3) in the head's frame that move with the head and face forwards."""
     head, count = body.skeleton.index("head"), len(np.asarray(points))
