@@ -315,7 +315,7 @@ class PerformanceCurves:
             put,
             self.plan.has_recorded_lips,
         )
-        return (values, still.skeleton, still.grip, self.body, self.dance)
+        return (values, still.skeleton, still.grip, still.shape, self.body, self.dance)
 
 
 def prepare(

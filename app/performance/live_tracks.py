@@ -215,4 +215,5 @@ def looks_same(player: Player, before: Player | Dancer) -> bool:
     if not isinstance(before, Player):
         return False
     same = player.instrument_id == before.instrument_id and player.character_id == before.character_id
+    same = same and player.outfit.id == before.outfit.id
     return same and player.parameters == before.parameters and player.doubles == before.doubles

@@ -76,7 +76,7 @@ def _alone(
         plan,
         parameters,
         performer.instrument,
-        performer.character,
+        performer.dressed,
         performer.grip,
         performer.body,
         felt_beats=felt_beats,

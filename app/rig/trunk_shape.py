@@ -1,4 +1,4 @@
-"""Shape of a body's trunk and thighs in its own clothes, as signed distances near each joint, and of its forearms."""
+"""Shape of a body's trunk and thighs in its clothes, as signed distances near each joint, and of its forearms."""
 
 from __future__ import annotations
 
@@ -36,6 +36,9 @@ _OUTWARDS: Final = 0.3
 _FEWEST: Final = 40
 """Number of vertices below which a mesh, such as a button, is ignored."""
 _THICK_PERCENT, _THICK_SPAN = 85.0, 0.15
+_OUTFIT_M, _WORN_M = 0.012, 0.006
+"""Room in metres that arms leave: before a body's own clothes, over which an outfit's jacket may be so much thicker,
+and before the clothes that are worn."""
 _USUAL_RADII_M: Final = (0.045, 0.045, 0.04, 0.035, 0.03)
 
 
@@ -53,12 +56,15 @@ class TrunkShape:
         By joint: depth inside the surface, `CELL_M` apart; negative outside.
     radii_m : dict of side to (P,) float64
         Thickness of a forearm in its sleeve at `ALONG`.
+    room_m : float
+        Room that arms leave before the surface.
     """
 
     joints: tuple[int, ...]
     corners_m: tuple[FloatArray, ...]
     grids_m: tuple[SingleArray, ...]
     radii_m: dict[Side, FloatArray]
+    room_m: float
 
     @cached_property
     def bounds_m(self) -> tuple[FloatArray, FloatArray]:
@@ -86,10 +92,17 @@ _SHAPES: IdentityCache[TrunkShape | None] = IdentityCache(128)
 
 def trunk_shape(character: Character) -> TrunkShape | None:
     """Return the shape of a character in its own clothes, cached; None for one without a trunk of skin or clothes."""
-    return _SHAPES.step(_made, character.undressed or character)
+    return _SHAPES.step(_made, character.undressed or character, _OUTFIT_M)
 
 
-def _made(character: Character) -> TrunkShape | None:
+def dressed_shape(character: Character) -> TrunkShape | None:
+    """Return the shape of a character in the clothes that it wears, cached, or None as in `trunk_shape`."""
+    if character.undressed is None:
+        return trunk_shape(character)
+    return _SHAPES.step(_made, character, _WORN_M)
+
+
+def _made(character: Character, room_m: float) -> TrunkShape | None:
     names = [name for name in TRUNK if name in character.skeleton.names]
     shares = [
         np.stack([_share(mesh, _holders(character, (name,), TRUNK)) for name in names], axis=1)
@@ -119,7 +132,7 @@ def _made(character: Character) -> TrunkShape | None:
         corners_m.append(corner_m + first * CELL_M - rest_m[joint])
         grids_m.append(_ending(depths_m[tuple(map(slice, first, last))]))
     radii_m: dict[Side, FloatArray] = {side: _radii_m(character, side) for side in ("left", "right")}
-    return TrunkShape(tuple(joints), tuple(corners_m), tuple(grids_m), radii_m)
+    return TrunkShape(tuple(joints), tuple(corners_m), tuple(grids_m), radii_m, room_m)
 
 
 @dataclass(frozen=True, eq=False)

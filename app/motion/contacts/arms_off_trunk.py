@@ -29,10 +29,8 @@ MOST_RAD = float(np.deg2rad(70.0))
 """Most an elbow goes outwards."""
 TRIED = 9
 """Number of angles up to there at which the forearm's depth is measured."""
-CLOTH_M = 0.012
-"""Room that is kept: a jacket is about so much thicker than a shirt ..."""
 EASE_M = 0.012
-"""... and the width over which a forearm counts more and more as inside."""
+"""Width in metres over which a forearm counts more and more as inside, beyond the room that is kept."""
 SLACK_M = 0.006
 """Depth beyond the least possible one that is accepted."""
 BENT_RAD = float(np.deg2rad(4.0))
@@ -198,7 +196,7 @@ def remaining(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> R
         depth_m = np.maximum(depth_m, forearm.inside_m(frames, 0.0))
         hand_m = player.skeleton.offsets_m[player.skeleton.index(f"{side}MiddleProximal")]
         palm_m = forearm.wrist_m[:, None] + quaternion.rotate(solved.hand[:, None], hand_m * PALM[:, None])
-        depth_m = np.maximum(depth_m, (posed.depths_m(palm_m) + PALM_M + CLOTH_M).max(axis=1))
+        depth_m = np.maximum(depth_m, (posed.depths_m(palm_m) + PALM_M + player.shape.room_m).max(axis=1))
         bent_rad = np.maximum(bent_rad, player.wrists[side].outside_rad(solved.pose.end))
     return Remaining(depth_m, bent_rad)
 
@@ -236,7 +234,7 @@ class _Forearm:
         from_joints_m = np.repeat(vectors_m[None], len(posed.positions_m), axis=0)
         from_joints_m[:, :, :2] -= posed.positions_m[:, :, None]
         seen_m = np.ascontiguousarray(np.matmul(from_joints_m, posed.matrices).transpose(2, 0, 1, 3))
-        return cls(posed.shape, posed.shape.radii_m[side] + CLOTH_M, wrist_m, seen_m)
+        return cls(posed.shape, posed.shape.radii_m[side] + posed.shape.room_m, wrist_m, seen_m)
 
     def inside_m(self, frames: IndexArray, turn_rad: float) -> FloatArray:
         """Return the greatest depth (K,) in K frames with the elbow turned about the line by ``turn_rad``."""

@@ -24,7 +24,7 @@ from app.rig.grip.carriage import carrying
 from app.rig.grip.grip_pose import GripPose, Lips
 from app.rig.grip.lifted_fingers import with_curved_fingers
 from app.rig.model import Character, Skeleton
-from app.rig.trunk_shape import TrunkShape, trunk_shape
+from app.rig.trunk_shape import TrunkShape, dressed_shape, trunk_shape
 from instrument_maps.map_table import Posture as PostureName
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_skeleton
@@ -32,6 +32,7 @@ from metadata.model import Body, EmbouchureWeights
 
 _CURVED: IdentityCache[GripPose] = IdentityCache(128)
 _PLAYERS: IdentityCache[PlayerBody] = IdentityCache(128)
+_DRESSED: IdentityCache[PlayerBody] = IdentityCache(128)
 """Grips with curved fingers and other values of a player that do not change with time."""
 
 
@@ -61,11 +62,18 @@ def player_body(
 ) -> PlayerBody:
     """Return the time-independent data of a player, including reach of the hands and tilt of the instrument; cached, so
     that equal bodies in equal postures share one object.
+
+    Only how far elbows go out depends on the clothes that the character wears.
     """
     curved = _CURVED.step(_curved, grip, character.skeleton)
-    return _PLAYERS.step(
+    made = _PLAYERS.step(
         _made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body, trunk_shape(character)
     )
+    return made if character.undressed is None else _DRESSED.step(_dressed, made, character)
+
+
+def _dressed(player: PlayerBody, character: Character) -> PlayerBody:
+    return replace(player, shape=dressed_shape(character))
 
 
 def _made(

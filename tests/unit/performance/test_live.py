@@ -20,6 +20,7 @@ from app.performance.span import whole_span
 from app.plan.by_hand.corrections import AddExpression
 from app.plan.model import PlayerPlan
 from app.project.edit.corrections import with_corrections
+from app.project.edit.outfits import colour_outfit, give_outfit
 from app.project.edit.piece import piece_settings, set_piece_settings
 from app.rig.characters.character_library import character_named
 from tests.property.performance.edits import piece
@@ -336,6 +337,19 @@ def test_a_player_who_came_or_went(performance: Performance) -> None:
     all_made(live)
     assert live.pose("twin", 6.0) is not None
     assert live.pose(first.id, 6.0) is not None
+
+
+def test_clothes_change_motion_and_their_colours_do_not(performance: Performance) -> None:
+    """Elbows leave room for what is worn."""
+    live = LiveMotion(performance)
+    all_made(live)
+    first = performance.project.players[0].id
+    dressed = Performance(give_outfit(performance.project, (first,), "marching"), performance)
+    live.show(dressed)
+    assert live.ready_share < 1.0
+    all_made(live)
+    live.show(Performance(colour_outfit(dressed.project, (first,), "main", "#203040"), dressed))
+    assert live.ready_share == 1.0
 
 
 def test_it_is_asked_while_it_works(performance: Performance) -> None:

@@ -21,8 +21,10 @@ from app.motion.contacts.still_player import ContactCurves
 from app.motion.model import Motion
 from app.plan.parameters import PlayerParameters
 from app.rig.characters.character_library import character_named
+from app.rig.characters.dressed_characters import character_in
 from app.rig.grip.fitting.grip_files import hold_for
 from app.rig.model import Character
+from app.rig.people.wardrobe import OutfitChoice
 from app.rig.skeleton import forward
 from instrument_maps.load import bundled_maps
 from instrument_maps.map_table import Posture
@@ -38,11 +40,14 @@ CASES: tuple[tuple[str, str, Posture], ...] = (
 """Each was 40 to 90 mm in shirt or trousers."""
 
 
-def still_player(instrument_id: str, character_id: str, posture: Posture) -> tuple[PlayerBody, Character]:
+def still_player(
+    instrument_id: str, character_id: str, posture: Posture, outfit: str = ""
+) -> tuple[PlayerBody, Character]:
     """A player who keeps still."""
     character, instrument, body = character_named(character_id), bundled_maps()[instrument_id], load_body()
     grip = hold_for(character, bundled_instrument(instrument), instrument, body)
-    return player_body(PlayerParameters(posture=posture), instrument, character, grip, body), character
+    dressed = character_in(character_id, OutfitChoice(outfit))
+    return player_body(PlayerParameters(posture=posture), instrument, dressed, grip, body), dressed
 
 
 def frames_of(player: PlayerBody, *, out: bool) -> Motion:
@@ -113,3 +118,14 @@ def test_an_elbow_that_must_go_out_at_once_begins_early_and_stays_under_what_its
     assert given[30] == 0.0
     assert (given[90:100] <= 0.1 + 1e-9).all()
     assert np.abs(np.diff(given)).max() < 0.15
+
+
+def test_elbows_leave_room_for_the_clothes_that_are_worn() -> None:
+    """A marching tunic is thicker than a body's own clothes; the instrument is carried as in those."""
+    own, _ = still_player("trumpet_Bb", "woman_adult", "standing")
+    worn, dressed = still_player("trumpet_Bb", "woman_adult", "standing", "marching")
+    assert (worn.carriage, worn.lowered) == (own.carriage, own.lowered)
+    as_in_own, moved = (frames_of(player, out=True) for player in (own, worn))
+    assert depth_mm(dressed, as_in_own) > ARM_MM
+    assert depth_mm(dressed, moved) <= ARM_MM
+    np.testing.assert_allclose(as_in_own.instrument_position_m, moved.instrument_position_m, atol=1e-6)
