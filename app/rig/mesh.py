@@ -10,6 +10,7 @@ import numpy.typing as npt
 from app.arrays import SingleArray
 from app.formats.scene import Material
 from app.formats.texture_colors import plain_material
+from app.formats.textures import NO_TEXTURES
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +70,9 @@ def plain_materials(mesh: Mesh) -> tuple[Material, ...]:
     """Return a mesh's materials with each texture replaced by its mean colour."""
     made = []
     for number, material in enumerate(mesh.materials):
+        if material.textures == NO_TEXTURES:
+            made.append(material)
+            continue
         corners = mesh.uvs[mesh.triangles[mesh.triangle_materials == number]]
         # Only the corners of a hair card are cut out.
         made.append(plain_material(material, np.concatenate([corners.reshape(-1, 2), corners.mean(axis=1)])))

@@ -124,8 +124,7 @@ def outward(
     if player.shape is None:
         return None
     needed_rad, most_rad = dict[Side, FloatArray](), dict[Side, FloatArray]()
-    legs = solve_legs(player.place, player.skeleton, upper.hips_m, upper.hips, curves.body.feet)
-    posed = TrunkPose.of(player.shape, player.skeleton, upper, legs)
+    posed = _posed(player, player.shape, curves, upper)
     away = player.away(curves.body, upper.carried)
     arms = solved_arms(player, curves, upper, None, away)
     if put_aside is not None and curves.stowed is not None and np.any(curves.stowed):
@@ -134,8 +133,14 @@ def outward(
         swung, side = put_aside.turned(curves.stowed), put_aside.aside.side
         arms |= {one: arm for one, arm in solved_arms(player, curves, taken, swung).items() if one == side}
     for side, solved in arms.items():
-        needed_rad[side], most_rad[side] = _outward_rad(posed, side, solved, player.wrists[side], within)
+        forearm = _Forearm.of(side, solved, posed)
+        needed_rad[side], most_rad[side] = _outward_rad(forearm, side, solved, player.wrists[side], within)
     return Outward(needed_rad, most_rad)
+
+
+def _posed(player: StillPlayer, shape: TrunkShape, curves: ContactCurves, upper: UpperBody) -> TrunkPose:
+    legs = solve_legs(player.place, player.skeleton, upper.hips_m, upper.hips, curves.body.feet)
+    return TrunkPose.of(shape, player.skeleton, upper, legs)
 
 
 def slow_share(
@@ -180,24 +185,19 @@ class Remaining:
 def remaining(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> Remaining | None:
     """Return depth and bend after elbows have gone outwards; None for a body of unknown shape. Parameters as in
     `outward`."""
-    going = outward(player, curves, upper)
-    if going is None or player.shape is None:
+    if player.shape is None:
         return None
-    turns_rad: dict[str, FloatArray] = {
-        side: np.minimum(needed, going.most_rad[side]) for side, needed in going.needed_rad.items()
-    }
-    curves = replace(curves, body=replace(curves.body, elbow_out_rad=turns_rad))
-    legs = solve_legs(player.place, player.skeleton, upper.hips_m, upper.hips, curves.body.feet)
-    posed = TrunkPose.of(player.shape, player.skeleton, upper, legs)
+    posed, frames = _posed(player, player.shape, curves, upper), np.arange(len(curves))
     depth_m, bent_rad = np.full(len(curves), -BEYOND_M), np.zeros(len(curves))
-    frames = np.arange(len(curves))
-    for side, solved in solved_arms(player, curves, upper).items():
+    for side, solved in solved_arms(player, curves, upper, None, player.away(curves.body, upper.carried)).items():
         forearm = _Forearm.of(side, solved, posed)
-        depth_m = np.maximum(depth_m, forearm.inside_m(frames, 0.0))
+        turn_rad = np.minimum(*_outward_rad(forearm, side, solved, player.wrists[side], 0))
+        turn_rad = turn_rad if side == "left" else -turn_rad
+        depth_m = np.maximum(depth_m, forearm.inside_m(frames, turn_rad))
         hand_m = player.skeleton.offsets_m[player.skeleton.index(f"{side}MiddleProximal")]
         palm_m = forearm.wrist_m[:, None] + quaternion.rotate(solved.hand[:, None], hand_m * PALM[:, None])
         depth_m = np.maximum(depth_m, (posed.depths_m(palm_m) + PALM_M + player.shape.room_m).max(axis=1))
-        bent_rad = np.maximum(bent_rad, player.wrists[side].outside_rad(solved.pose.end))
+        bent_rad = np.maximum(bent_rad, player.wrists[side].outside_rad(_hand_at(solved, frames, turn_rad)))
     return Remaining(depth_m, bent_rad)
 
 
@@ -236,10 +236,12 @@ class _Forearm:
         seen_m = np.ascontiguousarray(np.matmul(from_joints_m, posed.matrices).transpose(2, 0, 1, 3))
         return cls(posed.shape, posed.shape.radii_m[side] + posed.shape.room_m, wrist_m, seen_m)
 
-    def inside_m(self, frames: IndexArray, turn_rad: float) -> FloatArray:
-        """Return the greatest depth (K,) in K frames with the elbow turned about the line by ``turn_rad``."""
+    def inside_m(self, frames: IndexArray, turn_rad: float | FloatArray) -> FloatArray:
+        """Return the greatest depth (K,) in K frames with the elbow turned about the line by an angle, or by angles
+        (K,)."""
         deepest_m = np.full((len(frames), len(ALONG)), -BEYOND_M)
-        cosine, sine = float(np.cos(turn_rad)), float(np.sin(turn_rad))
+        turns_rad = np.reshape(turn_rad, (-1, 1))
+        cosine, sine = np.cos(turns_rad), np.sin(turns_rad)
         centres_m, wrists_m, off_m, across_m = self.seen_m[:, :, frames]
         elbows_m = centres_m + cosine * off_m + sine * across_m
         low_m, high_m = self.shape.bounds_m
@@ -255,11 +257,10 @@ class _Forearm:
 
 
 def _outward_rad(
-    posed: TrunkPose, side: Side, solved: SolvedArm, wrist: Wrist, within: int
+    forearm: _Forearm, side: Side, solved: SolvedArm, wrist: Wrist, within: int
 ) -> tuple[FloatArray, FloatArray]:
     """Return an arm's needed and greatest turn, each (F,); parameters as in `outward`."""
-    sign, forearm = (1.0 if side == "left" else -1.0), _Forearm.of(side, solved, posed)
-    count = len(solved.line)
+    sign, count = (1.0 if side == "left" else -1.0), len(solved.line)
     needed_rad, most_rad = np.zeros(count), np.full(count, MOST_RAD)
     depth_m = forearm.inside_m(np.arange(count), 0.0)
     frames, angles = np.flatnonzero(depth_m > -EASE_M), np.linspace(0.0, MOST_RAD, TRIED)
@@ -284,6 +285,13 @@ def _outward_rad(
     return needed_rad, most_rad
 
 
+def _hand_at(solved: SolvedArm, frames: IndexArray, turn_rad: FloatArray) -> FloatArray:
+    """Return the hand's rotation (K, 4) relative to the forearm in K frames, with the elbow turned by angles (K,)."""
+    turn = quaternion.from_axis_angle(solved.line[frames], turn_rad)
+    lower = quaternion.multiply(turn, solved.pose.bones[1][frames])
+    return end_of(solved.limb, lower, solved.hand[frames])
+
+
 def _used_room(solved: SolvedArm, wrist: Wrist, frames: IndexArray, angles: FloatArray) -> FloatArray:
     """Return the share (A, K) of a wrist's room that the elbow uses at each of A angles, in K frames, 0 or more.
 
@@ -291,9 +299,7 @@ def _used_room(solved: SolvedArm, wrist: Wrist, frames: IndexArray, angles: Floa
     """
 
     def bent_rad(here: IndexArray, angle: float) -> FloatArray:
-        turn = quaternion.from_axis_angle(solved.line[here], np.full(len(here), angle))
-        lower = quaternion.multiply(turn, solved.pose.bones[1][here])
-        return wrist.outside_rad(end_of(solved.limb, lower, solved.hand[here]), within=True)
+        return wrist.outside_rad(_hand_at(solved, here, np.full(len(here), angle)), within=True)
 
     usual_rad = bent_rad(frames, 0.0)
     room_rad = np.minimum(np.maximum(-usual_rad, LEAST_ROOM_RAD), BENT_RAD)

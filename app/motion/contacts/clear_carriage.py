@@ -10,10 +10,11 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.contacts.arms_off_trunk import Remaining, remaining
-from app.motion.contacts.solve import PlayerBody, body_with_help, needs
+from app.motion.contacts.carried_instrument import InstrumentTransform
+from app.motion.contacts.solve import PlayerBody, body_with_help, needed_by
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import SIDES, neck_m
-from app.motion.contacts.upper_body import upper_body
+from app.motion.contacts.upper_body import UpperBody, upper_body
 from app.rig import quaternion
 from app.rig.supports.model import FROM_NECK_M, GROWN_UP_M
 from instrument_maps.hold import LoweredPlace, Support
@@ -72,23 +73,39 @@ def _lowered_clear(player: PlayerBody, supports: Sequence[Support]) -> PlayerBod
     if any(support.kind not in FROM_NECK_M for support in supports):
         return player
     low = ContactCurves(replace(player.still, lowered=np.ones(1)), {}, {}, np.zeros(1))
-    straps_m = _straps_m(player, low, supports)
-    found: list[tuple[float, PlayerBody]] = []
+    usual = upper_body(player, low)
+    left = _remaining(player, low, usual)
+    if left is None or left.depth_m[0] <= -LOW_ROOM_M:
+        return player
+    straps_m, places = _straps_m(player, usual.carried, supports), list[LoweredPlace]()
     for ahead_m in AHEAD_M.tolist():
         lowered = _moved_ahead(player.lowered, ahead_m, straps_m)
         if lowered is None:
             break
-        tried = replace(player, lowered=lowered) if ahead_m else player
-        left = _remaining(tried, low)
-        if left is None or (not ahead_m and left.depth_m[0] <= -LOW_ROOM_M):
-            return player
-        found.append((float(_cost_m(left, LOW_ROOM_M)[0]) + OFF_M * ahead_m / float(AHEAD_M[-1]), tried))
-    return min(found, key=lambda one: one[0])[1]
+        places.append(lowered)
+    ways_m = np.array([place.offset_m for place in places]) - np.array(player.lowered.offset_m)
+    left = _remaining(player, *_lowered_by(player, low, usual, ways_m))
+    assert left is not None
+    costs_m = _cost_m(left, LOW_ROOM_M) + OFF_M * AHEAD_M[: len(places)] / float(AHEAD_M[-1])
+    best = int(np.argmin(costs_m))
+    return replace(player, lowered=places[best]) if best else player
 
 
-def _straps_m(player: PlayerBody, low: ContactCurves, supports: Sequence[Support]) -> FloatArray:
+def _lowered_by(
+    player: PlayerBody, low: ContactCurves, usual: UpperBody, ways_m: FloatArray
+) -> tuple[ContactCurves, UpperBody]:
+    """Return N poses with the instrument lowered, moved from its place by vectors (N, 3) in metres in the still body's
+    frame; ``low`` and ``usual`` are those of its usual place."""
+    same = np.zeros(len(ways_m), np.intp)
+    upper = usual[same]
+    with_chest = quaternion.multiply(upper.trunk.chest, quaternion.conjugate(player.base.chest))
+    moved_m = upper.carried.position_m + quaternion.rotate(with_chest, ways_m)
+    return low[same], replace(upper, carried=replace(upper.carried, position_m=moved_m))
+
+
+def _straps_m(player: PlayerBody, carried: InstrumentTransform, supports: Sequence[Support]) -> FloatArray:
     """Return vectors (S, 3) in metres from the body to the hooks of S straps with the instrument lowered as usual."""
-    skeleton, carried = player.skeleton, upper_body(player, low).carried
+    skeleton = player.skeleton
     left_m, right_m = (
         skeleton.offsets_m[skeleton.index(f"{side}Shoulder")] + skeleton.offsets_m[skeleton.index(f"{side}UpperArm")]
         for side in SIDES
@@ -137,9 +154,13 @@ def _left(player: PlayerBody, shares: FloatArray, ranges: tuple[Vector, Vector, 
     return Remaining(*(np.maximum(*values.reshape(2, -1)) for values in (left.depth_m, left.bent_rad)))
 
 
-def _remaining(player: PlayerBody, curves: ContactCurves) -> Remaining | None:
-    curves = replace(curves, body=body_with_help(player, curves.body, needs(player, curves)))
-    return remaining(player, curves, upper_body(player, curves))
+def _remaining(player: PlayerBody, curves: ContactCurves, upper: UpperBody | None = None) -> Remaining | None:
+    """Return depth and bend with all help; ``upper`` is the upper body where help does not move the trunk, as with the
+    instrument lowered."""
+    known = upper_body(player, curves) if upper is None else upper
+    given = needed_by(player, curves, known)
+    curves = replace(curves, body=body_with_help(player, curves.body, given))
+    return remaining(player, curves, upper_body(player, curves) if upper is None and given.moves_trunk else known)
 
 
 def _cost_m(left: Remaining, room_m: float) -> FloatArray:

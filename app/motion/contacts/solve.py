@@ -147,7 +147,7 @@ def solve(
     """
     pad = padding_frames(fps)
     uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
-    needed = [_needs(player, curves[part], upper) for part, upper in zip(_parts(len(curves)), uppers, strict=True)]
+    needed = [needed_by(player, curves[part], upper) for part, upper in zip(_parts(len(curves)), uppers, strict=True)]
     given = smoothed_help(needed, math.ceil(HELP_EASE_S * fps))
     curves = replace(curves, body=body_with_help(player, curves.body, given))
     if given.moves_trunk:
@@ -277,10 +277,10 @@ def _late(motion: BodyMotion) -> FloatArray | None:
 
 def needs(player: PlayerBody, curves: ContactCurves) -> Help:
     """Compute frame by frame the help of trunk and shoulders that far hands need."""
-    return _needs(player, curves, upper_body(player, curves))
+    return needed_by(player, curves, upper_body(player, curves))
 
 
-def _needs(player: PlayerBody, curves: ContactCurves, upper: UpperBody) -> Help:
+def needed_by(player: PlayerBody, curves: ContactCurves, upper: UpperBody) -> Help:
     free = player.away(curves.body, upper.carried)
     needed = needed_help(player.skeleton, player.grip, upper.trunk, upper.carried, curves.controls, curves.placed, free)
     # The chest carries a lowered instrument along: turning it would not bring a hand nearer.

@@ -10,6 +10,7 @@ import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.formats.scene import Material
+from app.rig import quaternion
 from app.rig.mesh import Mesh
 
 Shares: TypeAlias = Sequence[tuple[int, float]]
@@ -97,7 +98,7 @@ def _normals(points: FloatArray, closed: bool) -> FloatArray:
         around = wrapped[:, 2:] - wrapped[:, :-2]
     else:
         around = np.gradient(points, axis=1)
-    found = np.cross(around, along)
+    found = quaternion.cross(around, along)
     length = np.linalg.norm(found, axis=-1, keepdims=True)
     flat = length[..., 0] < 1e-12
     found = np.where(flat[..., None], 0.0, found / np.maximum(length, 1e-12))
@@ -165,6 +166,6 @@ def tube(
     for point, tangent, radius in zip(line_m, tangents, radii_m, strict=True):
         first = first - tangent * (first @ tangent)
         first = first / max(float(np.linalg.norm(first)), 1e-12)
-        second = np.cross(tangent, first)
+        second = quaternion.cross(tangent, first)
         rings.append(point + radius * (np.cos(angles)[:, None] * first + np.sin(angles)[:, None] * second))
     return SurfaceStrip(np.array(rings), weights, True, material)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.arrays import AnyIntArray, FloatArray, IndexArray
+from app.identity_cache import IdentityCache
 from app.rig import quaternion
 from app.rig.grip.grip_pose import Side
 from app.rig.model import Character
@@ -173,8 +174,13 @@ def ball_centres(hand: HandModel, transforms: FloatArray) -> FloatArray:
     return result
 
 
+_SIDES: dict[Side, Side] = {"left": "left", "right": "right"}
+"""Each side as one object, by which results are kept."""
+_MODELS: IdentityCache[HandModel] = IdentityCache(48)
+
+
 def hand_model(character: Character, side: Side, body: Body, profile: SkeletonProfile) -> HandModel:
-    """Return the model of a character's hand.
+    """Return the model of a character's hand, cached.
 
     Parameters
     ----------
@@ -185,6 +191,10 @@ def hand_model(character: Character, side: Side, body: Body, profile: SkeletonPr
     profile : SkeletonProfile
         Axes of the joints.
     """
+    return _MODELS.step(_made, character, _SIDES[side], body, profile)
+
+
+def _made(character: Character, side: Side, body: Body, profile: SkeletonProfile) -> HandModel:
     skeleton = character.skeleton
     names = [f"{side}Hand", *(name for finger in FINGERS for name in profile.fingers[side][finger].joints)]  # type: ignore[index]
     joints = tuple(skeleton.index(name) for name in names)
