@@ -17,6 +17,7 @@ from app.arrays import ComplexArray, FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.features import joint_points_m, size_m
+from app.rig import quaternion
 
 AROUND_S: Final = (-0.1, 0.0, 0.1)
 """Times in seconds about a join at which bodies are compared."""
@@ -27,6 +28,8 @@ FADE_S: Final = 0.45
 MOST_CARRIED_RAD: Final = 0.6
 """Angle in radians by which a difference of speeds may turn a joint before it has faded out; one that would turn it
 farther fades sooner, but not within less than `LEAST_FADE_S`."""
+LEANS_RAD: Final = 0.1
+"""Angle in radians that takes the place of `MOST_CARRIED_RAD` for the lean of the hips, which all of the body shows."""
 LEAST_FADE_S: Final = 0.18
 _CARRIED: Final = 0.198
 """Maximum of the quintic with slope 1 at the start, relative to its time."""
@@ -64,6 +67,7 @@ class Clouds:
 
 
 STATURE_M: Final = 1.7
+_UP: Final = np.array([0.0, 1.0, 0.0])
 _WEIGHTS: FloatArray = np.tile([_HEAVY.get(name, 1.0) for name in (*SEGMENTS, *ENDS)], len(AROUND_S))
 _WEIGHTS /= _WEIGHTS.sum()
 
@@ -89,6 +93,22 @@ def best_turn_rad(before: ComplexArray, after: ComplexArray) -> float:
     return float(np.angle((after.conj() * before) @ _WEIGHTS))
 
 
+def facing_apart(rotations: FloatArray) -> FloatArray:
+    """Split the rotation of the hips in (F, B, 4) into their lean, which takes its place, and their facing, which is
+    added as the last of (F, B + 1, 4)."""
+    facing = quaternion.from_axis_angle(_UP, quaternion.twist_angle(rotations[:, 0], _UP))
+    result = np.concatenate([rotations, facing[:, None]], axis=1)
+    result[:, 0] = quaternion.multiply(quaternion.conjugate(facing), rotations[:, 0])
+    return result
+
+
+def facing_together(rotations: FloatArray) -> FloatArray:
+    """Undo `facing_apart`."""
+    result = rotations[:, :-1].copy()
+    result[:, 0] = quaternion.multiply(rotations[:, -1], rotations[:, 0])
+    return result
+
+
 def fading_difference(value: FloatArray, slope: FloatArray, times_s: FloatArray, fade_s: float = FADE_S) -> FloatArray:
     """Return a difference that fades out.
 
@@ -111,7 +131,9 @@ def fading_difference(value: FloatArray, slope: FloatArray, times_s: FloatArray,
     return np.asarray(held * value + _fading_slope(u) * (fade_s * np.asarray(slope)))
 
 
-def fading_turn(turn: FloatArray, spin_rad_s: FloatArray, times_s: FloatArray) -> FloatArray:
+def fading_turn(
+    turn: FloatArray, spin_rad_s: FloatArray, times_s: FloatArray, carried_rad: float | FloatArray = MOST_CARRIED_RAD
+) -> FloatArray:
     """Return a difference of rotations that fades out, (T, B, 3) rotation vectors at T times of B joints.
 
     Parameters
@@ -120,8 +142,10 @@ def fading_turn(turn: FloatArray, spin_rad_s: FloatArray, times_s: FloatArray) -
         Rotation vector of each joint at time 0, and its rate of change per second.
     times_s : (T,) float64
         From 0 on.
+    carried_rad : float or (B,) float64
+        Greatest angle by which the rate of change may turn each joint.
     """
-    far_s = MOST_CARRIED_RAD / (_CARRIED * np.maximum(np.linalg.norm(spin_rad_s, axis=-1), 1e-9))
+    far_s = carried_rad / (_CARRIED * np.maximum(np.linalg.norm(spin_rad_s, axis=-1), 1e-9))
     fades_s = np.clip(far_s, LEAST_FADE_S, FADE_S)
     carried = _fading_slope(np.clip(times_s[:, None] / fades_s, 0.0, 1.0))[..., None] * fades_s[:, None] * spin_rad_s
     return np.asarray(fading_difference(turn, np.zeros_like(turn), times_s) + carried)

@@ -17,7 +17,18 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts
 from app.choreography.features import facing, height_m
-from app.choreography.joins import FADE_S, STATURE_M, Clouds, best_turn_rad, fading_difference, fading_turn
+from app.choreography.joins import (
+    FADE_S,
+    LEANS_RAD,
+    MOST_CARRIED_RAD,
+    STATURE_M,
+    Clouds,
+    best_turn_rad,
+    facing_apart,
+    facing_together,
+    fading_difference,
+    fading_turn,
+)
 from app.choreography.limbs import hinge_ranges, within_hinges
 from app.choreography.model import ChoreographyModel
 from app.rig import quaternion
@@ -44,6 +55,7 @@ LATELY_S: Final = 1.0
 SPINS_RAD_S: Final = 5.0
 """Speed in radians per second from which a turn of the hips is a spin, in which facing is not corrected."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
+_CARRIED_RAD: FloatArray = np.array([LEANS_RAD, *[MOST_CARRIED_RAD] * len(SEGMENTS)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -224,7 +236,10 @@ class _SmoothClip:
 
 
 class _Blend(NamedTuple):
-    """Difference of the old motion from the new one at a seam, and its rate of change."""
+    """Difference of the old motion from the new one at a seam, and its rate of change.
+
+    The lean of the hips is compared apart from their facing, since it turns with a body that spins.
+    """
 
     start: int
     off_m: FloatArray
@@ -282,10 +297,11 @@ class _Output:
             times_s = (start - self._blend.start + np.arange(fading.stop)) / self.rate
             hips[fading] += fading_difference(self._blend.off_m, self._blend.drift_m_s, times_s)
             off_turns = quaternion.from_rotation_vector(
-                fading_turn(self._blend.turned, self._blend.spin_rad_s, times_s)
+                fading_turn(self._blend.turned, self._blend.spin_rad_s, times_s, _CARRIED_RAD)
             )
-            captured = rotations[fading].copy()
-            rotations[fading] = within_hinges(quaternion.multiply(off_turns, rotations[fading]), captured, self._hinges)
+            captured = facing_apart(rotations[fading])
+            blended = within_hinges(quaternion.multiply(off_turns, captured), captured, self._hinges)
+            rotations[fading] = facing_together(blended)
         here = slice(start, start + count)
         self.hips[here], self.rotations[here] = hips[:-1], rotations[:-1]
 
@@ -296,7 +312,8 @@ class _Output:
         step, turn = hips_last - hips_before, quaternion.multiply(turns_last, quaternion.conjugate(turns_before))
         off = hips_last + step * np.array([[1.0], [2.0]]) - hips[:2]
         goes_on = np.stack([once := quaternion.multiply(turn, turns_last), quaternion.multiply(turn, once)])
-        turned = quaternion.to_rotation_vector(quaternion.multiply(goes_on, quaternion.conjugate(rotations[:2])))
+        goes_on, new = facing_apart(goes_on), facing_apart(rotations[:2])
+        turned = quaternion.to_rotation_vector(quaternion.multiply(goes_on, quaternion.conjugate(new)))
         spin = turned[1] - turned[0]
         # A difference near half a turn is ambiguous; a join that poor is never chosen.
         spin = np.where(np.linalg.norm(spin, axis=-1, keepdims=True) > 1.0, 0.0, spin)

@@ -44,6 +44,20 @@ def test_a_spin_cut_into_segments_leans_as_captured() -> None:
     assert hips_rad(danced)[spin].max() <= hips_rad(clip).max() * 1.05
 
 
+def test_a_spin_joined_to_another_one_leans_no_farther_than_both() -> None:
+    clips = tuple(spinning(60, 13.0, 12.0, lean) for lean in (0.25, -0.15))
+    segments = (MotionSegment(0, 20, 60, 120, 0), MotionSegment(1, 110, 150, 220, 0))
+    library = replace(model(), clips=clips, segments=segments)
+    which = np.repeat([0, 1], [100, 110])
+    source_s = np.concatenate([np.arange(20, 120), np.arange(110, 220)]) / 60.0
+    danced, _, seams = Stitcher(library).stitched(
+        Frames(np.arange(2), which, source_s, np.ones(len(which))), 0, Fraction(60)
+    )
+    assert seams == (100,)
+    assert leans_rad(danced)[100:].max() < 0.27
+    assert hips_rad(danced)[100:].max() <= hips_rad(clips[1]).max() * 1.1
+
+
 def test_a_spin_takes_its_time_from_its_surroundings() -> None:
     clip = spinning(60, 14.0, 8.0)
     paces = least_paces(clip)
