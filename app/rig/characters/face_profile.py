@@ -14,9 +14,10 @@ BREAK = 0.2
 """Greatest recess of a profile, relative to its height, within a face; at a larger one the face ends."""
 CHIN_SHARE = 0.15
 """Lowest part of a face, relative to its height up to the eyes, which is the chin."""
-NOSE_OUT, NOSE_BASE, NOSE_LONG = 0.08, 0.6, 0.15
-"""Proportions of a nose relative to that height: distance in front of the chin, share of it that is lost at the nose's
-base, and greatest distance of the base below the tip. A round face has no nose.
+NOSE_OUT, NOSE_BASE, NOSE_LONG = 0.08, (0.6, 0.35), 0.15
+"""Proportions of a nose relative to that height: distance in front of the chin, shares of it that are lost at the
+nose's base (the second one where the lips lie far in front of the chin), and greatest distance of the base below the
+tip. A round face has no nose.
 """
 MOUTH_SHARE, MOUTH_SPREAD = 0.63, 0.09
 """Position of the lips between eyes and chin, as a share, and its tolerance."""
@@ -47,14 +48,17 @@ def nose_base_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float | No
         return None
     tip = middle[np.argmax(deep[middle])]
     out_m = float(deep[tip] - deep[high <= of_chin_m].max())
-    end_m = float(deep[tip] - NOSE_BASE * out_m)
-    below = np.flatnonzero((high < high[tip]) & (deep < end_m))
-    if out_m < NOSE_OUT * long_m or not len(below):
+    if out_m < NOSE_OUT * long_m:
         return None
-    first = below[np.argmax(high[below])]
-    # The underside of a nose is level; on a face with few vertices the next one below belongs to the lips or the chin.
-    base_m = float(high[(high > high[first]) & (high <= high[tip])].min())
-    return base_m if float(high[tip]) - base_m <= NOSE_LONG * long_m else None
+    for share in NOSE_BASE:
+        below = np.flatnonzero((high < high[tip]) & (deep < deep[tip] - share * out_m))
+        if len(below):
+            # The underside of a nose is level; on a face with few vertices the next one below belongs to the lips or
+            # the chin.
+            base_m = float(high[(high > high[below].max()) & (high <= high[tip])].min())
+            if float(high[tip]) - base_m <= NOSE_LONG * long_m:
+                return base_m
+    return None
 
 
 def at_height(profile: FloatArray, height_m: float, patch_m: float, count: int) -> IndexArray:

@@ -59,14 +59,25 @@ WIDE_CHIN = (
     *((0.129, 0.184), (0.107, 0.169), *6 * ((0.041, 0.151),), (0.022, 0.127), (-0.004, 0.024)),
 )
 """Profile of a large head without a vertex between the nose's base and the edge of the chin (Quaternius' knight)."""
+FULL_LIPS = (
+    *((0.43, -0.1), (0.37, -0.015), (0.356, 0.078), (0.324, -0.128), (0.258, 0.147), (0.141, 0.145), (0.112, 0.151)),
+    *((0.088, 0.162), (0.047, 0.139), (0.039, 0.136), (0.008, 0.035), (-0.006, 0.108)),
+)
+"""Profile of a head with a bun, and with lips nearer to the nose's tip than to the chin (Babylon.js' girl)."""
 BALL = tuple((0.22 * float(np.cos(turn)) + 0.1, 0.22 * float(np.sin(turn))) for turn in np.linspace(0.1, 3.0, 20))
 COLLAR = ((0.03, -0.04), (-0.09, 0.11), (-0.10, 0.11))
 
 
 @pytest.mark.parametrize(
     ("profile", "lips"),
-    [(NOSE, (-0.01, 0.02)), (WIDE_CHIN, (0.06, 0.09)), (BALL, (-0.06, 0.05)), ((*BALL[:13], *COLLAR), (0.0, 0.15))],
-    ids=["nose", "wide chin", "ball", "collar"],
+    [
+        (NOSE, (-0.01, 0.02)),
+        (WIDE_CHIN, (0.06, 0.09)),
+        (FULL_LIPS, (0.03, 0.05)),
+        (BALL, (-0.06, 0.05)),
+        ((*BALL[:13], *COLLAR), (0.0, 0.15)),
+    ],
+    ids=["nose", "wide chin", "full lips", "ball", "collar"],
 )
 def test_a_still_face_of_few_vertices_has_its_mouth_below_the_nose(
     profile: tuple[tuple[float, float], ...], lips: tuple[float, float]
