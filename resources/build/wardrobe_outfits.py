@@ -13,7 +13,7 @@ from wardrobe_marching import belt, cuffs, epaulettes, shako, stripes
 from wardrobe_pieces import ACCENT, MAIN, SECOND, Wearer, all_of, four_bones, linen_apart, piece, skin
 from wardrobe_polo import polo_shirt
 from wardrobe_sailor import sailor_collar, scarf
-from wardrobe_sewn import Skirt, bow_tie, moved_to, over, plain, sewn_surface, shell, skirt, throat
+from wardrobe_sewn import Skirt, bow_tie, garment, moved_to, over, plain, shell, skirt, throat
 from wardrobe_shirt import own_shirt
 from wardrobe_tunic import TUNIC_M, buttons, close_dress, front_strip, ribbon, stand_collar, tunic, tunic_drape
 
@@ -142,7 +142,7 @@ def _blouse_and_trousers(wearer: Wearer) -> Pieces:
 def _tie_alone(wearer: Wearer) -> Pieces:
     own = cloth_of(wearer, own_shirt(wearer))
     tie = bow_tie(wearer, throat(wearer, own.points, 0.008) + np.array([0.0, 0.0, 0.009]))
-    return [(sewn_surface("bow_tie", {ACCENT: [tie]}, wearer), "tie")]
+    return [(garment("bow_tie", {ACCENT: [tie]}, wearer), "tie")]
 
 
 def _blazer(wearer: Wearer) -> Pieces:
@@ -155,8 +155,8 @@ def _school_legs(wearer: Wearer, material: str, checked: bool, socks: str) -> Pi
     hem, sock = tailoring.knee_m + 0.015, tailoring.knee_m - 0.10
     pleated = skirt(wearer, Skirt(tailoring.belt_m + 0.02, hem, 0.05, 0.012), checked=checked)
     return [
-        (sewn_surface("skirt", {material: [pleated]}, wearer), "bottom"),
-        (sewn_surface("socks", {socks: [shell(wearer, tailoring.foot_m + 0.045, sock, 0.002)]}, wearer), "bottom"),
+        (garment("skirt", {material: [pleated]}, wearer), "bottom"),
+        (garment("socks", {socks: [shell(wearer, tailoring.foot_m + 0.045, sock, 0.002)]}, wearer), "bottom"),
         (bare_legs(wearer, sock - 0.05, hem + 0.16), "skin"),
     ]
 
@@ -203,7 +203,7 @@ def _sailor(wearer: Wearer) -> Pieces:
     top = hemmed(wearer, whole, wearer.tailoring.belt_m - 0.05)
     cloth = cloth_of(wearer, top)
     cape, stripes = sailor_collar(wearer, cloth)
-    over_it = sewn_surface("collar", {MAIN: [cape], SECOND: [stripes], ACCENT: scarf(wearer, cloth)}, wearer)
+    over_it = garment("collar", {MAIN: [cape], SECOND: [stripes], ACCENT: scarf(wearer, cloth)}, wearer)
     arms = bare_arms(wearer, sleeve_end_m(wearer, top) - 0.06)
     return [(top, "top"), (over_it, "top"), *legs, (bare_chest(wearer), "skin"), (arms, "skin")]
 
@@ -225,7 +225,7 @@ def _gakuran(wearer: Wearer) -> Pieces:
     row = buttons(own, np.stack([np.zeros(5), heights], axis=1))
     edge = front_strip(own, top, hem + 0.01)
     parts = {MAIN: [plain(own), plain(stand_collar(wearer, own)), edge], ACCENT: [row]}
-    return [(sewn_surface("tunic", parts, wearer), "top"), (legs, "bottom")]
+    return [(garment("tunic", parts, wearer), "top"), (legs, "bottom")]
 
 
 def _marching(wearer: Wearer) -> Pieces:
@@ -251,10 +251,10 @@ def _marching(wearer: Wearer) -> Pieces:
     hat = {SECOND: crown, ACCENT: metal, MAIN: plume}
     striped = {MAIN: [stripes(wearer, cloth_of(wearer, legs))]}
     return [
-        (sewn_surface("tunic", parts, wearer), "top"),
+        (garment("tunic", parts, wearer), "top"),
         (legs, "bottom"),
-        (sewn_surface("stripes", striped, wearer), "bottom"),
-        (sewn_surface("shako", hat, wearer), "hat"),
+        (garment("stripes", striped, wearer), "bottom"),
+        (garment("shako", hat, wearer), "hat"),
     ]
 
 
@@ -262,7 +262,7 @@ def _polo(wearer: Wearer) -> Pieces:
     legs = grey_trousers(wearer)
     top, trim, ends = polo_shirt(wearer, cloth_of(wearer, legs))
     return [
-        (sewn_surface("shirt", {MAIN: [top, *trim]}, wearer), "top"),
+        (garment("shirt", {MAIN: [top, *trim]}, wearer), "top"),
         (legs, "bottom"),
         (bare_arms(wearer, ends - 0.06), "skin"),
     ]
@@ -275,7 +275,7 @@ def _dress(wearer: Wearer) -> Pieces:
     bodice = plain(close_dress(wearer, waist - 0.01))
     start = (tailoring.wrist_m - tailoring.shoulder[0]) * 0.60 + tailoring.shoulder[0]
     return [
-        (sewn_surface("dress", {MAIN: [bodice, long]}, wearer), "dress"),
+        (garment("dress", {MAIN: [bodice, long]}, wearer), "dress"),
         (bare_shoulders(wearer), "skin"),
         (bare_arms(wearer, start), "skin"),
     ]
@@ -287,7 +287,7 @@ def _dinner_suit(wearer: Wearer) -> Pieces:
     return [
         (jacket, "top"),
         (suit_trousers(wearer), "bottom"),
-        (sewn_surface("bow_tie", {MAIN: [tie]}, wearer), "tie"),
+        (garment("bow_tie", {MAIN: [tie]}, wearer), "tie"),
     ]
 
 

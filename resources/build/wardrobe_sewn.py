@@ -37,6 +37,19 @@ def gold(cloth: Cloth) -> Sewn:
     return Sewn(cloth, spot_uvs(GOLD, (cloth.points[:, :2] - cloth.points[:, :2].min(axis=0)) / spread))
 
 
+def facing_out(sewn: Sewn) -> Sewn:
+    """A piece whose faces are turned away from its middle."""
+    cloth = sewn.cloth
+    corners = cloth.points[cloth.faces] - cloth.points.mean(axis=0)
+    volume = np.einsum("na,na->", np.cross(corners[:, 0], corners[:, 1]), corners[:, 2])
+    return sewn if volume > 0.0 else replace(sewn, cloth=replace(cloth, faces=cloth.faces[:, ::-1]))
+
+
+def garment(name: str, parts: dict[str, list[Sewn]], wearer: Wearer) -> Surface:
+    """Pieces by material as one surface of an outfit's file, all facing out."""
+    return sewn_surface(name, {material: [facing_out(one) for one in own] for material, own in parts.items()}, wearer)
+
+
 def sewn_surface(name: str, parts: dict[str, list[Sewn]], wearer: Wearer) -> Surface:
     """Pieces by material as one surface of the file."""
     pieces = [piece for own in parts.values() for piece in own]

@@ -105,6 +105,19 @@ def test_bare_skin_continues_the_bodys_own() -> None:
         assert not double, (path.stem, mesh.name)
 
 
+@pytest.mark.parametrize(
+    ("outfit", "mesh"), [("marching_man", "stripes"), ("marching_woman", "shako"), ("school_uniform_woman", "collar")]
+)
+def test_trimmings_face_out(outfit: str, mesh: str) -> None:
+    """Each material of a trimming encloses a positive volume about its own middle."""
+    own = next(one for one in worn(FOLDER / "wardrobe" / f"{outfit}.glb").meshes if one.name == mesh)
+    for material in range(len(own.materials)):
+        corners = own.positions_m[own.triangles[own.triangle_materials == material]].astype(np.float64)
+        corners -= corners.mean(axis=(0, 1))
+        volume = np.einsum("na,na->", np.cross(corners[:, 0], corners[:, 1]), corners[:, 2])
+        assert volume > 0.0, own.materials[material].name
+
+
 def test_the_files_are_those_that_the_scripts_make(build_module: Callable[[str], ModuleType]) -> None:
     made = build_module("wardrobe_made")
     folder, first = FOLDER / "wardrobe", BUILD / "build_wardrobe.py"
