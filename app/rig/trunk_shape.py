@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
 import numpy as np
 
-from app.arrays import BoolArray, FloatArray, IndexArray, SingleArray
+from app.arrays import AnyIntArray, BoolArray, FloatArray, IndexArray, SingleArray
 from app.identity_cache import IdentityCache
 from app.rig.ik import Side
 from app.rig.mesh import Mesh
@@ -92,30 +92,51 @@ _SHAPES: IdentityCache[TrunkShape | None] = IdentityCache(128)
 
 def trunk_shape(character: Character) -> TrunkShape | None:
     """Return the shape of a character in its own clothes, cached; None for one without a trunk of skin or clothes."""
-    return _SHAPES.step(_made, character.undressed or character, _OUTFIT_M)
+    return _SHAPES.step(_in_own_clothes, character.undressed or character)
 
 
 def dressed_shape(character: Character) -> TrunkShape | None:
-    """Return the shape of a character in the clothes that it wears, cached, or None as in `trunk_shape`."""
-    if character.undressed is None:
-        return trunk_shape(character)
-    return _SHAPES.step(_made, character, _WORN_M)
+    """Return the shape of a character in the clothes that it wears, cached, or None as in `trunk_shape`.
+
+    It is nowhere thinner than in its own clothes with the room before these.
+    """
+    return trunk_shape(character) if character.undressed is None else _SHAPES.step(_as_worn, character)
 
 
-def _made(character: Character, room_m: float) -> TrunkShape | None:
-    names = [name for name in TRUNK if name in character.skeleton.names]
-    shares = [
-        np.stack([_share(mesh, _holders(character, (name,), TRUNK)) for name in names], axis=1)
-        for mesh in character.meshes
-    ]
-    used = [np.isin(np.arange(len(mesh.positions_m)), mesh.triangles) for mesh in character.meshes]
+def _in_own_clothes(character: Character) -> TrunkShape | None:
     surfaces = [
-        _surface(character, names, mesh, share, np.flatnonzero((share.sum(axis=1) >= _HELD) & seen))
-        for mesh, share, seen in zip(character.meshes, shares, used, strict=True)
+        surface for mesh in character.meshes for surface in _surfaces(character, mesh, [mesh.triangles.reshape(-1)])
     ]
-    surfaces = [one for one in surfaces if len(one.places_m) >= _FEWEST]
+    radii_m: dict[Side, FloatArray] = {side: _radii_m(character, side) for side in ("left", "right")}
+    return _made(character, surfaces, radii_m, _OUTFIT_M)
+
+
+def _as_worn(character: Character) -> TrunkShape | None:
+    own, more_m = character.undressed, _OUTFIT_M - _WORN_M
+    assert own is not None
+    surfaces = [
+        replace(surface, more_m=more_m)
+        for mesh in own.meshes
+        for surface in _surfaces(own, mesh, [mesh.triangles.reshape(-1)])
+    ]
+    for mesh in character.meshes:
+        if not any(mesh is other for other in own.meshes):
+            # Garments lie over each other: each material is a surface of its own.
+            numbers = np.unique(mesh.triangle_materials)
+            parts = [mesh.triangles[mesh.triangle_materials == number].reshape(-1) for number in numbers]
+            surfaces += _surfaces(character, mesh, parts)
+    radii_m: dict[Side, FloatArray] = {
+        side: np.maximum(_radii_m(own, side) + more_m, _radii_m(character, side)) for side in ("left", "right")
+    }
+    return _made(character, surfaces, radii_m, _WORN_M)
+
+
+def _made(
+    character: Character, surfaces: Sequence[_Surface], radii_m: dict[Side, FloatArray], room_m: float
+) -> TrunkShape | None:
     if not surfaces:
         return None
+    names = _names(character)
     places_m = np.concatenate([one.places_m for one in surfaces])
     corner_m = places_m.min(axis=0) - BEYOND_M
     count = np.ceil((places_m.max(axis=0) + BEYOND_M - corner_m) / CELL_M).astype(int) + 1
@@ -131,18 +152,36 @@ def _made(character: Character, room_m: float) -> TrunkShape | None:
         joints.append(joint)
         corners_m.append(corner_m + first * CELL_M - rest_m[joint])
         grids_m.append(_ending(depths_m[tuple(map(slice, first, last))]))
-    radii_m: dict[Side, FloatArray] = {side: _radii_m(character, side) for side in ("left", "right")}
     return TrunkShape(tuple(joints), tuple(corners_m), tuple(grids_m), radii_m, room_m)
+
+
+def _names(character: Character) -> list[str]:
+    return [name for name in TRUNK if name in character.skeleton.names]
 
 
 @dataclass(frozen=True, eq=False)
 class _Surface:
-    """Vertices of a mesh on the trunk in the T-pose: positions (V, 3) and normals (V, 3) in world space, and the
-    weights (V, T) of T joints."""
+    """Vertices of a mesh on the trunk in the T-pose: positions (V, 3) and normals (V, 3) in world space, the weights
+    (V, T) of T joints, and the room ``more_m`` in metres that is kept before them."""
 
     places_m: FloatArray
     normals: FloatArray
     shares: FloatArray
+    more_m: float = 0.0
+
+
+def _surfaces(character: Character, mesh: Mesh, parts: Sequence[AnyIntArray]) -> list[_Surface]:
+    """Return the surfaces on the trunk of parts of a mesh, each given by the vertices of its triangles."""
+    names = _names(character)
+    shares = np.stack([_share(mesh, _holders(character, (name,), TRUNK)) for name in names], axis=1)
+    held = shares.sum(axis=1) >= _HELD
+    found = []
+    for part in parts:
+        rows = np.unique(part)
+        surface = _surface(character, names, mesh, shares, rows[held[rows]])
+        if len(surface.places_m) >= _FEWEST:
+            found.append(surface)
+    return found
 
 
 def _surface(character: Character, names: Sequence[str], mesh: Mesh, shares: FloatArray, held: IndexArray) -> _Surface:
@@ -187,7 +226,7 @@ def _share(mesh: Mesh, holders: BoolArray) -> FloatArray:
     return np.asarray(np.where(holders[mesh.joints], mesh.weights, 0.0).sum(axis=1), np.float64)
 
 
-def _depths_m(surfaces: list[_Surface], corner_m: FloatArray, count: IndexArray) -> FloatArray:
+def _depths_m(surfaces: Sequence[_Surface], corner_m: FloatArray, count: IndexArray) -> FloatArray:
     """Return the depth (X, Y, Z) inside the outermost of some surfaces at the points of a grid."""
     from scipy.spatial import cKDTree  # heavy: a window is up before any body is
 
@@ -207,7 +246,7 @@ def _depths_m(surfaces: list[_Surface], corner_m: FloatArray, count: IndexArray)
         # Beyond an edge, as under a hem, a point is less and less inside.
         inside_m = np.where(inside_m > 0.0, inside_m - 2.0 * np.maximum(aside_m - _ASIDE_M, 0.0), -away_m)
         found_m = np.full(len(points_m), -BEYOND_M)
-        found_m[near] = inside_m
+        found_m[near] = inside_m + one.more_m
         deepest_m[part] = np.maximum(deepest_m[part], found_m.reshape(deepest_m[part].shape))
     clipped_m: FloatArray = np.clip(deepest_m, -BEYOND_M, _DEEPEST_M)
     return clipped_m

@@ -193,7 +193,7 @@ def remaining(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> R
         forearm = _Forearm.of(side, solved, posed)
         turn_rad = np.minimum(*_outward_rad(forearm, side, solved, player.wrists[side], 0))
         turn_rad = turn_rad if side == "left" else -turn_rad
-        depth_m = np.maximum(depth_m, forearm.inside_m(frames, turn_rad))
+        depth_m = np.maximum(depth_m, forearm.inside_m(frames, turn_rad).max(axis=1))
         hand_m = player.skeleton.offsets_m[player.skeleton.index(f"{side}MiddleProximal")]
         palm_m = forearm.wrist_m[:, None] + quaternion.rotate(solved.hand[:, None], hand_m * PALM[:, None])
         depth_m = np.maximum(depth_m, (posed.depths_m(palm_m) + PALM_M + player.shape.room_m).max(axis=1))
@@ -237,7 +237,7 @@ class _Forearm:
         return cls(posed.shape, posed.shape.radii_m[side] + posed.shape.room_m, wrist_m, seen_m)
 
     def inside_m(self, frames: IndexArray, turn_rad: float | FloatArray) -> FloatArray:
-        """Return the greatest depth (K,) in K frames with the elbow turned about the line by an angle, or by angles
+        """Return the depth (K, P) at `ALONG` in K frames with the elbow turned about the line by an angle, or by angles
         (K,)."""
         deepest_m = np.full((len(frames), len(ALONG)), -BEYOND_M)
         turns_rad = np.reshape(turn_rad, (-1, 1))
@@ -253,7 +253,7 @@ class _Forearm:
             points_m = (elbow_m + ALONG[:, None] * (wrist_m - elbow_m)).reshape(-1, 3)
             found_m = self.shape.depths_m(number, points_m).reshape(len(near), -1)
             deepest_m[near] = np.maximum(deepest_m[near], found_m)
-        return np.asarray((deepest_m + self.thick_m).max(axis=1))
+        return deepest_m + self.thick_m
 
 
 def _outward_rad(
@@ -263,20 +263,23 @@ def _outward_rad(
     sign, count = (1.0 if side == "left" else -1.0), len(solved.line)
     needed_rad, most_rad = np.zeros(count), np.full(count, MOST_RAD)
     depth_m = forearm.inside_m(np.arange(count), 0.0)
-    frames, angles = np.flatnonzero(depth_m > -EASE_M), np.linspace(0.0, MOST_RAD, TRIED)
+    frames, angles = np.flatnonzero((depth_m > -EASE_M).any(axis=1)), np.linspace(0.0, MOST_RAD, TRIED)
     if not len(frames):
         return needed_rad, most_rad
     # An elbow that is clear goes no farther.
-    depths = np.full((TRIED, len(frames)), -BEYOND_M)
-    depths[0] = depth_m[frames]
+    depths_m = np.full((TRIED, len(frames), len(ALONG)), -BEYOND_M)
+    depths_m[0] = depth_m[frames]
     for number in range(1, TRIED):
-        inside = np.flatnonzero(depths[number - 1] > -EASE_M)
+        inside = np.flatnonzero((depths_m[number - 1] > -EASE_M).any(axis=1))
         if not len(inside):
             break
-        depths[number, inside] = forearm.inside_m(frames[inside], sign * float(angles[number]))
-    # Where it stays inside at every angle, nearly the least depth is good enough.
-    over = depths - np.maximum(depths.min(axis=0) + SLACK_M, 0.0)
-    needed_rad[frames] = _turned(np.clip(1.0 + over / EASE_M, 0.0, 1.0), angles)
+        depths_m[number, inside] = forearm.inside_m(frames[inside], sign * float(angles[number]))
+    # Where a place, such as the wrist, stays inside at every angle, nearly its least depth is good enough.
+    over = (depths_m - np.maximum(depths_m.min(axis=0) + SLACK_M, 0.0)).max(axis=2)
+    # No place becomes clear at the cost of another one that is deeper.
+    deepest_m = depths_m.max(axis=2)
+    risen = np.clip((deepest_m - np.minimum.accumulate(deepest_m, axis=0)) / SLACK_M, 0.0, 1.0)
+    needed_rad[frames] = _turned(np.clip(1.0 + over / EASE_M, 0.0, 1.0) * (1.0 - risen), angles)
     around = np.zeros(count + 1)
     np.add.at(around, np.maximum(frames - within, 0), 1.0)
     np.add.at(around, np.minimum(frames + within + 1, count), -1.0)

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from app.rig.characters.character_library import character_named
-from app.rig.trunk_shape import ALONG, BEYOND_M, TrunkShape, trunk_shape
+from app.rig.characters.dressed_characters import character_in
+from app.rig.people.wardrobe import OutfitChoice
+from app.rig.trunk_shape import ALONG, BEYOND_M, TrunkShape, dressed_shape, trunk_shape
 
 
 def shape_of(id: str) -> TrunkShape:
@@ -54,3 +56,20 @@ def test_outfits_do_not_change_the_shape() -> None:
     own = character_named("man_adult")
     assert trunk_shape(replace(own, meshes=(), undressed=own)) is trunk_shape(own)
     assert trunk_shape(replace(own, meshes=())) is None
+
+
+def test_room_before_worn_clothes_is_never_less_and_more_for_a_tunic() -> None:
+    own, worn = shape_of("woman_adult"), dressed_shape(character_in("woman_adult", OutfitChoice("marching")))
+    assert worn is not None
+    assert worn.joints == own.joints
+    more_m = []
+    for number in range(len(own.joints)):
+        low_m, high_m = (corner_m[number, 0] for corner_m in own.bounds_m)
+        points_m = np.random.default_rng(number).uniform(low_m + 0.06, high_m - 0.06, (400, 3))
+        before_m, after_m = (one.depths_m(number, points_m) + one.room_m for one in (own, worn))
+        more_m.append((after_m - before_m)[np.abs(before_m) < 0.03])
+    # The points of both grids differ.
+    assert np.percentile(np.concatenate(more_m), 2) > -0.006
+    assert np.percentile(np.concatenate(more_m), 90) > 0.005
+    for side, radii_m in own.radii_m.items():
+        assert (worn.radii_m[side] + worn.room_m >= radii_m + own.room_m - 1e-9).all()

