@@ -1,13 +1,13 @@
 """Measurement of how deep forearms and hands, including sleeves, penetrate clothes and skin of trunk and thighs.
 
-The surfaces in the file are measured. Frames are tried in order of the distance between the trunk in its bind pose and
-the line from elbow to wrist, some time apart; surfaces are computed only for these frames. The result is at or near the
-greatest depth, and never too large.
+The surfaces in the file are measured. Frames are tried in order of the distance between chest, hips and thighs in their
+bind poses and the line from elbow to wrist, some time apart; surfaces are computed only for these frames. The result is
+at or near the greatest depth, and never too large.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from typing import Final
 
 import msgspec
@@ -16,7 +16,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from app.arrays import AnyIntArray, FloatArray, IndexArray
+from app.arrays import AnyIntArray, BoolArray, FloatArray, IndexArray
 from app.export.joint_playback import JointPlayback
 from app.export.playback import PlaybackBones, ScenePlayback, Surface
 from app.formats.scene import SkinnedMesh
@@ -25,6 +25,7 @@ from app.rig import quaternion
 ARM_MM: Final = 10.0
 """Depth in millimetres of a forearm inside cloth that is tolerated, since cloth yields."""
 _TRUNK: Final = ("hips", "spine", "chest", "upperChest", "leftUpperLeg", "rightUpperLeg")
+_THIGHS: Final = ("leftUpperLeg", "rightUpperLeg")
 _CARRIED: Final = 0.9
 """Least skin weight for the trunk, or for a forearm, of the vertices compared; those between, as in the armpit, touch
 anyway.
@@ -101,6 +102,11 @@ class _TrunkSurface:
         self._surface = Surface(playback, mesh, held)
         self._triangles = np.searchsorted(held, triangles)
         self.bound_m = self._surface.skin.positions_m
+        self._mesh, self._held = mesh, held
+
+    def moved_by(self, joints: JointPlayback, names: Collection[str]) -> BoolArray:
+        """Return which vertices (V,) the named joints move by half at least."""
+        return _share(joints, self._mesh, names)[self._held] >= 0.5
 
     def normals(self, places_m: FloatArray) -> FloatArray:
         """Return the outward normals (V, 3) of the V vertices at given positions."""
@@ -203,28 +209,24 @@ def _share(joints: JointPlayback, mesh: SkinnedMesh, names: Collection[str]) -> 
 def _frames(joints: JointPlayback, side: str, trunk: list[_TrunkSurface]) -> list[int]:
     """Return frames in which a forearm is near to the trunk, nearest first."""
     playback = joints.playback
-    chest = joints.bone("upperChest", "chest", "spine", "hips")
-    bones = [chest, joints.bone(f"{side}LowerArm"), joints.bone(f"{side}Hand")]
+    chest, hips = joints.bone("upperChest", "chest", "spine", "hips"), joints.bone("hips")
+    holders = dict.fromkeys(("spine", "chest", "upperChest"), chest) | {"hips": hips}
+    # A file without bones for the thighs has none to bend.
+    holders |= {name: joints.bone(name) for name in _THIGHS if name in joints.joint_names.values()}
+    parts = [part for bone in sorted(set(holders.values())) if len(part := _Held.by(bone, holders, joints, trunk))]
+    bones = [*(part.bone for part in parts), joints.bone(f"{side}LowerArm"), joints.bone(f"{side}Hand")]
     limbs = PlaybackBones(playback, bones)
     rows, frames = limbs.rows(bones), playback.clip.frames
-    bind = np.array(playback.scene.meshes[0].world_from_bone_bind[chest], np.float64)
-    bind[:3, 3] /= 100.0
-    chest_from_mesh = np.linalg.inv(bind)
-    places_m = np.concatenate([one.bound_m for one in trunk]) @ chest_from_mesh[:3, :3].T + chest_from_mesh[:3, 3]
-    normals = np.concatenate([one.normals(one.bound_m) for one in trunk]) @ chest_from_mesh[:3, :3].T
-    tree = cKDTree(places_m)
     along = np.linspace(0.0, 1.0, _SAMPLES)[:, None, None]
-    away_m = np.empty(frames)
+    away_m = np.full(frames, np.inf)
     for first in range(0, frames, _CHUNK):
         last = min(first + _CHUNK, frames)
         world = limbs.world(first, last)[rows]
-        elbow_m, wrist_m = (
-            np.einsum("jif,jf->if", world[0, :, :3], world[row, :, 3] - world[0, :, 3]) for row in (1, 2)
-        )
-        points_m = ((1.0 - along) * elbow_m + along * wrist_m).transpose(2, 0, 1)
-        distance_m, nearest = tree.query(points_m)
-        outside = np.einsum("fsi,fsi->fs", points_m - places_m[nearest], normals[nearest]) >= 0.0
-        away_m[first:last] = np.where(outside, distance_m, -distance_m).min(axis=1)
+        points_m = ((1.0 - along) * world[-2, :, 3] + along * world[-1, :, 3]).transpose(2, 0, 1)
+        for part, holder in zip(parts, world, strict=False):
+            from_holder_m = points_m - holder[:, 3].T[:, None]
+            there_m = np.einsum("jif,fsj->fsi", holder[:, :3], from_holder_m)
+            away_m[first:last] = np.minimum(away_m[first:last], part.away_m(there_m).min(axis=1))
     apart, chosen = _APART_S * float(playback.clip.fps), list[int]()
     for frame in np.argsort(away_m, kind="stable"):
         if away_m[frame] > _NEAR_M or len(chosen) == _MOST_FRAMES:
@@ -232,3 +234,35 @@ def _frames(joints: JointPlayback, side: str, trunk: list[_TrunkSurface]) -> lis
         if all(abs(int(frame) - other) >= apart for other in chosen):
             chosen.append(int(frame))
     return chosen
+
+
+class _Held:
+    """The vertices of a trunk that move mostly with one bone, as they are bound to it."""
+
+    def __init__(self, bone: int, places_m: FloatArray, normals: FloatArray) -> None:
+        self.bone = bone
+        self._places_m, self._normals = places_m, normals
+        self._tree = cKDTree(places_m) if len(places_m) else None
+
+    def __len__(self) -> int:
+        return len(self._places_m)
+
+    @classmethod
+    def by(cls, bone: int, holders: Mapping[str, int], joints: JointPlayback, trunk: list[_TrunkSurface]) -> _Held:
+        """Return the vertices of a bone; ``holders`` are the bones by the joints whose vertices they hold."""
+        bind = np.array(joints.playback.scene.meshes[0].world_from_bone_bind[bone], np.float64)
+        bind[:3, 3] /= 100.0
+        bone_from_mesh, names = np.linalg.inv(bind), [name for name, holder in holders.items() if holder == bone]
+        own = [one.moved_by(joints, names) for one in trunk]
+        places_m = np.concatenate([one.bound_m[rows] for one, rows in zip(trunk, own, strict=True)])
+        normals = np.concatenate([one.normals(one.bound_m)[rows] for one, rows in zip(trunk, own, strict=True)])
+        turn = bone_from_mesh[:3, :3]
+        return cls(bone, places_m @ turn.T + bone_from_mesh[:3, 3], normals @ turn.T)
+
+    def away_m(self, points_m: FloatArray) -> FloatArray:
+        """Return the distance (...) of points (..., 3) in the bone's frame from the vertices; negative inside."""
+        assert self._tree is not None
+        distance_m, nearest = self._tree.query(points_m)
+        inside_m = -np.einsum("fsi,fsi->fs", points_m - self._places_m[nearest], self._normals[nearest])
+        aside_m = np.sqrt(np.maximum(distance_m**2 - inside_m**2, 0.0))
+        return np.where((inside_m > 0.0) & (aside_m < _ASIDE_M), -inside_m, distance_m)
