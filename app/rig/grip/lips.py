@@ -118,6 +118,8 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
         jaw = mouth.jaw if gap.get(mouth.jaw, 0.0) > LEAST_PARTED_M * mouth.size else ""
         if jaw and CLOSING_MORPH not in mouth.deltas_m:
             vowels = tuple(name for name, opens_m in gap.items() if name.startswith("mouth") and opens_m > 0.0)
+            # Where a shape moves half of the upper lip, its edge is found above the seam of lips closed at rest.
+            gap_m = min(gap_m, LEAST_PARTED_M * mouth.size)
         if embouchure.lips_apart_m > 0.0:
             # Independent of the face's weights, so that holds need not be fitted again when they change.
             usual_m = _in_head(character, character.landmarks["lips.contact"])[0] - 0.5 * embouchure.lips_apart_m * up

@@ -6,17 +6,21 @@ import random
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.errors import FileError
 from app.messages import WORDINGS
+from app.motion.faces.morph_weights import usual_morphs
 from app.rig.characters.face_map import map_morphs
 from app.rig.characters.load_character import load_character
 from app.rig.characters.read_figure import read_figure
+from app.rig.grip.lips import fit_lips
+from instrument_maps.load import bundled_maps
 from metadata.known_names import FaceNames
-from metadata.load import load_face_names
+from metadata.load import load_body, load_face_names
 from metadata.model import ARKIT_MORPHS
 from tests.support.skeletons import face_of
 
@@ -231,3 +235,15 @@ def test_a_smile_of_the_whole_face_turns_no_eyes() -> None:
     made = map_morphs(face_of(["ah", "oh", "up"], expressions)).morphs
     assert made["mouthSmileLeft"] == {"oh": pytest.approx(0.2)}
     assert made["eyeLookUpLeft"] == {"up": 0.5}
+
+
+@pytest.mark.parametrize("name", ["elder_vrm0.vrm", "toddler_vrm1.vrm"])
+def test_a_face_of_vowels_still_forms_an_embouchure(name: str) -> None:
+    """Its lips are closed at rest, wherever the edge of an upper lip is found that a vowel moves by half."""
+    instrument, body = bundled_maps()["clarinet_Bb"], load_body()
+    lips = fit_lips(load_character(CHARACTERS / name), instrument, body)
+    usual = usual_morphs(body.embouchure[instrument.embouchure.kind], lips)
+    assert usual["mouthFunnel"] > 0.2
+    assert usual[lips.jaw] < 0.5
+    parted_m = lips.gap_m({shape: np.array([weight]) for shape, weight in usual.items()}, 1)[0]
+    assert parted_m == pytest.approx(lips.apart_m, abs=1e-4)
