@@ -105,7 +105,7 @@ class _TrunkSurface:
         self._mesh, self._held = mesh, held
 
     def moved_by(self, joints: JointPlayback, names: Collection[str]) -> BoolArray:
-        """Return which vertices (V,) the named joints move by half at least."""
+        """Return the mask (V,) of the vertices that the named joints move by half at least."""
         return _share(joints, self._mesh, names)[self._held] >= 0.5
 
     def normals(self, places_m: FloatArray) -> FloatArray:
