@@ -66,6 +66,10 @@ def materials_once(mesh: Mesh) -> tuple[tuple[Material, ...], npt.NDArray[np.int
     return kept, table[mesh.triangle_materials]
 
 
+_MOST_AVERAGED = 2000
+"""Number of triangles of a material at most over which the colours of its texture are averaged."""
+
+
 def plain_materials(mesh: Mesh) -> tuple[Material, ...]:
     """Return a mesh's materials with each texture replaced by its mean colour."""
     made = []
@@ -73,7 +77,8 @@ def plain_materials(mesh: Mesh) -> tuple[Material, ...]:
         if material.textures == NO_TEXTURES:
             made.append(material)
             continue
-        corners = mesh.uvs[mesh.triangles[mesh.triangle_materials == number]]
+        own = np.flatnonzero(mesh.triangle_materials == number)
+        corners = mesh.uvs[mesh.triangles[own[:: 1 + len(own) // _MOST_AVERAGED]]]
         # Only the corners of a hair card are cut out.
         made.append(plain_material(material, np.concatenate([corners.reshape(-1, 2), corners.mean(axis=1)])))
     return tuple(made)

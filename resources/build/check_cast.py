@@ -48,7 +48,7 @@ from instrument_maps.model import InstrumentMap
 from metadata.load import load_body, load_skeleton
 from resources.build.fit_carriages import write_carriages
 
-FPS = Fraction(15)
+FPS = Fraction(30)
 NOTE_TICKS = 240
 LEAST_DEG, SAME = 2.0, 0.05
 """Degrees beyond a range that count: fewer are what the tests of wrists allow the finished bodies in motion. Degrees or
