@@ -11,21 +11,22 @@ USD, Blender):
 The tolerance of a bone's rotation is its share of the tolerance of the points below it. Shares are chosen to minimise
 keys: the keys needed are proportional to the square root of the rate of change of direction over the square root of the
 tolerance; for a given sum of squares along a chain, the minimum has tolerances proportional to (change / reach) to the
-power 2/3. With cubics the bones that need most keys get more (`app.export.keyed_motion`). Remaining violations are
-corrected by additional keys.
+power 2/3; with cubics to another power (`app.export.keyed_motion`). Remaining violations of cubics are corrected by
+choosing the keys around them again with a lower tolerance, others by additional keys.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 
-from app.arrays import AnyFloatArray, AnyIntArray, BoolArray
+from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, SingleArray
 from app.export.key_reduction_landmarks import SkinnedMarks
 from app.export.keyed_motion import ROTATION_RAD, KeyedMotion, together
-from app.formats.cubics import cubic_keys
+from app.formats.cubics import cubic_keys, stretches_again
 from app.formats.keys import Keys, KeySpans, runs, straight_keys
 from app.formats.scene import Clip, Scene
 
@@ -37,9 +38,15 @@ hands on it.
 ROTATION_DEG: Final = float(np.degrees(ROTATION_RAD))
 WEIGHT: Final = 0.005
 
+_Group: TypeAlias = tuple[AnyIntArray, SingleArray]
+"""Rows of some moving bones, and their values; see `KeyedMotion.scaled`."""
 _MORPHS = 0.5
 """Share of a landmark's tolerance for all morphs together."""
 _CHUNK, _ROUNDS = 512, 8
+_AGAIN = 5
+"""Number of rounds in which keys around a violation are chosen again, before keys are added."""
+_AROUND, _TIGHTER = 3, 0.8
+"""Number of spans before and after a violation that are chosen again, and factor of the tolerance in its span."""
 
 
 def reduced(scene: Scene, marks: SkinnedMarks, most_mm: float, pose: bool = False, curved: bool = True) -> Scene:
@@ -71,13 +78,13 @@ def reduced(scene: Scene, marks: SkinnedMarks, most_mm: float, pose: bool = Fals
         kept = np.zeros((len(motion.moving), clip.frames), bool)
         for rows, numbers in values:
             kept[rows] = cubic_keys(numbers) if curved else straight_keys(numbers)
-        _settle(motion, kept, shared=False)
+        _settle(motion, kept, False, values if curved else ())
         for row, bone in enumerate(motion.moving.tolist()):
             bones[bone] = np.flatnonzero(kept[row])
         if pose:
             together = np.concatenate([row for _, numbers in values for row in numbers], axis=1)
             kept = np.repeat(straight_keys(together[None]), len(motion.moving), axis=0)
-            _settle(motion, kept, shared=True)
+            _settle(motion, kept, True)
             poses = np.flatnonzero(kept[0])
     keys = Keys(tuple(bones), weights, face, poses, curved)
     return replace(scene, clip=replace(clip, keys=_with_end(keys, clip.frames)))
@@ -112,8 +119,8 @@ def _weight_keys(clip: Clip, marks: SkinnedMarks, most_m: float) -> tuple[dict[s
     return {name: np.flatnonzero(row) for name, row in zip(names, alone, strict=True)}, np.flatnonzero(together[0])
 
 
-def _settle(motion: KeyedMotion, kept: BoolArray, shared: bool) -> None:
-    """Add keys until every bound holds at every frame.
+def _settle(motion: KeyedMotion, kept: BoolArray, shared: bool, values: Sequence[_Group] = ()) -> None:
+    """Choose keys again, or add keys, until every bound holds at every frame.
 
     Parameters
     ----------
@@ -123,8 +130,12 @@ def _settle(motion: KeyedMotion, kept: BoolArray, shared: bool) -> None:
         Keys of the moving bones; changed in place.
     shared : bool
         Whether all bones have keys at the same frames, and no program interpolates angles.
+    values : sequence of (ndarray of int, ndarray)
+        Groups of the moving bones' rows and values, divided by the tolerances, from which cubic keys are chosen again;
+        empty for linear keys.
     """
     changed, rows = np.ones(motion.frames, bool), np.arange(len(kept))
+    limits = np.ones(kept.shape, np.float32)
     rounds = 0
     while changed.any():
         rounds += 1
@@ -143,12 +154,80 @@ def _settle(motion: KeyedMotion, kept: BoolArray, shared: bool) -> None:
         if not new.any():
             return
         rows, places = np.nonzero(new)
+        if values and rounds <= _AGAIN:
+            changed = beyond | _choose_again(kept, limits, values, rows, places)
+            rows = np.unique(rows)
+            continue
         touched = np.zeros(motion.frames + 1, np.int64)
         np.add.at(touched, spans.before[rows, places], 1)
         np.add.at(touched, spans.after[rows, places] + 1, -1)
         changed = beyond | (np.cumsum(touched)[:-1] > 0)
         kept |= new
         rows = np.unique(rows)
+
+
+def _choose_again(
+    kept: BoolArray, limits: AnyFloatArray, values: Sequence[_Group], rows: AnyIntArray, places: AnyIntArray
+) -> BoolArray:
+    """Choose the keys around some frames again, with a lower tolerance in the span of each frame.
+
+    Parameters
+    ----------
+    kept : (N, F) bool
+        Keys of the moving bones; changed in place.
+    limits : (N, F) float32
+        Tolerance of each bone at each frame, as a multiple of its usual one; changed in place.
+    values : sequence of (ndarray of int, ndarray)
+        See `_settle`.
+    rows, places : (V,) int
+        Bone and frame of each violation, ordered by bone and frame; the frames have no keys.
+
+    Returns
+    -------
+    ndarray of bool, shape (F,)
+        Mask of the frames whose interpolation may have changed.
+    """
+    touched = np.zeros(kept.shape[1], bool)
+    for group, numbers in values:
+        stretches: list[tuple[int, int, int]] = []
+        for lane, row in enumerate(group.tolist()):
+            own = places[rows == row]
+            if len(own):
+                stretches += [(lane, first, last) for first, last in _stretches(kept[row], limits[row], own)]
+        if not stretches:
+            continue
+        lanes, begins, ends = np.array(stretches).T
+        chosen = stretches_again(numbers, limits[group], lanes, begins, ends)
+        for (lane, first, last), keys in zip(stretches, chosen, strict=True):
+            row = int(group[lane])
+            kept[row, first + 1 : last] = False
+            kept[row, keys] = True
+            touched[first : last + 1] = True
+    return touched
+
+
+def _stretches(kept: BoolArray, limits: AnyFloatArray, places: AnyIntArray) -> list[tuple[int, int]]:
+    """Return the first and last frames, both with keys, of the stretches around violations of one bone at ``places``.
+
+    Parameters
+    ----------
+    kept : (F,) bool
+        Keys of the bone. A violation after the last key gets one on the last frame.
+    limits : (F,) float32
+        Tolerance, lowered in place in the spans that contain a violation.
+    """
+    if places[-1] > np.flatnonzero(kept)[-1]:
+        kept[-1] = True
+    keys = np.flatnonzero(kept)
+    after = np.searchsorted(keys, places)
+    found: list[tuple[int, int]] = []
+    for number in np.unique(after).tolist():
+        limits[keys[number - 1] : keys[number] + 1] *= _TIGHTER
+        first, last = int(keys[max(number - 1 - _AROUND, 0)]), int(keys[min(number + _AROUND, len(keys) - 1)])
+        if found and first < found[-1][1]:
+            first, _ = found.pop()
+        found.append((first, last))
+    return found
 
 
 def _add_keys(

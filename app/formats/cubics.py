@@ -24,9 +24,9 @@ _LENGTHS = np.unique([*range(1, 24), *range(24, 48, 2), *range(48, 96, 4), *rang
 _AT_ONCE = 2**20
 """Number of values processed at a time."""
 _PASSES = 8
-_BLOCK = 12
+_BLOCK = 48
 """Number of consecutive spans that are redivided together, each as long as possible."""
-_BLOCK_PASSES = 4
+_BLOCK_PASSES = 2
 """Number of such passes; blocks are shifted by half their length in between."""
 
 
@@ -206,24 +206,65 @@ def _with_longest_spans(values: AnyFloatArray, kept: BoolArray, first: int) -> i
     return int((spans - used)[shorter].sum())
 
 
-def _longest(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, most: AnyIntArray) -> IntArray:
+def stretches_again(
+    values: AnyFloatArray, limits: AnyFloatArray, lanes: AnyIntArray, begins: AnyIntArray, ends: AnyIntArray
+) -> list[AnyIntArray]:
+    """Choose the keys of some stretches of curves again, each span as long as possible.
+
+    Parameters
+    ----------
+    values : ndarray, shape (L, F, D)
+        Curves of D numbers each, divided by the tolerance.
+    limits : ndarray, shape (L, F)
+        Greatest deviation in any number at each frame, 1 for the tolerance.
+    lanes, begins, ends : (S,) int
+        Curve, first frame and last frame of each stretch; both frames keep their keys.
+
+    Returns
+    -------
+    list of ndarray of int
+        Frames of the keys inside each stretch, without its first and last frame.
+    """
+    here, found = np.array(begins, np.int64), [list[int]() for _ in range(len(begins))]
+    while len(going := np.flatnonzero(here < ends)):
+        most = np.minimum(ends[going] - here[going], _LONGEST)
+        here[going] += _longest(values, lanes[going], here[going], most, limits)
+        for stretch in going.tolist():
+            found[stretch].append(int(here[stretch]))
+    return [np.array(frames[:-1], np.intp) for frames in found]
+
+
+def _longest(
+    values: AnyFloatArray,
+    lanes: AnyIntArray,
+    starts: AnyIntArray,
+    most: AnyIntArray,
+    limits: AnyFloatArray | None = None,
+) -> IntArray:
     """Return for each of S spans from ``starts`` the greatest length that is accurate enough: ``most``, or the one of
     `_LENGTHS` that bisection finds.
     """
-    near = ~_far(values, lanes, starts, most)
+    near = ~_far(values, lanes, starts, most, limits)
     result: IntArray = np.array(most, np.int64)
     rest = np.flatnonzero(~near)
     low, high = np.zeros(len(rest), np.intp), np.searchsorted(_LENGTHS, most[rest]) - 1
     while (low < high).any():
         tried = (low + high + 1) // 2
-        near = ~_far(values, lanes[rest], starts[rest], _LENGTHS[tried])
+        near = ~_far(values, lanes[rest], starts[rest], _LENGTHS[tried], limits)
         low, high = np.where(near, tried, low), np.where(near, high, np.maximum(tried - 1, low))
     result[rest] = _LENGTHS[low]
     return result
 
 
-def _far(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, lengths: AnyIntArray) -> BoolArray:
-    """Return a mask (S,) of the spans whose cubic deviates from ``values`` by more than 1 (the tolerance).
+def _far(
+    values: AnyFloatArray,
+    lanes: AnyIntArray,
+    starts: AnyIntArray,
+    lengths: AnyIntArray,
+    limits: AnyFloatArray | None = None,
+) -> BoolArray:
+    """Return a mask (S,) of the spans whose cubic deviates from ``values`` by more than ``limits`` (L, F), or by more
+    than 1 (the tolerance).
 
     S spans are given by curve, first frame and length.
     """
@@ -233,7 +274,8 @@ def _far(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, lengths
         for part in (some[first : first + step] for first in range(0, len(some), step)):
             frames = starts[part, None] + np.arange(length + 1)
             shown, _ = _fitted(values, lanes[part], starts[part], length)
-            result[part] = (np.abs(shown - values[lanes[part, None], frames]) > 1.0).any(axis=(1, 2))
+            most = 1.0 if limits is None else limits[lanes[part, None], frames][..., None]
+            result[part] = (np.abs(shown - values[lanes[part, None], frames]) > most).any(axis=(1, 2))
     return result
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 
-from app.formats.cubics import cubic_keys, cubic_values, curved_values, span_slopes
+from app.formats.cubics import cubic_keys, cubic_values, curved_values, span_slopes, stretches_again
 
 FRAMES = 400
 
@@ -108,3 +108,22 @@ def test_short_clips(frames: int) -> None:
     values = 30.0 * np.random.default_rng(frames).normal(size=(2, frames, 3))
     kept = cubic_keys(values)
     assert np.abs(curved_values(values, kept) - values).max() <= 1.0 + 1e-9
+
+
+def test_stretches_chosen_again_keep_to_lower_limits_and_their_ends() -> None:
+    values = _waves()
+    limits = np.ones(values.shape[:2], np.float32)
+    limits[1, 120:180] = 0.25
+    kept = cubic_keys(values)
+    lanes, begins, ends = np.array([1, 1, 2]), np.array([100, 260, 30]), np.array([200, 399, 300])
+    chosen = stretches_again(values, limits, lanes, begins, ends)
+    for lane, first, last, keys in zip(lanes, begins, ends, chosen, strict=True):
+        assert ((keys > first) & (keys < last)).all()
+        assert (np.diff(keys) > 0).all()
+        again = kept.copy()
+        again[lane, first : last + 1] = False
+        again[lane, [first, *keys, last]] = True
+        off = np.abs(curved_values(values, again) - values)[lane, first : last + 1].max(axis=-1)
+        assert (off <= limits[lane, first : last + 1] + 1e-9).all()
+    usual = stretches_again(values, np.ones_like(limits), lanes, begins, ends)
+    assert len(usual[0]) < len(chosen[0])
