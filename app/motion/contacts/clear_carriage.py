@@ -24,6 +24,8 @@ SHARES = np.array([0.0, -0.4, 0.4, -0.8, 0.8])
 """Shares of the way to the ends of a range that are tried; the rest of it is for the motion."""
 AHEAD_M = np.linspace(0.0, 0.10, 6)
 """Distances ahead of its usual place at which a lowered instrument is tried."""
+RAISED_M = np.linspace(0.0, 0.15, 4)
+"""Heights above its usual place at which a lowered instrument without straps is tried, as by the thighs of who sits."""
 ROOM_M, LOW_ROOM_M = 0.008, 0.004
 """Room that a still body leaves for the motion: with the instrument at the lips, and lowered."""
 BENT_M_PER_RAD = float(0.010 / np.deg2rad(1.0))
@@ -46,7 +48,7 @@ def carried_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> Playe
     """
     if player.shape is None or player.stand is not None:
         return player
-    return _lowered_clear(_played_clear(player), supports)
+    return lowered_clear(_played_clear(player), supports)
 
 
 def _played_clear(player: PlayerBody) -> PlayerBody:
@@ -69,25 +71,32 @@ def _played_clear(player: PlayerBody) -> PlayerBody:
     return replace(player, carriage=moved)
 
 
-def _lowered_clear(player: PlayerBody, supports: Sequence[Support]) -> PlayerBody:
-    if any(support.kind not in FROM_NECK_M for support in supports):
+def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> PlayerBody:
+    """Return the player with an instrument that is lowered farther ahead, and without straps higher, where that leaves
+    room between arms and body; parameters as in `carried_clear`."""
+    unknown = player.shape is None or player.stand is not None
+    if unknown or any(support.kind not in FROM_NECK_M for support in supports):
         return player
     low = ContactCurves(replace(player.still, lowered=np.ones(1)), {}, {}, np.zeros(1))
     usual = upper_body(player, low)
     left = _remaining(player, low, usual)
     if left is None or left.depth_m[0] <= -LOW_ROOM_M:
         return player
-    straps_m, places = _straps_m(player, usual.carried, supports), list[LoweredPlace]()
-    for ahead_m in AHEAD_M.tolist():
-        lowered = _moved_ahead(player.lowered, ahead_m, straps_m)
-        if lowered is None:
-            break
-        places.append(lowered)
+    straps_m = _straps_m(player, usual.carried, supports)
+    places, costs_m = list[LoweredPlace](), list[float]()
+    # On straps it hangs as low as these reach.
+    for raised_m in RAISED_M[: 1 if supports else None].tolist():
+        for ahead_m in AHEAD_M.tolist():
+            lowered = _moved_ahead(player.lowered, ahead_m, straps_m)
+            if lowered is None:
+                break
+            left_m, up_m, forward_m = lowered.offset_m
+            places.append(msgspec.structs.replace(lowered, offset_m=(left_m, up_m + raised_m, forward_m)))
+            costs_m.append(OFF_M * (ahead_m / float(AHEAD_M[-1]) + 3.0 * raised_m / float(RAISED_M[-1])))
     ways_m = np.array([place.offset_m for place in places]) - np.array(player.lowered.offset_m)
     left = _remaining(player, *_lowered_by(player, low, usual, ways_m))
     assert left is not None
-    costs_m = _cost_m(left, LOW_ROOM_M) + OFF_M * AHEAD_M[: len(places)] / float(AHEAD_M[-1])
-    best = int(np.argmin(costs_m))
+    best = int(np.argmin(_cost_m(left, LOW_ROOM_M) + costs_m))
     return replace(player, lowered=places[best]) if best else player
 
 

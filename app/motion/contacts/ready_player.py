@@ -12,7 +12,7 @@ from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.carried_instrument import InstrumentTransform
-from app.motion.contacts.clear_carriage import carried_clear
+from app.motion.contacts.clear_carriage import carried_clear, lowered_clear
 from app.motion.contacts.instrument_put_aside import Aside
 from app.motion.contacts.instrument_tipping import with_bell_room
 from app.motion.contacts.solve import PlayerBody
@@ -63,17 +63,20 @@ def player_body(
     """Return the time-independent data of a player, including reach of the hands and tilt of the instrument; cached, so
     that equal bodies in equal postures share one object.
 
-    Only how far elbows go out depends on the clothes that the character wears.
+    On the clothes that the character wears it depends how far elbows go out, and where the instrument is lowered.
     """
     curved = _CURVED.step(_curved, grip, character.skeleton)
     made = _PLAYERS.step(
         _made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body, trunk_shape(character)
     )
-    return made if character.undressed is None else _DRESSED.step(_dressed, made, character)
+    if character.undressed is None:
+        return made
+    return _DRESSED.step(_dressed, made, character, instrument_map, sys.intern(parameters.posture))
 
 
-def _dressed(player: PlayerBody, character: Character) -> PlayerBody:
-    return replace(player, shape=dressed_shape(character))
+def _dressed(player: PlayerBody, character: Character, instrument_map: InstrumentMap, posture: str) -> PlayerBody:
+    supports = instrument_map.hold.worn(instrument_map.hold.possible(cast(PostureName, posture)))
+    return lowered_clear(replace(player, shape=dressed_shape(character)), supports)
 
 
 def _made(

@@ -122,11 +122,11 @@ def test_an_elbow_that_must_go_out_at_once_begins_early_and_stays_under_what_its
 
 
 def test_elbows_leave_room_for_the_clothes_that_are_worn() -> None:
-    """The instrument is carried as in the body's own clothes."""
+    """The instrument is played as in the body's own clothes."""
     own, _ = still_player("trumpet_Bb", "woman_adult", "standing")
     worn, dressed = still_player("trumpet_Bb", "woman_adult", "standing", "marching")
-    assert (worn.carriage, worn.lowered) == (own.carriage, own.lowered)
+    assert worn.carriage == own.carriage
     assert (own.shape, worn.shape) == (trunk_shape(dressed), dressed_shape(dressed))
     as_in_own, moved = (frames_of(player, out=True) for player in (own, worn))
     assert depth_mm(dressed, moved) <= min(ARM_MM, depth_mm(dressed, as_in_own))
-    np.testing.assert_allclose(as_in_own.instrument_position_m, moved.instrument_position_m, atol=1e-6)
+    np.testing.assert_allclose(as_in_own.instrument_position_m[0], moved.instrument_position_m[0], atol=1e-6)
