@@ -19,6 +19,7 @@ from character_anatomy import load_person
 from character_body import tongue, visible_body
 from character_breath import add_breath
 from character_brows import deepen_brows
+from character_ease import at_ease
 from character_eyeballs import IRIS_MEAN_LINEAR, eyeballs, iris_colour, wet_colour
 from character_garments import measure, trousers
 from character_glb import Material, write_character
@@ -200,7 +201,7 @@ def _tint(colour: tuple[float, float, float], mean: float) -> tuple[float, float
 def _hair_material(textures: tuple[Texture, Texture], colour: tuple[float, float, float]) -> Material:
     return Material(
         _tint(colour, STRANDS_MEAN_LINEAR),
-        0.68,
+        0.70,
         two_sided=True,
         colour_texture=textures[0],
         normal_texture=textures[1],
@@ -243,6 +244,7 @@ def _clothes(folder: Path) -> dict[str, Material]:
 
 def build(character: Character, source: Source, assets: Path, path: Path) -> SkeletonFit:
     """Write one character and return its skeleton standing on the floor."""
+    source = at_ease(source)
     fit = fit_skeleton(source)
     tailoring = measure(source, fit)
     look = character.look

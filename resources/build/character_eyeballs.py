@@ -32,6 +32,9 @@ IRIS_MEAN_LINEAR = 0.35
 SEGMENTS, BACK_RAD = 32, float(np.radians(140.0))
 AROUND = np.stack([f(2 * np.pi * np.arange(SEGMENTS) / SEGMENTS) for f in (np.cos, np.sin)], axis=1)
 VEIN_COUNT = 26
+LID_SHADE = (0.60, (0.02, 0.50)), (0.55, (0.0, 0.8))
+"""Share by which the upper lid's shadow darkens white and iris at most, and where it begins and ends, as heights over
+the middle in shares of their radii."""
 
 
 def eyeballs(source: Source, fit: SkeletonFit) -> Surface:
@@ -97,6 +100,12 @@ def _polar(size: int, middle: float, radius: float) -> tuple[np.ndarray, np.ndar
     return np.hypot(x, y) / radius, np.arctan2(y, x)
 
 
+def _under_lid(share: np.ndarray, angle: np.ndarray, shade: tuple[float, tuple[float, float]]) -> np.ndarray:
+    """Light that the upper lid and its lashes let through, painted since few programs shade eyes so finely."""
+    most, (low, high) = shade
+    return 1.0 - most * smoothstep(share * np.sin(angle), low, high)
+
+
 def iris_colour(name: str, pupil_m: float = PUPIL_M) -> Texture:
     """A grey iris, warmer about the pupil: radial fibres, dark limbus, black pupil."""
     share, angle = _polar(IRIS_PX, 0.5, 0.49)
@@ -111,6 +120,7 @@ def iris_colour(name: str, pupil_m: float = PUPIL_M) -> Texture:
     ring = 0.5 * np.exp(-(((inside - 0.52 - 0.03 * coarse) / 0.11) ** 2))[..., None]
     grey *= 1 + ring * np.array([0.7, 0.25, -0.3])
     grey *= (1 - 0.9 * smoothstep(inside, 0.72, 0.97))[..., None]
+    grey *= _under_lid(share, angle, LID_SHADE[1])[..., None]
     return jpeg(name, to_srgb(grey * smoothstep(inside, pupil_m / IRIS_M - 0.03, pupil_m / IRIS_M + 0.05)[..., None]))
 
 
@@ -118,12 +128,13 @@ def wet_colour(name: str) -> Texture:
     """The white of the eyes, which reddens outwards and darkens towards the limbus, beside the patches of the mouth."""
     share, angle = _polar(WET_PX, WHITE_MIDDLE, WHITE_SHARE)
     outer = np.clip((share - IRIS_SHARE) / (1 - IRIS_SHARE), 0.0, 1.0)
-    white = to_linear(np.array([0.82, 0.79, 0.765])) * (1 + 0.02 * noise(WET_PX, 8, 80, 24)[..., None])
+    white = to_linear(np.array([0.765, 0.735, 0.71])) * (1 + 0.02 * noise(WET_PX, 8, 80, 24)[..., None])
     redden = 0.08 + 0.50 * smoothstep(outer, 0.15, 0.9)
     white = white * (1 - redden[..., None] * np.array([0.10, 0.34, 0.36]))
     white = white * (1 - 0.55 * _veins(angle, share)[..., None] * np.array([0.25, 0.9, 0.9]))
     # The limbus: the white turns bluish grey, then dark, before the iris begins.
     rim = np.exp(-(np.maximum(share - IRIS_SHARE, 0.0) / 0.055))[..., None]
     white = white * (1 - 0.93 * rim**1.5 * np.array([1.0, 0.97, 0.94]))
+    white = white * _under_lid(share, angle, LID_SHADE[0])[..., None]
     right = (np.arange(WET_PX) + 0.5 >= PATCHES_LEFT * WET_PX)[None, :, None]
     return jpeg(name, to_srgb(np.where(right, mouth_patches(WET_PX), white)))

@@ -43,6 +43,11 @@ PAINTED_PALER, PALER_UNDONE = (2, 3, 4, 5), 0.85
 """Indices in `ISLANDS` of hands and feet, whose colour is moved towards the face's, and the share; the trunk meets the
 neck unchanged.
 """
+REDDER = {"cheeks": 0.07, "nose": 0.05, "chin": 0.03, "ears": 0.10, "lids": 0.05}
+DARKER = {"lids": 0.10, "sockets": 0.11, "wings": 0.16}
+"""Shares by which spots of the face are redder, and darker."""
+LIPS_REDDER = np.array([0.08, 0.26, 0.20])
+"""Share of each channel that lips lack, which are painted pale."""
 KNEE_LINEAR = 0.80
 """Linear brightness above which values approach white gradually instead of being cut off."""
 
@@ -121,7 +126,16 @@ def _face_masks(layout: Layout) -> dict[str, np.ndarray]:
         "nose": _blob(layout, 0.865, 0.484, 0.020, 0.012) + _blob(layout, 0.886, 0.484, 0.010, 0.018),
         "cheeks": _blob(layout, 0.885, 0.415, 0.025, 0.030) + _blob(layout, 0.885, 0.553, 0.025, 0.030),
         "chin": _blob(layout, 0.945, 0.484, 0.014, 0.022),
+        "lids": _pair(layout, 0.828, 0.031, 0.007, 0.017),
+        "sockets": _pair(layout, 0.832, 0.020, 0.010, 0.009) + 0.6 * _pair(layout, 0.853, 0.026, 0.006, 0.014),
+        "wings": _pair(layout, 0.877, 0.011, 0.005, 0.006) + 0.8 * _blob(layout, 0.926, 0.484, 0.005, 0.014),
+        "ears": _pair(layout, 0.838, 0.140, 0.040, 0.018),
     }
+
+
+def _pair(layout: Layout, u: float, beside: float, wide: float, high: float) -> np.ndarray:
+    """Soft spots on both sides of the face's middle."""
+    return sum(_blob(layout, u, 0.484 + side * beside, wide, high) for side in (-1.0, 1.0))
 
 
 def read_picture(path: Path) -> np.ndarray:
@@ -157,12 +171,16 @@ def skin_colour(name: str, painted: np.ndarray, layout: Layout, masks: dict[str,
     nails = np.clip(layout.picture(masks["fingernails"]), 0.0, 1.0)
     skin = 1.0 - np.clip(lips + nails, 0.0, 1.0)
     blotches = 0.6 * noise(SKIN_PX, 14, 60, 3) + 0.4 * noise(SKIN_PX, 4, 16, 4)
-    redness = 0.04 * face["cheeks"] + 0.02 * face["nose"] + 0.02 * face["chin"] + 0.018 * blotches
+    redness = 0.018 * blotches + sum(share * face[place] for place, share in REDDER.items())
     colour *= 1.0 + redness[..., None] * np.array([0.25, -1.0, -0.9])
+    # Folds get little light and blood shows there; few programs shade them so finely.
+    folds = sum(share * face[place] for place, share in DARKER.items())
+    colour *= 1.0 - folds[..., None] * np.array([0.85, 1.0, 1.0])
     pores = np.maximum(0.0, noise(SKIN_PX, 1.2, 3.5, 5))
     freckles = np.maximum(0.0, noise(SKIN_PX, 2.5, 6, 6) - 2.2)
     colour *= 1.0 - skin[..., None] * (0.035 * pores[..., None] + 0.10 * freckles[..., None] * np.array([0.6, 1, 1.2]))
     # Lips have fine lines across; nails are paler.
+    colour *= 1.0 - lips[..., None] * LIPS_REDDER
     colour *= 1.0 + lips[..., None] * 0.05 * noise(SKIN_PX, 1.2, 5, 7)[..., None]
     pale = SKIN_MEAN_LINEAR * np.array([1.2, 1.0, 0.95])
     colour = colour * (1 - 0.35 * nails[..., None]) + 0.35 * nails[..., None] * pale
@@ -175,7 +193,7 @@ def skin_roughness(name: str, layout: Layout, masks: dict[str, np.ndarray]) -> T
     lips = np.clip(layout.picture(masks["lips"]), 0.0, 1.0)
     nails = np.clip(layout.picture(masks["fingernails"]), 0.0, 1.0)
     mouth = np.clip(layout.picture(masks["inside-mouth"]), 0.0, 1.0)
-    rough = 0.60 - 0.12 * face["forehead"] - 0.16 * face["nose"] - 0.06 * face["chin"] + 0.03 * noise(SKIN_PX, 3, 24, 8)
+    rough = 0.64 - 0.08 * face["forehead"] - 0.13 * face["nose"] - 0.05 * face["chin"] + 0.03 * noise(SKIN_PX, 3, 24, 8)
     for part, value in ((lips, 0.38), (nails, 0.30), (mouth, 0.35)):
         rough = rough * (1 - part) + value * part
     filled = spread(rough, layout.inside)

@@ -13,10 +13,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from character_assets import Asset, asset_surface, read_asset, read_material
 from character_skin import read_picture
-from character_surface import Surface, smooth_normals
+from character_surface import Surface, smooth_normals, triangulate, vertex_normals
 from character_textures import Texture, jpeg, normals_of, png, sampled, spread, to_linear, to_srgb
 from PIL import Image, ImageDraw
 from scipy.ndimage import binary_opening, distance_transform_edt, gaussian_filter, label, map_coordinates, maximum
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 from scipy.special import erf
 
 if TYPE_CHECKING:
@@ -29,21 +32,35 @@ STRANDS_MEAN_LINEAR = 0.32
 """Mean of the grey strands, by which a hair colour is divided to tint them, up to fair hair."""
 ALPHA_CUTOFF = 0.4
 LASH_GREY_LINEAR, LOWER_LASHES = 0.05, 0.6
-LOCK_HEIGHT, STRAND_SLOPE = 0.5, 0.16
+LOCK_HEIGHT, STRAND_SLOPE = 0.8, 0.23
+STRAND_CONTRAST, LOCK_CONTRAST = 0.42, 0.22
+"""Deviations of the grey of single strands and of locks."""
 FLECK_PX = 150
 CAP_HALF_PX, HAIRLINE_PX, EDGE_PX = 40, 40, 10
 """Distances in pixels: half the width of parts that cover the scalp, width of faint hairs before their edge, and width
 behind it in which shades are evened, since painted edges are pale.
 """
-FRINGE_PX, FRINGE_STEEP, FRINGE_STEPS = 22, 4.0, 2
-"""Width over which a painted edge of the scalp dissolves into fine hairs, the steepness of their ends, their length."""
+BAND_HALF_PX = 80
+"""Half the width of parts of the scalp's hair below which they are bands."""
+FRINGE_PX, FRINGE_STEEP, FRINGE_STEPS = 30, 4.0, 2
+"""Width over which an edge of the scalp's hair dissolves into fine hairs, the steepness of their ends, their length."""
+EVEN_PX = 9.0
+"""Reach over which the painted spikes of a hairline are evened before it dissolves."""
+WELD_M, ROOT_M, ROOT_PX = 0.0015, 0.003, 30
+"""Distance within which faces of a mesh that end at one place are taken for joined, that from the skin within which
+the end of a lock is its root, and the width over which roots dissolve.
+"""
 OVER_AN_EYE = frozenset({"bob02"})
 """Styles that are combed aside."""
+BAND_OVER_AN_EYE = {"braid01": 0}
+"""Styles of which a band of hair is left out, by a vertex of it: it covers forehead and an eye."""
 AXIS_M, FREE_DEG, BEHIND_DEG = 0.07, 58.0, 105.0
 """Distance of the head's axis behind the eyes; angles about it, from ahead to the right, of the edge of hair that is
 combed aside, and of that which stays."""
 COMBED = ((0.0, 0.035, 0.085), (1.0, 0.8, 0.0))
 """Share of the way aside by height over the eyes, metres."""
+BROW_PX, BROW_FROM = (2.0, 9.0), 0.35
+"""Reach in pixels, down and along, over which the hairs of a brow close, and the density from which they do."""
 FAINT, EDGE_SHADE = 0.25, 0.85
 """Alpha below which hairs before the edge are invisible except as fragments, and shade of the others."""
 GREYS, ALPHAS = 48, 8
@@ -107,25 +124,37 @@ def _flecks(seen: np.ndarray) -> np.ndarray:
     return seen & (sizes[spots] < FLECK_PX)
 
 
-def _caps(alpha: np.ndarray) -> np.ndarray:
-    """Mask (H, W) of the parts that cover the scalp, which are wider than any lock."""
+def _caps(alpha: np.ndarray, least_px: float = CAP_HALF_PX) -> np.ndarray:
+    """Mask (H, W) of the parts that cover the scalp, half of whose width is at least `least_px`, unlike any lock's."""
     parts, count = label(alpha > 0.5)
     half = maximum(distance_transform_edt(parts > 0), parts, np.arange(count + 1))
-    return (parts > 0) & (half >= CAP_HALF_PX)[parts]
+    return (parts > 0) & (half >= least_px)[parts]
 
 
-def _fringe(alpha: np.ndarray, along: np.ndarray, used: np.ndarray) -> np.ndarray:
-    """Alpha (H, W) with the hairline dissolved into fine hairs: the nearer to where nothing is painted, the fewer.
+def _fringe(
+    alpha: np.ndarray, along: np.ndarray, used: np.ndarray, ends_here: tuple[np.ndarray, np.ndarray]
+) -> np.ndarray:
+    """Alpha (H, W) with the hairline dissolved into fine hairs: the nearer to where nothing is painted, or to where
+    the mesh ends (masks `ends_here`), the fewer. Roots of locks dissolve likewise.
 
-    Where faces end with what is painted there, as at a seam of the texture, nothing changes.
+    Where only the drawing of a face ends, as at a seam of the texture, nothing changes.
     """
+    # Painted spikes are evened, or the hairline would be a saw.
+    even = gaussian_filter(alpha * used, EVEN_PX) / np.maximum(gaussian_filter(used.astype(float), EVEN_PX), 1e-6)
     # A line of few pixels is where the drawing of a face ends.
-    bare = binary_opening(used & (alpha < ALPHA_CUTOFF), iterations=3)
-    inside = distance_transform_edt(~bare) / FRINGE_PX
+    bare = binary_opening(used & (even < 0.5), iterations=3) | ends_here[0]
     single = strands(along, 33, FRINGE_STEPS, 0.3)
     ends = 0.5 * (1.0 + erf(single / np.sqrt(2.0)))
-    left = np.clip(ALPHA_CUTOFF + (inside - ends) * FRINGE_STEEP, 0.0, 1.0)
-    return np.where(_caps(alpha) & (inside < 1.0) & bare.any(), np.minimum(alpha, left), alpha)
+    caps = _caps(alpha)
+    bands = caps & ~_caps(alpha, BAND_HALF_PX)
+    for edge, parts, width in ((bare, caps, FRINGE_PX), (ends_here[1], ~caps, ROOT_PX)):
+        if not edge.any():
+            continue
+        inside = distance_transform_edt(~edge) / width
+        left = np.clip(ALPHA_CUTOFF + (inside - ends) * FRINGE_STEEP, 0.0, 1.0)
+        alpha = np.where(parts & (inside < 1.0), np.minimum(alpha, left), alpha)
+    # Of a band little wider than its edges single hairs would be left, apart from all others.
+    return np.where(bands & _flecks(alpha > ALPHA_CUTOFF), 0.0, alpha)
 
 
 def _hairline(grey: np.ndarray, alpha: np.ndarray, fine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -142,8 +171,50 @@ def _hairline(grey: np.ndarray, alpha: np.ndarray, fine: np.ndarray) -> tuple[np
     return shaded, np.where(near, seen, alpha)
 
 
-def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Texture, Texture]:
-    """Grey strands with alpha, and their normals, from a painted (H, W, 4) picture; unused parts are empty."""
+def mesh_ends(asset: Asset, positions: np.ndarray, near_skin: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Masks (size, size) of the lines of the texture along which a mesh ends in space, and of those near the skin.
+
+    Parameters
+    ----------
+    positions : (N, 3) places of the mesh's vertices in metres.
+    near_skin : (N,) bool, whether they lie on the skin.
+    """
+    places = cKDTree(positions).query_ball_point(positions, WELD_M)
+    welded = np.array([min(near) for near in places])
+    edges, lines, roots = [], [], []
+    for face, uv_face in zip(asset.faces, asset.uv_faces, strict=True):
+        for a, b in zip(range(4), (1, 2, 3, 0), strict=True):
+            if face[a] != face[b]:
+                edges.append(sorted(welded[face[[a, b]]]))
+                lines.append(uv_face[[a, b]])
+                roots.append(near_skin[face[[a, b]]].all())
+    numbered, counts = np.unique(edges, axis=0, return_inverse=True, return_counts=True)[1:]
+    ends = counts[numbered.ravel()] == 1
+    masks = []
+    for kept in (ends, ends & np.array(roots)):
+        canvas = Image.new("1", (size, size))
+        drawing = ImageDraw.Draw(canvas)
+        for line in np.array(lines)[kept]:
+            drawing.line([(u * size, (1 - v) * size) for u, v in asset.uvs[line]], fill=1, width=2)
+        masks.append(np.asarray(canvas))
+    return masks[0], masks[1]
+
+
+def _near_skin(positions: np.ndarray, source: Source) -> np.ndarray:
+    """Mask (N,) of positions on the skin of a body, or beneath it."""
+    quads = source.groups["body"].vertices
+    normals = vertex_normals(source.vertices, triangulate(quads, source.vertices))
+    rows = np.unique(quads)
+    nearest = rows[cKDTree(source.vertices[rows]).query(positions)[1]]
+    above = np.einsum("nk,nk->n", positions - source.vertices[nearest], normals[nearest])
+    return above < ROOT_M
+
+
+def hair_textures(style: str, painted: np.ndarray, used: np.ndarray, ends_here: np.ndarray) -> tuple[Texture, Texture]:
+    """Grey strands with alpha, and their normals, from a painted (H, W, 4) picture; unused parts are empty.
+
+    `used` is the mask of the pixels that faces use, `ends_here` are those where the mesh ends (`mesh_ends`).
+    """
     size = len(used)
     large = _enlarged(painted, size)
     alpha = large[..., 3] * used
@@ -155,19 +226,20 @@ def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Te
     along, clear = directions(grey / grey[solid].mean(), 4.0)
     # Without a clear direction strands would curl like wood grain.
     fine = strands(along, 31) * np.minimum(1.0, 0.25 + 1.25 * clear)
-    grey = grey / grey[solid].mean() * (1 + 0.34 * fine)
+    locks = strands(along, 34, 2 * STRAND_STEPS, 3.0) * np.minimum(1.0, 0.25 + 1.25 * clear)
+    grey = grey / grey[solid].mean() * np.exp(STRAND_CONTRAST * fine + LOCK_CONTRAST * locks)
     grey = np.clip(grey / grey[solid].mean() * STRANDS_MEAN_LINEAR, 0.02, 0.95)
     # Strands end apart: the edge of a lock is where its alpha falls, sooner between strands.
     alpha = np.clip(alpha * 1.35 + 0.15 * fine * (alpha > 0.02) * (alpha < 0.95), 0.0, 1.0)
     grey, alpha = _hairline(spread(grey, solid), alpha, fine)
     for least in (0.0, ALPHA_CUTOFF):
         alpha[_flecks(alpha > least)] = 0.0
-    alpha = _fringe(alpha, along, used)
+    alpha = _fringe(alpha, along, used, ends_here)
     shade = _steps(to_srgb(grey), GREYS)
     colour = png(f"hair_{style}_color", np.stack([shade, shade, shade, _steps(alpha, ALPHAS)], axis=-1))
     # Normals have half the size: locks follow the painted picture, strands the noise.
     rows = slice(None, None, 2)
-    heights = gaussian_filter(np.log(grey), 1.5)[rows, rows] * LOCK_HEIGHT + gaussian_filter(fine, 0.6)[rows, rows]
+    heights = gaussian_filter(locks, 1.5)[rows, rows] * LOCK_HEIGHT + gaussian_filter(fine, 0.6)[rows, rows]
     return colour, jpeg(f"hair_{style}_normal", normals_of(heights, STRAND_SLOPE), quality=85)
 
 
@@ -178,11 +250,14 @@ def _strip(asset: Asset) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _brow_picture(painted: np.ndarray) -> np.ndarray:
-    """Single grey hairs: solidly painted parts are thinned and shaded along their strokes."""
+    """Grey hairs, single ones at the edges and closed in the middle, so that reduced pictures keep the brow whole."""
     alpha = np.clip(painted[..., 3], 0, 1)
     fine = strands(directions(gaussian_filter(alpha, 1.0) + 0.5 * painted[..., :3].mean(axis=-1), 2.5)[0], 32)
-    grey = to_srgb(np.clip(STRANDS_MEAN_LINEAR * (1 + 0.35 * fine), 0.05, 0.9))
-    return np.stack([grey, grey, grey, np.clip(alpha * (0.95 + 0.32 * fine), 0, 1)], axis=-1)
+    grey = to_srgb(np.clip(STRANDS_MEAN_LINEAR * np.exp(0.45 * fine), 0.05, 0.9))
+    closed = gaussian_filter(alpha, BROW_PX)
+    closed = np.clip((closed / np.quantile(closed[closed > 0.02], 0.9) - BROW_FROM) / (1 - BROW_FROM), 0.0, 1.0)
+    hairs = np.maximum(alpha * (0.95 + 0.32 * fine), closed + 0.40 * fine * (closed > 0.0) * (1.0 - 0.7 * closed))
+    return np.stack([grey, grey, grey, np.clip(hairs, 0, 1)], axis=-1)
 
 
 def _lash_picture(painted: np.ndarray, lower: np.ndarray) -> np.ndarray:
@@ -223,9 +298,22 @@ def hair(folder: Path, style: str, source: Source, fit: SkeletonFit) -> tuple[Su
     if asset.material is None:
         raise ValueError(f"{style} has no material")
     painted = read_picture(read_material(asset.material).textures["diffuseTexture"])
+    if style in BAND_OVER_AN_EYE:
+        asset = _without_part(asset, BAND_OVER_AN_EYE[style])
     used = covered(asset.uvs, asset.uv_faces, HAIR_PX)
     surface = asset_surface(asset, source, fit, "hair", "hair")
-    return _combed(surface, fit) if style in OVER_AN_EYE else surface, *hair_textures(style, painted, used)
+    positions = asset.binding.positions(source.vertices)
+    ends_here = mesh_ends(asset, positions, _near_skin(positions, source), HAIR_PX)
+    return _combed(surface, fit) if style in OVER_AN_EYE else surface, *hair_textures(style, painted, used, ends_here)
+
+
+def _without_part(asset: Asset, vertex: int) -> Asset:
+    """An asset without the connected part of its mesh that a vertex is in."""
+    sides = np.concatenate([asset.faces[:, [0, 1]], asset.faces[:, [1, 2]], asset.faces[:, [2, 3]]])
+    links = coo_array((np.ones(len(sides)), (sides[:, 0], sides[:, 1])), shape=(sides.max() + 1,) * 2)
+    parts = connected_components(links, directed=False)[1]
+    kept = parts[asset.faces[:, 0]] != parts[vertex]
+    return replace(asset, faces=asset.faces[kept], uv_faces=asset.uv_faces[kept])
 
 
 def _combed(surface: Surface, fit: SkeletonFit) -> Surface:

@@ -98,7 +98,7 @@ def test_a_schools_band_is_cast_with_young_people() -> None:
     assert 14 <= min(ages("県立西高等学校吹奏楽部 定期演奏会")) <= max(ages("県立西高等学校吹奏楽部 定期演奏会")) < 28
     everyone = characters_for([MAPS["flute"]] * 40, students=True)
     assert {14 <= our_years(id) < 28 for id in everyone} == {True}
-    assert len({*everyone}) > 6
+    assert len({*everyone[:27]}) == 27
     assert max(our_years(id) for id in characters_for([MAPS["flute"]] * 40)) > 60
 
 

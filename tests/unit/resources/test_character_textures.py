@@ -111,8 +111,8 @@ def test_eyes_have_a_pupil_an_iris_for_any_colour_and_a_white(build_module: Modu
         for made, name in ((eyes.iris_colour, "i"), (eyes.wet_colour, "w"))
     )
 
-    def ring(picture: np.ndarray, middle: float, radius: float) -> np.ndarray:
-        angle = np.linspace(0, 2 * np.pi, 60)
+    def ring(picture: np.ndarray, middle: float, radius: float, upto: float = 2 * np.pi) -> np.ndarray:
+        angle = np.linspace(0, upto, 60)
         rows, columns = ((1 - middle - radius * np.sin(angle)), middle + radius * np.cos(angle))
         return picture[(rows * len(picture)).astype(int), (columns * len(picture)).astype(int)].mean(axis=0)
 
@@ -122,7 +122,9 @@ def test_eyes_have_a_pupil_an_iris_for_any_colour_and_a_white(build_module: Modu
     assert middle.mean() == pytest.approx(eyes.IRIS_MEAN_LINEAR, rel=0.4)
     assert ring(iris, 0.5, 0.485).max() < 0.1, "the limbus is dark"
     assert ring(wet, eyes.WHITE_MIDDLE, eyes.WHITE_SHARE * eyes.IRIS_SHARE).max() < 0.15, "on its outer side too"
-    assert ring(wet, eyes.WHITE_MIDDLE, eyes.WHITE_SHARE * 0.65).min() > 0.5
+    white, under_lid = (ring(wet, eyes.WHITE_MIDDLE, eyes.WHITE_SHARE * 0.65, upto) for upto in (-np.pi, np.pi))
+    assert white.min() > 0.4
+    assert under_lid.max() < 0.75 * white.min(), "the upper lid's shadow"
 
 
 def test_eyeballs_have_a_cornea_and_turn_with_their_joints(build_module: Module) -> None:
@@ -179,7 +181,7 @@ def test_hair_is_grey_with_alpha_where_it_is_used_alone(build_module: Module) ->
     painted[8:56, 8:56, :3] *= np.random.default_rng(4).uniform(0.6, 1, (48, 48, 1))
     used = np.zeros((128, 128), dtype=bool)
     used[:, :64] = True
-    colour, normals = strands.hair_textures("bob", painted, used)
+    colour, normals = strands.hair_textures("bob", painted, used, (np.zeros_like(used), np.zeros_like(used)))
     assert (colour.name, normals.name) == ("hair_bob_color", "hair_bob_normal")
     pixels = _pixels(colour.content)
     assert np.array_equal(pixels[..., 0], pixels[..., 2])
@@ -197,12 +199,37 @@ def test_a_hairline_has_no_pale_edge_and_no_scraps_before_it(build_module: Modul
     painted[..., :3] = np.where(columns < 124, 0.5, 0.9)[..., None]
     painted[..., 3] = np.where(columns < 128, 1.0, np.where((columns < 144) & (rows % 6 < 3), 0.12, 0.0))
     painted[:6, :, 3] = 0.0
-    colour, _ = strands.hair_textures("cap", painted, np.ones((1024, 1024), dtype=bool))
+    used = np.ones((1024, 1024), dtype=bool)
+    colour, _ = strands.hair_textures("cap", painted, used, (~used, ~used))
     pixels = _pixels(colour.content)
     shade = textures.to_linear(pixels[200:900, :, 0])
-    assert shade[:, 508:516].mean() < 1.1 * shade[:, 300:450].mean()
-    assert (pixels[200:900, 300:490, 3] == 1).all()
+    assert shade[:, 508:516].mean() < 1.2 * shade[:, 300:450].mean()
+    assert (pixels[200:900, 300:475, 3] == 1).all()
     assert (pixels[200:900, 530:, 3] > 0).mean() < 0.035
+
+
+def test_hair_dissolves_where_its_mesh_ends_but_not_along_a_seam(build_module: Module) -> None:
+    strands, assets = build_module("character_strands"), build_module("character_assets")
+    # Two quads that meet in space, whose parts of the texture do not.
+    uvs = np.array([(0, 0), (0.45, 0), (0.45, 1), (0, 1), (0.55, 0), (1, 0), (1, 1), (0.55, 1)], dtype=float)
+    places = np.array([(0, 0, 0), (0.1, 0, 0), (0.1, 0.1, 0), (0, 0.1, 0)] * 2, dtype=float)
+    places[4:, 0] += 0.1
+    faces = np.arange(8).reshape(2, 4)
+    asset = assets.Asset("a", None, faces, faces, uvs, np.zeros(0), None)
+    ends, roots = strands.mesh_ends(asset, places, np.arange(8) < 4, 200)
+    assert ends[100, 0:2].any()
+    assert ends[100, -2:].any()
+    assert not ends[100, 80:120].any()
+    assert roots[100, 0:2].any()
+    assert not roots[100, -2:].any()
+    painted = np.ones((64, 64, 4))
+    used = np.ones((1024, 1024), dtype=bool)
+    edge = np.zeros_like(used)
+    edge[:, :2] = True
+    alpha = _pixels(strands.hair_textures("cap", painted, used, (edge, ~used))[0].content)[100:900, :, 3]
+    shown = (alpha > strands.ALPHA_CUTOFF).mean(axis=0)
+    assert shown[2:6].mean() < 0.3 < shown[8:24].mean() < 0.8
+    assert (shown[strands.FRINGE_PX + 4 :] == 1.0).all()
 
 
 def test_brows_and_lashes_share_a_picture_and_lower_lashes_are_thin(build_module: Module, tmp_path: Path) -> None:

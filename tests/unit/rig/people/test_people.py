@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import cache
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +13,12 @@ import pytest
 
 from app.errors import MapError
 from app.formats.toml import toml
+from app.project.model import characters_for
 from app.rig import quaternion
 from app.rig.characters.character_library import bundled_characters, character_named, our_arm_m, our_characters
 from app.rig.model import Character
-from app.rig.people.body_shapes import Phenotype, body_m, body_shapes, heights_m
-from app.rig.people.bundled_people import bundled_people, bundled_person, finished_character
+from app.rig.people.body_shapes import SKIN_VERTICES, Phenotype, body_m, body_shapes, heights_m
+from app.rig.people.bundled_people import bundled_people, bundled_person, finished_character, whole_phenotype
 from app.rig.people.make_person import original_of, person_character
 from app.rig.people.person import originals, ranges, read_person
 from app.rig.skeleton import forward, rest_positions
@@ -147,6 +149,23 @@ def test_people_differ_and_are_named() -> None:
     bodies = [(bundled_person(id).phenotype, bundled_person(id).colors["skin"]) for id in bundled_people()]
     assert len({body.height_m for body, _ in bodies}) > 10
     assert all(set(bundled_person(id).not_cast_for) <= set(bundled_maps()) for id in bundled_people())
+
+
+def test_the_players_of_a_school_band_are_told_apart() -> None:
+    shapes = body_shapes()
+    people = [bundled_person(id) for id in characters_for([bundled_maps()["flute"]] * 27, students=True)]
+    faces = []
+    for person in people:
+        skin_m = body_m(shapes, whole_phenotype(person))[: np.searchsorted(shapes.vertices, SKIN_VERTICES)]
+        faces.append(skin_m - skin_m[:, 1].max() * np.array([0.0, 1.0, 0.0]))
+    head = np.min(faces, axis=0)[:, 1] > -0.22
+    for (one, face), (other, beside) in combinations(zip(people, faces, strict=True), 2):
+        off_m = (face - beside)[head]
+        apart_mm = float(1000.0 * np.sqrt(np.square(off_m - off_m.mean(axis=0)).sum(axis=1).mean()))
+        dyed = bool(np.abs(np.log(one.colors["hair"]) - np.log(other.colors["hair"])).max() > 0.25)
+        looks = (one.original, one.hair) != (other.original, other.hair) or dyed
+        taller = abs(one.phenotype.height_m - other.phenotype.height_m) > 0.015
+        assert [apart_mm > 1.0, looks, taller].count(True) >= 2, (one.name.en, other.name.en, apart_mm)
 
 
 @pytest.mark.parametrize(
