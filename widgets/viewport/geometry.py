@@ -19,7 +19,7 @@ from app.formats.texture_colors import linear, sampled
 from app.rig.mesh import Mesh, plain_materials
 from app.rig.model import Character, InstrumentModel
 from app.rig.supports.model import Supports
-from widgets.viewport.normals_across_seams import SplitMesh, row_keys, split_mesh, turned_morphs
+from widgets.viewport.normals_across_seams import SplitMesh, numbered, row_keys, split_mesh, turned_morphs
 from widgets.viewport.shape_cache import kept
 from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
 from widgets.viewport.texture_groups import texture_groups, textured_looks, uv_islands
@@ -240,7 +240,7 @@ class _Whole:
             self._two_sided[own] = two_sided[split.materials]
         colors = np.ascontiguousarray(self._surface["a_color"]).view(np.int32)
         islands = uv_islands(self._triangles, self._look >= 0)
-        self._looks = np.unique(row_keys(self._part, islands, *colors.T), return_inverse=True)[1].reshape(-1)
+        self._looks = numbered(row_keys(self._part, islands, *colors.T))[1]
         """The same number for vertices of one mesh and colour and, where they have textures, of one part of these."""
         self._surface["a_color"][:, :3] *= self._shades
         self._morphs = self._all_morphs()
@@ -275,7 +275,7 @@ class _Whole:
         place = np.full(len(self._shape), -1, np.int64)
         place[order] = np.arange(len(order))
         count = int(moved[kept].sum())
-        shape = self._shape[order]
+        shape = self._shape.take(order)
         face = self._face(names, shape, place, count) if count else None
         # Vertices of different materials are never merged, so the first corner decides for the triangle.
         last = self._two_sided[triangles[:, 0]]
@@ -299,13 +299,13 @@ class _Whole:
         distinct surface once with the index for every vertex, or one surface for each vertex and None.
         """
         if self._bends:
-            return self._surface[order], None
-        rows = numbers(self._surface)[order]
+            return self._surface.take(order), None
+        rows = numbers(self._surface).take(order, axis=0)
         keys = row_keys(*np.ascontiguousarray(rows.T[np.ptp(rows, axis=0) > 0.0]).view(np.int32), size=len(order))
-        _, first, surface_of = np.unique(keys, return_index=True, return_inverse=True)
+        first, surface_of = numbered(keys)
         if len(first) > np.iinfo(np.uint16).max:
-            return self._surface[order], None
-        return self._surface[order[first]], surface_of.reshape(-1).astype(np.uint16)
+            return self._surface.take(order), None
+        return self._surface.take(order[first]), surface_of.astype(np.uint16)
 
     def _face(self, names: tuple[str, ...], shape: npt.NDArray[np.void], place: IntArray, count: int) -> MorphTargets:
         targets = []
@@ -328,11 +328,11 @@ class _Whole:
         facing = np.argmax(np.abs(self._shape["a_normal"]), axis=1)
         sign = np.take_along_axis(self._shape["a_normal"], facing[:, None], axis=1)[:, 0] > 0.0
         keys = row_keys(*cells.T, facing * 2 + sign, self._looks)
-        _, first, cluster = np.unique(keys, return_index=True, return_inverse=True)
-        triangles = first[cluster.reshape(-1)][self._triangles]
+        first, cluster = numbered(keys)
+        triangles = first[cluster][self._triangles]
         a, b, c = triangles.T
         triangles = triangles[(a != b) & (b != c) & (c != a)]
-        triangles = triangles[np.unique(row_keys(*np.sort(triangles, axis=1).T), return_index=True)[1]]
+        triangles = triangles[numbered(row_keys(*np.sort(triangles, axis=1).T))[0]]
         return np.unique(triangles), triangles
 
     def _all_morphs(self) -> dict[str, tuple[IntArray, SingleArray, SingleArray]]:
