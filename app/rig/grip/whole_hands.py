@@ -26,7 +26,7 @@ from metadata.model import Body
 STEP_M = 0.01
 """Distance in metres between places tried along the instrument."""
 OFF_M = 0.015
-"""Greatest distance in metres by which a palm may be farther from the instrument than at its usual place."""
+"""Distance in metres by which a palm may be farther from the instrument than at its usual place without a loss."""
 APART_SHARE = 0.5
 """Least distance of both hands along the instrument, as a share of a hand's length, unless they are usually nearer."""
 LEAST_M = 0.005
@@ -151,10 +151,10 @@ class _Reach:
         palms_m = wrists_m + quaternion.rotate(turn, palm_middle_m(self.character, side))
         off_m = np.array([np.linalg.norm(self.tube.surface_m - place_m, axis=1).min() for place_m in palms_m])
         short_m = np.maximum(np.linalg.norm(wrists_m - shoulder_m, axis=1) - arm_m(skeleton, side), 0.0)
-        # Off the instrument a hand is nowhere; before the least distance only if there is no place beyond it.
-        short_m = np.where(off_m <= off_m[0] + OFF_M, short_m, np.inf)
-        beyond = np.where(shifts_m >= least_m - 1e-9, short_m, np.inf)
-        return float(shifts_m[int(beyond.argmin())] if np.isfinite(beyond).any() else shifts_m[int(short_m.argmin())])
+        # A palm farther from the tube is as wrong as one that lacks that distance to it.
+        wrong_m = short_m + np.maximum(off_m - off_m[0] - OFF_M, 0.0)
+        tried = np.flatnonzero(shifts_m >= min(least_m, most_m) - 1e-9)
+        return float(shifts_m[tried[int(wrong_m[tried].round(4).argmin())]])
 
 
 def _is_whole(character: Character, hand: HandHold) -> bool:
