@@ -24,7 +24,7 @@ SHARES = np.array([0.0, -0.4, 0.4, -0.8, 0.8])
 """Shares of the way to the ends of a range that are tried; the rest of it is for the motion."""
 AHEAD_M = np.linspace(0.0, 0.10, 6)
 """Distances ahead of its usual place at which a lowered instrument is tried."""
-RAISED_M = np.linspace(0.0, 0.15, 4)
+RAISED_M = np.linspace(0.0, 0.20, 5)
 """Heights above its usual place at which a lowered instrument without straps is tried, as by the thighs of who sits."""
 ROOM_M, LOW_ROOM_M = 0.008, 0.004
 """Room that a still body leaves for the motion: with the instrument at the lips, and lowered."""
@@ -92,7 +92,7 @@ def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> Playe
                 break
             left_m, up_m, forward_m = lowered.offset_m
             places.append(msgspec.structs.replace(lowered, offset_m=(left_m, up_m + raised_m, forward_m)))
-            costs_m.append(OFF_M * (ahead_m / float(AHEAD_M[-1]) + 3.0 * raised_m / float(RAISED_M[-1])))
+            costs_m.append(OFF_M * (ahead_m / float(AHEAD_M[-1]) + 1.5 * raised_m / float(RAISED_M[-1])))
     ways_m = np.array([place.offset_m for place in places]) - np.array(player.lowered.offset_m)
     left = _remaining(player, *_lowered_by(player, low, usual, ways_m))
     assert left is not None
