@@ -333,7 +333,9 @@ class _Whole:
         a, b, c = triangles.T
         triangles = triangles[(a != b) & (b != c) & (c != a)]
         triangles = triangles[numbered(row_keys(*np.sort(triangles, axis=1).T))[0]]
-        return np.unique(triangles), triangles
+        used = np.zeros(len(self._shape), np.bool_)
+        used[triangles] = True
+        return np.flatnonzero(used), triangles
 
     def _all_morphs(self) -> dict[str, tuple[IntArray, SingleArray, SingleArray]]:
         """Return every morph over all meshes by name: vertex indices, displacements, and changes of the normals."""
