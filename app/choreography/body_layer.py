@@ -29,7 +29,7 @@ FPS: Final = Fraction(30)
 MOST: Final = {
     "side_m": 0.11,
     "ahead_m": 0.045,
-    "up_m": 0.012,
+    "up_m": 0.015,
     "hips_forward_rad": float(np.deg2rad(7.0)),
     "hips_turn_rad": float(np.deg2rad(16.0)),
     "hips_left_rad": float(np.deg2rad(9.0)),

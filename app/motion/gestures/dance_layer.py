@@ -30,7 +30,7 @@ CHANNELS: Final = (
 )
 """Channels of a layer: place of the hips (to the left, ahead, up), and the angles by which hips, chest and head lean
 forward, turn to the left and lean to the left, all three seen from the floor."""
-SINKS_M: Final = 0.014
+SINKS_M: Final = 0.017
 """Distance in metres by which the bent knees of a dancer lower the hips; their vertical motion about this height is
 smaller.
 """

@@ -30,9 +30,9 @@ HEEL_RAD: Final = float(np.deg2rad(24.0))
 """Angle in radians of the sole with the heel raised in the largest step or heel lift."""
 TOES_RAD: Final = float(np.deg2rad(5.5))
 """Angle in radians of raised toes of a player who stands on bent knees, with ankles near the end of their range."""
-SEATED_TOES_RAD: Final = float(np.deg2rad(18.0))
+SEATED_TOES_RAD: Final = float(np.deg2rad(17.0))
 """Angle in radians of raised toes of a player whose feet keep their place."""
-SEATED_HEEL_RAD: Final = float(np.deg2rad(9.0))
+SEATED_HEEL_RAD: Final = float(np.deg2rad(8.5))
 """Angle in radians of a raised heel of a player whose feet keep their place, since instruments lie on thighs."""
 EASED_RAD: Final = float(np.deg2rad(14.0))
 """Angle in radians of the rear foot's heel while the other foot takes the weight, since the ankle bends no farther."""
@@ -46,9 +46,9 @@ OVER_M: Final = 0.08
 """Distance in metres of the hips' motion over the foot that carries the weight."""
 OVER_S: Final = 0.3
 """Seconds in which the weight shifts there, and back."""
-ROLL_RAD, TURN_RAD = float(np.deg2rad(5.0)), float(np.deg2rad(8.0))
+ROLL_RAD, TURN_RAD = float(np.deg2rad(8.0)), float(np.deg2rad(8.0))
 """Angles in radians by which the hips are lower and farther forward on the side of the foot without weight."""
-LEAN_RAD, COUNTER_RAD = float(np.deg2rad(7.0)), float(np.deg2rad(6.0))
+LEAN_RAD, COUNTER_RAD = float(np.deg2rad(5.0)), float(np.deg2rad(6.0))
 """Lean of the chest towards the foot that carries the weight, and its rotation against that of the hips, in radians."""
 SPREAD_M: Final = 0.24
 MOST_ROLL_RAD: Final = float(np.deg2rad(11.5))
@@ -57,7 +57,7 @@ spread a thigh too far.
 """
 LIGHT: Final = 0.6
 """Share of the weight that leaves a foot whose heel or toes are raised."""
-SINKS_M: Final = 0.026
+SINKS_M: Final = 0.034
 """Distance in metres by which the hips sink when a foot takes the weight on a beat."""
 SINK_S: Final = (0.1, 0.32)
 """Seconds from the beginning of that motion to the beat, and from the beat to its end."""
@@ -67,7 +67,7 @@ IN_HIPS: Final = ("over", "sunk", "leans")
 """Samples that move the hips instead of the feet."""
 CLEAR_S: Final = 0.3
 """Seconds for which the feet stand before and after the user's own foot gestures."""
-GROWTH: Final = 0.45
+GROWTH: Final = 0.3
 """Exponent of the amount for the motion of the feet, so that half the amount still shows in them."""
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.errors import Message
-from app.motion.gestures.danced_feet import IN_HIPS, LIFT_M, MOVE_KINDS, PEELS_S, DancedFeet
+from app.motion.gestures.danced_feet import IN_HIPS, LIFT_M, MOVE_KINDS, PEELS_S, DancedFeet, with_danced
 from app.plan.model import GestureEvent
 
 STEP, HEEL, TOES = map(MOVE_KINDS.index, ("step", "heel", "toes"))
@@ -48,6 +48,14 @@ def test_a_foot_is_put_on_its_beat_and_stays_to_the_bit() -> None:
     assert found["left_heel"][at[0]] > 0.0
     assert found["left_heel"][at[1]] > 0.0
     assert found["left_heel"][at[2]] == 0.0
+
+
+def test_the_usual_amount_shows_most_of_a_dance() -> None:
+    """Steps of half a dance are seen from the front, and those of little of it are small."""
+    few, usual, every = (with_danced({}, {"left_up": np.ones(1)}, amount)["left_up"][0] for amount in (0.05, 0.5, 1.0))
+    assert few < 0.5
+    assert 0.8 <= usual < 0.9
+    assert every == 1.0
 
 
 def test_one_foot_is_in_the_air_at_a_time_and_the_weight_on_the_other() -> None:
