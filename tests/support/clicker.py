@@ -30,6 +30,10 @@ CALM = frozenset(
 NOTHING = frozenset(("unchanged",))
 TRIES = 4
 """Number of positions at which an entry of a context menu is tried until it has an effect."""
+ATTEMPTS = 4
+"""Number of attempts at a click, since menus close or stay open now and then if the display is late: Qt takes a menu
+whose window the display shows again for the one in front, and closes none when an entry of its submenu is clicked.
+"""
 CHOSEN = frozenset(("chosen already",))
 """Result of clicking the selected one of several exclusive choices, which changes nothing."""
 
@@ -205,15 +209,22 @@ class Clicker:
             if is_chosen_already(control):
                 self.seen[name][self.state] = CHOSEN
                 continue
+            self._click_until(name, control)
+
+    def _click_until(self, name: str, control: QWidget) -> None:
+        """Click a control, again if the layout was not done yet or a notice had just given way to another."""
+        owed = expected(name)
+        for attempt in range(ATTEMPTS):
+            is_last = attempt == ATTEMPTS - 1
             try:
-                self._click(name, control, owed=expected(name))
-            except AssertionError:
-                # The layout may not be done yet, or a notice has just given way to another.
-                self._again(None)
-                try:
-                    self._click(name, controls(self._window)[name])
-                except (AssertionError, KeyError) as error:
+                found = control if attempt == 0 else controls(self._window)[name]
+                self._click(name, found, owed=None if is_last else owed)
+                return
+            except (AssertionError, KeyError) as error:
+                if is_last:
                     self._note(name, frozenset((f"fault: {error!r}",)))
+                else:
+                    self._again(None)
 
     def _click(self, name: str, control: QWidget, owed: Row | None = None) -> None:
         """Click a control; fail if nothing changes that the table requires."""
@@ -242,17 +253,19 @@ class Clicker:
         paths = [path for path in leaves(menu) if not skipped(path)]
         close_menus()
         for path in paths:
-            name = self._full_name(menu_name, path)
+            self._note(self._full_name(menu_name, path), self._choose_until(open_menu, path), where or menu_name)
+
+    def _choose_until(self, open_menu: Open, path: Path) -> frozenset[str]:
+        """Click an entry, again if its menu does not come, closes before its submenu comes, or stays open."""
+        for _ in range(ATTEMPTS - 1):
             try:
-                found = self._try(open_menu, path)
+                return self._try(open_menu, path)
             except (AssertionError, StopIteration):
-                # On a busy machine a menu closes now and then before its submenu comes.
                 self._again(None)
-                try:
-                    found = self._try(open_menu, path)
-                except (AssertionError, StopIteration) as error:
-                    found = frozenset((f"fault: {error!r}",))
-            self._note(name, found, where or menu_name)
+        try:
+            return self._try(open_menu, path)
+        except (AssertionError, StopIteration) as error:
+            return frozenset((f"fault: {error!r}",))
 
     def _try(self, open_menu: Open, path: Path) -> frozenset[str]:
         """Click an entry; if it is already selected, select another one first."""
@@ -271,7 +284,6 @@ class Clicker:
         return row is not None and any(row.changes <= found for found in self.seen.get(name, {}).values())
 
     def _choose(self, open_menu: Open, path: Path) -> frozenset[str]:
-        # At a click that comes as soon as a submenu, Qt may leave the menu above it open.
         close_menus()
         menu = open_menu()
         assert menu is not None, "the menu did not come again"
@@ -280,6 +292,7 @@ class Clicker:
         was_chosen = is_chosen_already(entry)
         mouse.choose(inner, entry)
         QApplication.processEvents()
+        assert not (isValid(menu) and menu.isVisible()), "the menu stays open"
         return changed(before, self._watcher.state()) or (CHOSEN if was_chosen else NOTHING)
 
     def _beside(self, open_menu: Open, path: Path) -> Path | None:

@@ -77,7 +77,7 @@ def play(dialog: LearnDialog, qtbot: QtBot) -> None:
 
 
 def ready(dialog: LearnDialog, qtbot: QtBot) -> None:
-    qtbot.waitUntil(lambda: not dialog.cuts.player._stems.is_busy, timeout=20_000)
+    qtbot.waitUntil(lambda: not dialog.cuts.player._stems.is_busy)
 
 
 def hits_s(devices: FakeDevices) -> list[float]:

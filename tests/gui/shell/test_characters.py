@@ -213,7 +213,7 @@ def test_a_giant_is_offered_at_the_height_of_a_person(program: Program, tmp_path
     number.setValue(1.55)
     assert dialog.draft.height_m == pytest.approx(1.55)
     QTest.mouseClick(ok(dialog), Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: bool(character_library().own), timeout=20_000)
+    qtbot.waitUntil(lambda: bool(character_library().own))
     (id,) = character_library().own
     assert character_library().own[id].height_m == pytest.approx(1.55)
     tops = [skin.positions_m[:, 1].max() for skin in character_named(id).meshes]
@@ -242,7 +242,7 @@ def test_a_mesh_is_switched_off_and_stays_so(program: Program, tmp_path: Path, q
     assert not ok(dialog).isEnabled()
     body.setCheckState(0, Qt.CheckState.Checked)
     QTest.mouseClick(ok(dialog), Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: bool(character_library().own), timeout=20_000)
+    qtbot.waitUntil(lambda: bool(character_library().own))
     (id,) = character_library().own
     assert character_library().own[id].hidden == ["Shield"]
     character = character_named(id)
@@ -269,7 +269,7 @@ def test_a_sword_is_left_out_from_the_start_and_said(program: Program, tmp_path:
 def test_the_size_of_the_instrument_is_said_beside_the_picture(program: Program, qtbot: QtBot) -> None:
     """A toddler's trumpet is smaller than an adult's."""
     reported = child(opened(program), QLabel, "character_status")
-    qtbot.waitUntil(lambda: "The instrument is scaled to" in reported.text(), timeout=20_000)
+    qtbot.waitUntil(lambda: "The instrument is scaled to" in reported.text())
 
 
 def test_a_character_of_usual_size_keeps_the_height_of_its_file(program: Program) -> None:

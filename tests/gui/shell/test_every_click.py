@@ -8,12 +8,17 @@ click that changes nothing, or anything else.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 from PySide6.QtCore import QByteArray, QUrl
 from PySide6.QtGui import QColor, QDesktopServices
 from PySide6.QtWidgets import QApplication, QColorDialog, QComboBox, QFileDialog, QMenu, QTabWidget, QToolButton
 
+from app.choreography.accent_grid import grid_of
+from app.choreography.dance import Manner, SegmentStep
+from app.choreography.generate import Choreographer
+from app.choreography.rhythm import Rhythm
 from app.editor.design_tokens import LIGHT
 from app.editor.selection import Selection
 from app.editor.viewport_state import SHOWN
@@ -225,12 +230,28 @@ def stage(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Stage:
     monkeypatch.setattr(ViewportPanel, "has_gl", property(lambda self: True))
     # Drawing faces is tested elsewhere and would take most of the time.
     monkeypatch.setattr(FacePicture, "_draw", lambda self: None)
+    choose_steps_once(monkeypatch)
     desk.program.window.setUpdatesEnabled(False)
     desk.program.window.setAnimated(False)
     mouse.park_pointer()
     stage = Stage(desk)
     monkeypatch.setattr("app.editor.generator.Performance", stage.performance)
     return stage
+
+
+def choose_steps_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give dances of one choreography to one grid of accents the same steps: choosing those of every change takes a
+    quarter of the time, and is tested elsewhere."""
+    choose = Choreographer.steps
+    known: dict[tuple[Choreographer, bytes], tuple[SegmentStep, ...]] = {}
+
+    def steps(self: Choreographer, rhythm: Rhythm, manner: Manner, **options: Any) -> tuple[SegmentStep, ...]:
+        key = self, grid_of(self.felt(rhythm)).times_s.tobytes()
+        if key not in known:
+            known[key] = choose(self, rhythm, manner, **options)
+        return known[key]
+
+    monkeypatch.setattr(Choreographer, "steps", steps)
 
 
 def test_every_click_does_what_the_table_says(stage: Stage) -> None:
