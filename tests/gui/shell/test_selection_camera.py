@@ -15,8 +15,9 @@ from app.plan.kinds import BREATHS, GESTURES
 from app.plan.model import Problem
 from app.project.edit.events import pin_fingerings
 from app.shell.app import Program
+from app.shell.selection_camera import SelectionCamera
 from tests.gui.shell.conftest import Start
-from tests.support.windows import pause, wait_until
+from tests.support.windows import child, pause, wait_until
 from widgets.common.actions import actions
 
 
@@ -35,7 +36,9 @@ def _fingering(program: Program, number: int) -> EventKey:
 
 
 def _wait(program: Program) -> str:
-    pause(150)
+    """Wait until the camera has moved if it will, and return the view."""
+    soon = child(program.session, SelectionCamera)._soon
+    wait_until(lambda: not soon.isActive())
     return program.session.viewport.view
 
 
@@ -109,7 +112,8 @@ def test_it_stays_while_a_button_is_down_or_the_piece_plays(program: Program, mo
     down = [Qt.MouseButton.LeftButton]
     monkeypatch.setattr(QGuiApplication, "mouseButtons", lambda: down[0])
     session.select(Selection(events=frozenset({_breath(program, 0)})))
-    assert _wait(program) == "ensemble"
+    pause(150)
+    assert session.viewport.view == "ensemble"
     down[0] = Qt.MouseButton.NoButton
     assert _settled(program, "mouth")
     session.set_playing(True)
