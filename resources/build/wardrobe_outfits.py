@@ -153,7 +153,7 @@ def _school_legs(wearer: Wearer, material: str, checked: bool, socks: str) -> Pi
     """A pleated skirt to the knee, bare knees, socks below them."""
     tailoring = wearer.tailoring
     hem, sock = tailoring.knee_m + 0.015, tailoring.knee_m - 0.10
-    pleated = skirt(wearer, Skirt(tailoring.belt_m + 0.02, hem, 0.05, 0.012), checked=checked)
+    pleated = skirt(wearer, Skirt(tailoring.belt_m + 0.02, hem, 0.05, 0.012, 16), checked=checked)
     return [
         (garment("skirt", {material: [pleated]}, wearer), "bottom"),
         (garment("socks", {socks: [shell(wearer, tailoring.foot_m + 0.045, sock, 0.002)]}, wearer), "bottom"),
@@ -271,7 +271,7 @@ def _polo(wearer: Wearer) -> Pieces:
 def _dress(wearer: Wearer) -> Pieces:
     tailoring = wearer.tailoring
     waist = tailoring.belt_m + 0.01
-    long = skirt(wearer, Skirt(waist + 0.012, tailoring.foot_m + 0.06, 0.085, 0.010, 22))
+    long = skirt(wearer, Skirt(waist + 0.012, tailoring.foot_m + 0.06, 0.085, 0.010, 22, 0.16))
     bodice = plain(close_dress(wearer, waist - 0.01))
     start = (tailoring.wrist_m - tailoring.shoulder[0]) * 0.60 + tailoring.shoulder[0]
     return [

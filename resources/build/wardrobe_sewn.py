@@ -71,14 +71,13 @@ def weights_near(cloth: Cloth, points: np.ndarray) -> np.ndarray:
     return np.einsum("nk,nkj->nj", shares / shares.sum(axis=1, keepdims=True), cloth.weights[rows])
 
 
-def _leg_weights(wearer: Wearer, points: np.ndarray) -> np.ndarray:
-    """Skin weights of cloth that hangs from the hips around both legs."""
+def _leg_weights(wearer: Wearer, points: np.ndarray, left: np.ndarray) -> np.ndarray:
+    """Skin weights of cloth that hangs from the hips around both legs; `left` (N,) is the left leg's share."""
     fit = wearer.fit
     weights = np.zeros((len(points), len(fit.names)))
     hip, knee = (fit.positions_t[fit.index(f"left{part}Leg")] for part in ("Upper", "Lower"))
     hips = smoothstep(points[:, 1], hip[1] - 0.13, hip[1] + 0.09)
-    shin = 1.0 - smoothstep(points[:, 1], knee[1] - 0.10, knee[1] + 0.11)
-    left = smoothstep(points[:, 0], -0.09, 0.09)
+    shin = 1.0 - smoothstep(points[:, 1], knee[1] - 0.10, knee[1] + 0.08)
     weights[:, fit.index("hips")] = hips
     for side, share in (("left", left), ("right", 1.0 - left)):
         weights[:, fit.index(f"{side}UpperLeg")] = (1.0 - hips) * share * (1.0 - shin)
@@ -100,13 +99,15 @@ def _about_both_legs(wearer: Wearer, low: float, high: float) -> Profile:
 
 @dataclass(frozen=True)
 class Skirt:
-    """A skirt from waist to hem (heights, m), how much wider it becomes per metre, and how deep its pleats are."""
+    """A skirt from waist to hem (heights, m), how much wider it becomes per metre, how deep its pleats are, and how far
+    off the middle cloth goes with one leg alone."""
 
     top_m: float
     hem_m: float
     flare: float
     pleat_m: float
     rows: int = 12
+    between_m: float = 0.09
 
 
 def skirt(wearer: Wearer, shape: Skirt, *, checked: bool = False) -> Sewn:
@@ -145,7 +146,8 @@ def skirt(wearer: Wearer, shape: Skirt, *, checked: bool = False) -> Sewn:
             uvs.append(plain_uvs(turn * 1.6 - 0.8, np.full(columns + 1, height)))
     points = np.concatenate(rows)
     faces = grid_faces(shape.rows, columns + 1, closed=False)[:, ::-1]
-    weights = seated_weights(wearer, points, _leg_weights(wearer, points), columns + 1)
+    left = smoothstep(points[:, 0], -shape.between_m, shape.between_m)
+    weights = seated_weights(wearer, points, _leg_weights(wearer, points, left), columns + 1, left)
     return Sewn(to_triangles(Cloth(points, weights, faces[:, ::-1])), np.concatenate(uvs))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -13,11 +13,22 @@ from app.identity_cache import IdentityCache
 from app.rig.mesh import Mesh
 from app.rig.model import Character
 
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
+
 NEIGHBOURS = 8
 NEAR_M = 0.0003
 """Distance in metres up to which only the nearest vertex of the base mesh counts; at larger distances all neighbours
 count equally.
 """
+FAR_M = (0.010, 0.025)
+"""Distances in metres from the skin up to which cloth around both legs is bound to the nearest skin alone, and from
+which it is bound to both legs.
+"""
+EVERY, OF_A_LEG = 4, 16
+"""Stride of the vertices of each leg's skin that count for such cloth, and number of the nearest of those."""
+LEAST_SPAN = 0.05
+"""Least share of both legs in a vertex far from the skin for which a mesh hangs around both legs."""
 ANCHORS, REACH_M, BEYOND = 16, 0.025, 1e-3
 """Number of points whose displacement rotates and stretches the face's shapes, distance in metres within which they
 count, and weight of no displacement.
@@ -40,19 +51,58 @@ class Binding:
 
 
 class Attaching:
-    """Binds meshes to the V base vertices (V, 3) of a body."""
+    """Binds meshes to the V base vertices (V, 3) of a body, whose ankles are at a height ``ankle_m`` in metres."""
 
-    def __init__(self, base_m: FloatArray) -> None:
+    def __init__(self, base_m: FloatArray, ankle_m: float = -np.inf) -> None:
         from scipy.spatial import cKDTree  # slow to import; people are rarely made
 
         self._tree = cKDTree(base_m)
+        self._sides: list[tuple[IndexArray, cKDTree]] = []
+        for sign in (1.0, -1.0):
+            own = np.flatnonzero((base_m[:, 0] * sign > 0.0) & (base_m[:, 1] > ankle_m))[::EVERY]
+            self._sides.append((own, cKDTree(base_m[own])))
 
-    def bound(self, mesh: Mesh) -> Binding:
-        """Bind each vertex of a mesh to the nearest of the base vertices."""
-        far, corners = self._tree.query(mesh.positions_m, k=NEIGHBOURS)
-        shares = 1.0 / (np.square(far) + NEAR_M**2)
-        shares /= shares.sum(axis=1, keepdims=True)
-        return Binding(np.asarray(corners, dtype=np.intp), shares.astype(np.float32))
+    def bound(self, mesh: Mesh, legs: FloatArray | None = None) -> Binding:
+        """Bind each vertex of a mesh to the nearest of the base vertices, and cloth that hangs around both legs to both
+        of them, so that it does not fold where the nearest leg changes.
+
+        Parameters
+        ----------
+        legs : (N, 2), optional
+            Share of the left and of the right leg in the weights of each vertex.
+        """
+        far, corners = _nearest(self._tree, mesh, NEIGHBOURS)
+        shares = _near(far, NEAR_M)
+        if legs is not None:
+            hanging = _rising(far[:, 0], *FAR_M) * _rising(legs.sum(axis=1), 0.0, 0.5)
+            if (hanging * legs.min(axis=1)).max() > LEAST_SPAN:
+                of_legs = legs / np.maximum(legs.sum(axis=1, keepdims=True), 1e-9)
+                shares *= 1.0 - hanging[:, None]
+                for side, (own, tree) in enumerate(self._sides):
+                    far, rows = _nearest(tree, mesh, OF_A_LEG)
+                    corners = np.concatenate([corners, own[rows]], axis=1)
+                    of_leg = (hanging * of_legs[:, side])[:, None] * _near(far, far.mean(axis=1, keepdims=True))
+                    shares = np.concatenate([shares, of_leg], axis=1)
+        return Binding(corners, shares.astype(np.float32))
+
+
+def _nearest(tree: cKDTree, mesh: Mesh, count: int) -> tuple[FloatArray, IndexArray]:
+    """Return distances and rows (N, ``count``) of the points of a tree that are nearest to a mesh's vertices."""
+    far, rows = tree.query(mesh.positions_m, k=count)
+    return np.asarray(far, dtype=np.float64), np.asarray(rows, dtype=np.intp)
+
+
+def _near(far: FloatArray, scale_m: float | FloatArray) -> FloatArray:
+    """Return the shares (N, K) of neighbours at distances (N, K), which decrease beyond ``scale_m``."""
+    shares: FloatArray = 1.0 / (np.square(far) + np.square(scale_m))
+    shares /= shares.sum(axis=1, keepdims=True)
+    return shares
+
+
+def _rising(values: FloatArray, low: float, high: float) -> FloatArray:
+    """Return smooth steps (N,) from 0 at ``low`` to 1 at ``high``."""
+    share: FloatArray = np.clip((values - low) / (high - low), 0.0, 1.0)
+    return share * share * (3.0 - 2.0 * share)
 
 
 def normals_of(positions_m: AnyFloatArray, mesh: Mesh, places: IndexArray) -> FloatArray:

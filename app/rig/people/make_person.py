@@ -70,12 +70,13 @@ class Original:
 def original_of(character: Character, shapes: BodyShapes, phenotype: Phenotype) -> Original:
     """Prepare a bundled body with a phenotype for making people from it; takes a fraction of a second."""
     base_m = body_m(shapes, phenotype)
-    attaching = Attaching(base_m[: len(shapes.vertices)])
+    ankle_m = float(base_m[len(shapes.vertices) + shapes.joints.index("leftFoot"), 1])
+    attaching = Attaching(base_m[: len(shapes.vertices)], ankle_m)
     places = {mesh.name: places_of(mesh) for mesh in character.meshes}
     return Original(
         character,
         base_m,
-        {mesh.name: attaching.bound(mesh) for mesh in character.meshes},
+        {mesh.name: attaching.bound(mesh, _leg_shares(character, mesh)) for mesh in character.meshes},
         {mesh.name: _hand_shares(character, mesh) for mesh in character.meshes},
         {mesh.name: _arm_shares(character, mesh) for mesh in character.meshes},
         places,
@@ -92,6 +93,11 @@ def _hand_shares(character: Character, mesh: Mesh) -> FloatArray:
         weight = np.clip(_weight_below(character, mesh, f"{side}Hand") / HAND_SHARE, 0.0, 1.0)
         shares.append(weight * weight * (3.0 - 2.0 * weight))
     return np.stack(shares, axis=1).astype(np.float64)
+
+
+def _leg_shares(character: Character, mesh: Mesh) -> FloatArray:
+    """Return the weights (N, 2) of a mesh's vertices on the left and on the right leg."""
+    return np.stack([_weight_below(character, mesh, f"{side}UpperLeg") for side, _ in SIDES], axis=1)
 
 
 def _weight_below(character: Character, mesh: Mesh, name: str) -> FloatArray:

@@ -13,9 +13,15 @@ from typing import Any
 import numpy as np
 import pytest
 
+from app.arrays import FloatArray
+from app.rig import quaternion
+from app.rig.characters.dressed_characters import character_in
 from app.rig.characters.load_character import load_character
 from app.rig.mesh import Mesh
 from app.rig.model import Character
+from app.rig.people.wardrobe import OutfitChoice
+from app.rig.skeleton import forward
+from app.rig.skinning import mesh_named, patch
 
 FOLDER = Path(__file__).resolve().parents[3] / "resources" / "characters"
 BUILD = FOLDER.parent / "build"
@@ -116,6 +122,52 @@ def test_trimmings_face_out(outfit: str, mesh: str) -> None:
         corners -= corners.mean(axis=(0, 1))
         volume = np.einsum("na,na->", np.cross(corners[:, 0], corners[:, 1]), corners[:, 2])
         assert volume > 0.0, own.materials[material].name
+
+
+def posed(character: Character, mesh: Mesh, thighs: float, aside: float) -> FloatArray:
+    """Vertices (N, 3) with thighs raised by an angle, level shins, and knees turned outwards by another one."""
+    rotations = np.tile([0.0, 0.0, 0.0, 1.0], (1, len(character.skeleton.names), 1))
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        upper, lower = (character.skeleton.index(f"{side}{part}Leg") for part in ("Upper", "Lower"))
+        turned = quaternion.from_axis_angle(np.array([0.0, 1.0, 0.0]), sign * aside)
+        raised = quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), -thighs)
+        rotations[0, upper] = quaternion.multiply(turned, raised)
+        rotations[0, lower] = quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), thighs)
+    transforms = forward(character.skeleton, rotations)
+    skin = patch(character, mesh, np.arange(len(mesh.positions_m)))
+    return skin.deformed(transforms.matrices())[0]
+
+
+@pytest.mark.parametrize("outfit", ["school_uniform", "school_blazer"])
+@pytest.mark.parametrize("id", ["woman_adult", "child_nia"])
+@pytest.mark.parametrize("aside_deg", [0.0, 14.0])
+def test_the_hem_of_a_seated_skirt_spans_from_thigh_to_thigh(outfit: str, id: str, aside_deg: float) -> None:
+    character = character_in(id, OutfitChoice(outfit))
+    skirt = mesh_named(character, "skirt")
+    x, y, z = skirt.positions_m.T
+    middle = (y < y.min() + 0.03) & (z > z.mean()) & (np.abs(x) < 0.06)
+    hem = posed(character, skirt, np.deg2rad(85.0), np.deg2rad(aside_deg))[middle]
+    assert len(hem) >= 5
+    assert np.ptp(hem[:, 1]) < 0.02, "level between the knees, not hanging down or standing up"
+    assert np.ptp(hem[:, 2]) < 0.03, "as far ahead between the knees as over them"
+
+
+def test_a_child_s_long_dress_does_not_fold_through_its_middle() -> None:
+    character = character_in("child_nia", OutfitChoice("evening"))
+    dress = mesh_named(character, "dress")
+    corners = posed(character, dress, 0.0, 0.0)[dress.triangles]
+    centres = corners.mean(axis=1)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    edges = np.sort(np.concatenate([dress.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])]), axis=1)
+    sides: dict[tuple[int, ...], list[int]] = {}
+    for edge, triangle in zip(edges.tolist(), np.tile(np.arange(len(corners)), 3).tolist(), strict=True):
+        sides.setdefault(tuple(edge), []).append(triangle)
+    pairs = np.array([triangles for triangles in sides.values() if len(triangles) == 2])
+    front = (np.abs(centres[:, 0]) < 0.08) & (centres[:, 2] > dress.positions_m[:, 2].mean())
+    pairs = pairs[front[pairs].all(axis=1)]
+    assert len(pairs) > 100
+    assert np.einsum("na,na->n", *normals[pairs.T]).min() > 0.0, "neighbours face the same way"
 
 
 def test_the_files_are_those_that_the_scripts_make(build_module: Callable[[str], ModuleType]) -> None:
