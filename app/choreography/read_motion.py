@@ -22,6 +22,7 @@ from app.arrays import FloatArray
 from app.choreography.body import ENDS, FEET, PARENT_OF, SEGMENTS
 from app.choreography.body_check import report
 from app.choreography.captured_body import captured_body
+from app.choreography.captured_floor import floor_of_all, floor_of_danced
 from app.choreography.cleaning import CleanedClip, cleaned, remarks
 from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.raw_skeleton import BodyError, RawSkeleton, raw_skeleton
@@ -56,8 +57,6 @@ NEAR_FACTOR: Final = 4.0
 is."""
 SLIDES_LESS: Final = 0.8
 """Greatest step of the slower foot with such a unit, relative to its step with the unit of the bones."""
-FLOOR_PERCENTILE: Final = 2.0
-"""Percentile of the lower foot's height that defines the floor."""
 HAND_PART: Final = 0.108
 CROWN_PART: Final = 0.13
 FOOT_PART: Final = 0.12
@@ -217,14 +216,15 @@ def motion_of(
     ends = _lengthened(ends, high) * unit_m
     offsets, positions = offsets * unit_m, positions * unit_m
     offsets[0, 1] = -_lowest(offsets, ends)
-    floor_m = _floor(positions, rotations, ends)
+    floor_m = floor_of_all(positions, rotations, ends)
     hips = positions[:, 0] - (0.0, floor_m, 0.0)
     whole = MotionClip(BodyShape.of(offsets, ends), fps or bvh.fps, hips, _local(rotations))
     done = cleaned(whole)
     before, after = (done.held * frames for frames in (done.lead_in, done.trail))
     proper = slice(before, len(whole) - after)
     apart_m = _apart(whole.span(proper.start, proper.stop), (positions - positions[:, :1])[proper])
-    clip = replace(done.clip, hips_m=done.clip.hips_m - done.clip.hips_m[0] * (1.0, 0.0, 1.0))
+    start_m = done.clip.hips_m[0] * (1.0, 0.0, 1.0) + (0.0, floor_of_danced(done), 0.0)
+    clip = replace(done.clip, hips_m=done.clip.hips_m - start_m)
     first = found.body.positions[before], found.body.rotations[before]
     return ReadMotion(
         replace(done, clip=clip), found.profile, unit, unit_m, found.up, bvh.fps, found.doubtful, apart_m,
@@ -350,17 +350,6 @@ def _lengthened(ends: FloatArray, height: float) -> FloatArray:
         if np.linalg.norm(ends[at]) < part * height / 3.0:
             result[at] = np.array(way) * part * height
     return result
-
-
-def _floor(positions: FloatArray, rotations: FloatArray, ends: FloatArray) -> float:
-    """Height of the floor: that of the lowest point of the lower foot in the lowest frames."""
-    heights = []
-    for name in ENDS[3:]:
-        at = SEGMENTS.index(name)
-        toe = positions[:, at] + quaternion.rotate(rotations[:, at], ends[ENDS.index(name)])
-        sole = positions[:, at] + quaternion.rotate(rotations[:, at], ends[ENDS.index(name)] * (0.0, 1.0, 0.0))
-        heights += [toe[:, 1], sole[:, 1]]
-    return float(np.percentile(np.min(heights, axis=0), FLOOR_PERCENTILE))
 
 
 def _local(rotations: FloatArray) -> FloatArray:
