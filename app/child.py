@@ -47,8 +47,14 @@ class MessageChannel(Generic[T]):
 
     def send(self, message: object) -> None:
         """Send a message. Raises OSError if the other side has ended."""
-        self.put(message)
-        self.outgoing.flush()
+        try:
+            self.put(message)
+            self.outgoing.flush()
+        except ValueError as error:
+            # Another thread closed the stream to end the process.
+            if self.outgoing.closed:
+                raise BrokenPipeError from error
+            raise
 
     def put(self, message: object) -> None:
         """Add a message to those sent at the next `send` or flush."""

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from app.arrays import AnyFloatArray, SingleArray
 from app.export.bind_pose import CENTIMETRES, bound_meshes, rest_transforms
 from app.export.bone_axes import bone_axes
-from app.export.eyes import eyes_of_file, with_turned_balls
+from app.export.eyes import eyes_of_file, looking_ahead, with_turned_balls
 from app.export.face_curves import FACE_PARTS, FacePart, written_weights
 from app.export.influences import with_few_influences
 from app.export.morph_normals import with_morph_normals
@@ -62,7 +62,7 @@ def character_scene(
         Trajectories of the musician's instruments, if the target has sockets for several; empty for the motion's only
         instrument.
     face_parts : tuple of FacePart
-        Parts of the face with curves.
+        Parts of the face with curves. Without the gaze, eyes do not turn in the head.
 
     Returns
     -------
@@ -72,6 +72,8 @@ def character_scene(
         The clip animates the morphs that the motion uses.
     """
     target = normalised_target(character.skeleton) if target is None else target
+    if "gaze" not in face_parts:
+        motion = looking_ahead(character, motion)
     eyes = eyes_of_file(character, motion, target)
     motion = replace(eyes.motion, morphs=written_weights(eyes.motion.morphs, face_parts))
     if target.choice == "own" and character.own is not None:

@@ -6,7 +6,7 @@ zero for this program's shapes; in formats without shapes the bone has the whole
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, FloatArray, SingleArray
 from app.export.target import TargetSkeleton
-from app.motion.faces.eyes import EYE_SIDES, SHAPES_RAD, EyeSide, eye_joint, shape_name, shape_turn
+from app.motion.faces.eyes import EYE_SHAPES, EYE_SIDES, SHAPES_RAD, EyeSide, eye_joint, shape_name, shape_turn
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.characters.bone_placements import world_placements
@@ -82,6 +82,14 @@ def eyes_of_file(character: Character, motion: Motion, target: TargetSkeleton) -
     return EyesOfFile(replace(motion, rotations=rotations), turned)
 
 
+def looking_ahead(character: Character, motion: Motion) -> Motion:
+    """Return a motion whose eyes do not turn in the head, for files that leave the gaze to a capture."""
+    eyes = [character.skeleton.index(eye_joint(side)) for side in EYE_SIDES if _has(character, side)]
+    rotations = motion.rotations.copy()
+    rotations[:, eyes] = quaternion.IDENTITY
+    return replace(motion, rotations=rotations, morphs=_without(motion.morphs, EYE_SHAPES))
+
+
 def with_turned_balls(character: Character) -> Character:
     """Return a character whose eyeLook morphs also rotate its eyeballs."""
     if not any(_has(character, side) for side in EYE_SIDES):
@@ -126,7 +134,7 @@ def _has(character: Character, side: EyeSide) -> bool:
     return eye_joint(side) in character.skeleton.names
 
 
-def _without(morphs: Mapping[str, SingleArray], names: set[str]) -> dict[str, SingleArray]:
+def _without(morphs: Mapping[str, SingleArray], names: Collection[str]) -> dict[str, SingleArray]:
     return {name: weights for name, weights in morphs.items() if name not in names}
 
 

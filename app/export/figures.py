@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from app.export.attachment import own_path
 from app.export.character import character_scene
+from app.export.eyes import looking_ahead
 from app.export.face_curves import with_curve_names, written_weights
 from app.export.file_names import figure_stems
 from app.export.formats import FileFormat
@@ -96,6 +97,8 @@ def dancer_scene(request: ExportRequest, cast: CastDancing, motion: Motion, kind
 def _animation_scene(
     request: ExportRequest, character: Character, motion: Motion, name: str, target: TargetSkeleton
 ) -> Scene:
+    if "gaze" not in request.face.parts:
+        motion = looking_ahead(character, motion)
     scene = humanoid_scene(character, motion, name, request.creator, target)
     assert scene.clip is not None
     # VRM has its own names of expressions and its own gaze.

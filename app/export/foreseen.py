@@ -118,7 +118,7 @@ def foresee_folder(
         written += stage_names(performance, formats, source).values()
     replaced = tuple(name for name in written if os.path.exists(folder / name))
     remarks = [other_bars(folder, bars) if replaced else None, remark_on_files_that_stay(folder, written)]
-    remarks.append(_without_face(formats) if motion_only else None)
+    remarks += [_without_face(formats), _with_meshes(formats)] if motion_only else []
     remarks.append(_with_tangents(formats) if keys == "reduced" else None)
     return Foreseen(len(written), replaced, remarks=tuple(remark for remark in remarks if remark is not None))
 
@@ -129,6 +129,12 @@ def _without_face(formats: frozenset[Format]) -> Message | None:
     """
     faceless = [row.label for row in requested(formats) if row.without_meshes and not row.face_without_meshes]
     return Message("motion_only.no_face", {"formats": ", ".join(faceless)}) if faceless else None
+
+
+def _with_meshes(formats: frozenset[Format]) -> Message | None:
+    """Return a remark about formats whose files have meshes in any case; None if there are none."""
+    meshed = [row.label for row in requested(formats) if row.textured and not row.without_meshes]
+    return Message("motion_only.with_meshes", {"formats": ", ".join(meshed)}) if meshed else None
 
 
 def _with_tangents(formats: frozenset[Format]) -> Message | None:

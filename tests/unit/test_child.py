@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import subprocess
 import sys
@@ -9,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from app.child import own_process
+from app.child import MessageChannel, own_process
 
 
 def test_what_lies_where_it_is_started_is_not_run(tmp_path: Path) -> None:
@@ -27,3 +28,11 @@ def test_ctrl_c_in_the_terminal_is_not_sent_to_them() -> None:
         stdin=subprocess.PIPE, stdout=subprocess.PIPE, **own_process("app.audio.render_process")
     ) as child:
         assert os.getpgid(child.pid) == child.pid != os.getpgid(0)
+
+
+def test_sending_into_a_channel_closed_meanwhile_says_that_the_other_side_has_ended() -> None:
+    """Another thread closes the channel of a process that it ends, as after Ctrl-C."""
+    channel: MessageChannel[str] = MessageChannel(str, io.BytesIO(), io.BytesIO())
+    channel.hang_up()
+    with pytest.raises(BrokenPipeError):
+        channel.send("next")

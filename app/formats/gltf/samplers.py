@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 import numpy as np
 import pygltflib as gltf
@@ -40,12 +40,22 @@ class Samplers:
         document.gltf.animations.append(self._animation)
 
     def add_clip(
-        self, scene: Scene, clip: Clip, first: int, meshes: Sequence[SkinnedMesh], mesh_nodes: Sequence[int]
+        self,
+        scene: Scene,
+        clip: Clip,
+        first: int,
+        meshes: Sequence[SkinnedMesh],
+        mesh_nodes: Sequence[int],
+        unanimated: Collection[int] = (),
     ) -> None:
-        """Add the animation of a scene's bones, whose nodes begin at `first`, and of the morphs of meshes."""
+        """Add the animation of a scene's bones, whose nodes begin at `first`, and of the morphs of meshes; bones in
+        `unanimated` get no keys.
+        """
         keys = clip.keys
         slopes_fps = float(clip.fps) if keys is not None and keys.curved else 0.0
         for bone in range(len(scene.bones)):
+            if bone in unanimated:
+                continue
             frames = None if keys is None else keys.bones[bone]
             if bone in clip.translations_cm:
                 places = (np.asarray(clip.translations_cm[bone]) * METRES).astype(np.float32)

@@ -75,7 +75,7 @@ def write_vrma(
             parent = out.nodes[_FIRST + bone.parent]
             parent.children = [*(parent.children or []), len(out.nodes) - 1]
     samplers = Samplers(document, clip)
-    samplers.add_clip(scene, clip, _FIRST, (), ())
+    samplers.add_clip(scene, clip, _FIRST, (), (), _without_gaze(scene, clip))
     extension = {"specVersion": "1.0", **_bones(scene)}
     faces = len(out.nodes)
     expressions = _expressions(clip, sums or {})
@@ -106,6 +106,12 @@ def _checked(scene: Scene) -> Clip:
     if turned:
         raise ValueError(f"bones of a VRM animation are unturned at rest, not {turned}")
     return clip
+
+
+def _without_gaze(scene: Scene, clip: Clip) -> list[int]:
+    """Return the gaze's bone if it never turns: without keys, an animation leaves the gaze of a figure as it is."""
+    turned = np.abs(clip.rotations_xyzw[..., 3]).min(axis=0) < 1.0
+    return [at for at, bone in enumerate(scene.bones) if bone.name == LOOK_AT and not turned[at]]
 
 
 def _bones(scene: Scene) -> dict[str, Any]:

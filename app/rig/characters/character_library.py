@@ -24,13 +24,13 @@ from app.encoding import shown
 from app.errors import AppError, FileError, MapError, Message, UsageError, shortened
 from app.formats.atomic import atomic_write
 from app.formats.fbx.foreign_textures import media_folder
-from app.formats.files import cannot_write, open_file
+from app.formats.files import cannot_write
 from app.formats.gltf.self_contained import read_whole
 from app.formats.toml import read_toml, shaped, toml
 from app.formats.user_folder import Read, Shelf, Stamp, UserFolder, stamp_of
 from app.rig.characters.figure_build import PLAUSIBLE_M
 from app.rig.characters.load_character import load_character
-from app.rig.characters.read_figure import SUFFIXES
+from app.rig.characters.read_figure import SUFFIXES, suffix_by_content
 from app.rig.grip.body_size import arm_m
 from app.rig.model import Character
 from app.rig.people.bundled_people import bundled_people, bundled_person, person_arm_m, person_of
@@ -292,12 +292,12 @@ def add_character(
         raise cannot_write(folder, error) from error
     with LIBRARY.lock:
         id = _free_id(title, folder)
-        suffix = path.suffix.lower() if path.suffix.lower() in SUFFIXES else _suffix_of(path)
+        suffix = _suffix_of(path)
         content = read_whole(path)
-        with atomic_write(folder / f"{id}{suffix}") as stream:
-            stream.write(content)
         if suffix == ".fbx":
             _keep_images(path, media_folder(folder / f"{id}{suffix}"))
+        with atomic_write(folder / f"{id}{suffix}") as stream:
+            stream.write(content)
         # The description is written last: a file without one is not a character, so a failure in between leaves no half
         # of one.
         faces = {name: dict(parts) for name, parts in (morphs or {}).items()}
@@ -383,7 +383,6 @@ def _free_id(title: str, folder: Path) -> str:
 
 
 def _suffix_of(path: Path) -> str:
-    """Return the suffix (``.glb``, ``.fbx`` or ``.gltf``) that fits a file's first bytes."""
-    with open_file(path) as opened:
-        start = opened.read(16)
-    return ".glb" if start.startswith(b"glTF") else ".fbx" if start.startswith(b"Kaydara") else ".gltf"
+    """Return the suffix that fits a character's file by its content; the name only distinguishes VRM from GLB."""
+    suffix = suffix_by_content(path)
+    return ".vrm" if suffix == ".glb" and path.suffix.lower() == ".vrm" else suffix

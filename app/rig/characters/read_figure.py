@@ -22,6 +22,20 @@ def is_glb(path: Path) -> bool:
         return opened.read(4) == MAGIC
 
 
+def suffix_by_content(path: Path) -> str:
+    """Return the suffix (``.glb``, ``.gltf`` or ``.fbx``) that fits a file's first bytes; empty for other formats.
+
+    Text files of FBX have no fixed beginning, so their name decides. Raises FileError if the file cannot be read.
+    """
+    with open_file(path) as opened:
+        start = opened.read(64)
+    if start.startswith(MAGIC):
+        return ".glb"
+    if start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
+        return ".gltf"
+    return ".fbx" if start.startswith(b"Kaydara FBX") or path.suffix.lower() == ".fbx" else ""
+
+
 def read_figure(path: Path) -> Figure:
     """Read the figure in a file.
 
@@ -30,12 +44,11 @@ def read_figure(path: Path) -> Figure:
     FileError
         The file cannot be read, is damaged, too large or of an unknown format, or contains no skeleton.
     """
-    with open_file(path) as opened:
-        start = opened.read(64)
+    suffix = suffix_by_content(path)
     try:
-        if start.startswith(MAGIC) or start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
+        if suffix in (".glb", ".gltf"):
             return gltf_figure(path)
-        if start.startswith(b"Kaydara FBX") or path.suffix.lower() == ".fbx":
+        if suffix == ".fbx":
             # Starts another process; bundled characters are GLB files.
             from app.rig.characters.figure_fbx import fbx_figure
 

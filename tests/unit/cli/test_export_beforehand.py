@@ -91,3 +91,15 @@ def test_tangents_that_blender_drops_are_named_with_the_remedy(
     said = capsys.readouterr().err
     assert (f"reduced keys of {named} have tangents" in said) == bool(named)
     assert ("--keys linear" in said) == bool(named)
+
+
+@pytest.mark.parametrize(("formats", "named"), [("fbx,usd", "USD"), ("fbx,glb", "")])
+def test_a_format_that_keeps_its_meshes_is_named_where_motion_alone_is_asked_for(
+    formats: str, named: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def refuse(*_args: object, **_named: object) -> None:
+        raise FileError("file.cannot_write", file=str(tmp_path), reason="the disk is full")
+
+    monkeypatch.setattr("app.cli.export.write", refuse)
+    main(["export", piece(tmp_path / "x.mid"), "--to", str(tmp_path / "out"), "--format", formats, "--motion-only"])
+    assert (f"{named} is written with meshes all the same" in capsys.readouterr().err) == bool(named)

@@ -12,6 +12,7 @@ import pytest
 from app.cli import main
 from app.cli.export import face_parts
 from app.export.character import character_scene
+from app.export.eyes import looking_ahead
 from app.export.face_curves import (
     CURVE_NAMES,
     FACE_PARTS,
@@ -21,6 +22,10 @@ from app.export.face_curves import (
     with_curve_names,
     written_weights,
 )
+from app.export.humanoid import humanoid_scene, humanoid_target
+from app.export.target import normalised_target
+from app.formats.gltf.read import read_glb
+from app.formats.gltf.vrma import write_vrma
 from app.formats.scene import MorphTarget, Scene
 from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
@@ -129,8 +134,33 @@ def test_parts_that_are_not_asked_for_have_no_curves_and_keep_their_shapes() -> 
         np.testing.assert_array_equal(weights, whole.clip.morph_weights[name])
     assert any(name.startswith("brow") for name in whole.clip.morph_weights)
     assert [morph.name for morph in lips.meshes[0].morphs] == [morph.name for morph in whole.meshes[0].morphs]
-    np.testing.assert_array_equal(lips.clip.rotations_xyzw, whole.clip.rotations_xyzw)
+    others = [at for at, bone in enumerate(lips.bones) if not bone.name.endswith("Eye")]
+    np.testing.assert_array_equal(lips.clip.rotations_xyzw[:, others], whole.clip.rotations_xyzw[:, others])
     assert set(written_weights(whole.clip.morph_weights, ())) == {"chestExpand", "bellyExpand"}
+
+
+@pytest.mark.parametrize("kind", ["bones", "shapes", "vrm"])
+def test_a_gaze_left_to_a_capture_turns_no_bone(kind: str, tmp_path: Path) -> None:
+    performance = Performance(quartet_project())
+    player = performance.project.players[0]
+    span = bars_span(performance, Fraction(30), (1, 2), 1)
+    motion, character = player_motion(performance, player, span), character_of(player)
+    if kind == "vrm":
+        for part, keyed in (("gaze", True), ("mouth", False)):
+            seen = motion if part == "gaze" else looking_ahead(character, motion)
+            scene = humanoid_scene(character, seen, "p", "t", humanoid_target(character))
+            write_vrma(tmp_path / "p.vrma", scene)
+            model = read_glb(tmp_path / "p.vrma", animated=True)
+            node = int(model.extensions["VRMC_vrm_animation"]["lookAt"]["node"])
+            assert (node in {channel.node for channel in model.animations[0].channels}) == keyed
+        return
+    target = replace(normalised_target(character.skeleton), eyes=kind)
+    for parts, still in ((FACE_PARTS, kind == "shapes"), (("mouth",), True)):
+        scene = character_scene(character, motion, "p", "t", target, face_parts=parts)
+        assert scene.clip is not None
+        eyes = [at for at, bone in enumerate(scene.bones) if bone.name.endswith("Eye")]
+        assert len(eyes) == 2
+        assert (np.abs(scene.clip.rotations_xyzw[:, eyes, 3]) > 1.0 - 1e-6).all() == still
 
 
 def test_the_command_reads_parts_and_says_which_there_are(capsys: pytest.CaptureFixture[str]) -> None:

@@ -90,6 +90,14 @@ def test_images_beside_an_fbx_file_are_kept_with_it(
     assert not [*folder.iterdir()]
 
 
+def test_content_decides_the_suffix_that_a_character_is_kept_with(folder: Path, tmp_path: Path) -> None:
+    for suffix, kept in ((".fbx", ".glb"), (".gltf", ".glb"), (".VRM", ".vrm"), (".bin", ".glb")):
+        shutil.copy(OURS, tmp_path / f"figure{suffix}")
+        id = add_character(tmp_path / f"figure{suffix}", "Figure")
+        assert (folder / f"{id}{kept}").is_file()
+        assert character_named(id).id == id
+
+
 def test_a_long_title_is_cut_when_written_and_refused_when_read(folder: Path) -> None:
     added = add_character(OURS, "Ms. Mori\n" + "m" * 20_000)
     assert library().own[added].title == "Ms. Mori " + "m" * 190 + "…"
