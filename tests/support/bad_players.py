@@ -79,7 +79,7 @@ BAD_CHARACTERS: dict[str, tuple[Callable[[OwnFolders], str], str]] = {
     "file damaged": (lambda own: own.add_character(_truncated(_figure())), "mori.glb is damaged"),
     "no body": (
         lambda own: own.add_character((WHISTLE / "tin_whistle_D.glb").read_bytes()),
-        "mori.glb cannot play because bones were not found",
+        "mori.glb cannot play because its meshes are not bound to the bones of a skeleton",
     ),
 }
 """Changes that make a character unusable, each returning the character's id, with the expected message."""
