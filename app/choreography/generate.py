@@ -26,13 +26,11 @@ from app.choreography.clip import MotionClip
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.dance_flaws import usual_change_rad_s
 from app.choreography.drums_of_dancers import TakeShares, take_shares
-from app.choreography.feet_on_floor import grounded
 from app.choreography.footfalls import Footfalls, on_beats, touch_leads
 from app.choreography.hands_out_of_body import out_of_body
 from app.choreography.hit_log_odds import Hearing, hearing
 from app.choreography.idling import idling_odds
 from app.choreography.joins import distances_m
-from app.choreography.joint_speeds import within_speeds
 from app.choreography.limbs import unbroken
 from app.choreography.model import ChoreographyModel
 from app.choreography.music_motion_dependence import trust_in
@@ -43,9 +41,9 @@ from app.choreography.sequence import Constraints, SegmentCandidates, Weights, c
 from app.choreography.sized import sized
 from app.choreography.spin_times import SpinTimes
 from app.choreography.spins import without_haste
-from app.choreography.standing_feet import STEP_S, FootPlant, foot_speeds_m_s, planted, planted_frames, stands, steps_s
+from app.choreography.standing_feet import STEP_S, FootPlant, foot_speeds_m_s, planted, stands, steps_s
 from app.choreography.stitch import Frames, Stitcher, on_stage
-from app.choreography.sudden_ends import UsualAccelerations, usual_accelerations, without_twitches
+from app.choreography.sudden_ends import UsualAccelerations, usual_accelerations, within_limits
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
 
 DRAFT_FPS: Final = Fraction(60)
@@ -218,10 +216,7 @@ class Choreographer:
             clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
         clip = out_of_body(without_haste(clip, self._spins.fastest_rad_s))
         clip, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
-        on_floor = planted_frames(falls.standing, len(clip))
-        # Joints first: a hand that a slower shoulder carries along has to be calmed, too.
-        clip = without_twitches(within_speeds(clip, on_floor), falls.standing, self._usual_accelerations(fps))
-        clip = within_speeds(grounded(clip, on_floor), on_floor)
+        clip = within_limits(clip, falls.standing, self._usual_accelerations(fps))
         return Dance(clip, first_s, plan.steps, speeds, seams, falls.standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:

@@ -20,8 +20,9 @@ from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.body_speeds import runs
 from app.choreography.clip import MotionClip
 from app.choreography.features import height_m
-from app.choreography.feet_on_floor import AHEAD, LEG
+from app.choreography.feet_on_floor import AHEAD, LEG, grounded
 from app.choreography.hands_out_of_body import ELBOW
+from app.choreography.joint_speeds import within_speeds
 from app.choreography.limbs import bend
 from app.choreography.resample import resampled
 from app.choreography.standing_feet import FootPlant, planted_frames
@@ -36,6 +37,8 @@ AROUND_S: Final = 0.2
 """Time in seconds before and after within which a path is bent."""
 TRIES: Final = 6
 """Greatest number of passes over a motion, since corrections may leave an excess beside them."""
+ALTERNATIONS: Final = 4
+"""Greatest number of alternations between limits of acceleration and of joints' speeds."""
 PASSES: Final = 12
 """Greatest number of alternations between two points, since bending one path moves the other slightly."""
 ROUNDS: Final = 400
@@ -74,6 +77,25 @@ def usual_accelerations(clips: Sequence[MotionClip], fps: Fraction) -> UsualAcce
         every = np.concatenate(rows)
         found.append(np.percentile(every, USUAL_PERCENTILE, axis=0) if len(every) else np.zeros(2))
     return UsualAccelerations(*found)
+
+
+def within_limits(clip: MotionClip, standing: Sequence[FootPlant], usual: UsualAccelerations) -> MotionClip:
+    """Return the motion with joints no faster than `app.choreography.joint_speeds.within_speeds` allows, hands and feet
+    accelerated as `without_twitches` allows, and soles on or above the floor.
+
+    Alternating is necessary, since a joint that is slowed down accelerates its hand or foot, and the other way round.
+    """
+    on_floor = planted_frames(standing, len(clip))
+    # Joints first: a hand that a slower shoulder carries along has to be calmed, too.
+    clip = within_speeds(clip, on_floor)
+    for number in range(ALTERNATIONS):
+        calm = without_twitches(clip, standing, usual)
+        if number and calm is clip:
+            break
+        clip = within_speeds(grounded(calm, on_floor), on_floor)
+        if clip is calm:
+            break
+    return clip
 
 
 def without_twitches(clip: MotionClip, standing: Sequence[FootPlant], usual: UsualAccelerations) -> MotionClip:

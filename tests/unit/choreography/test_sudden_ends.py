@@ -10,11 +10,20 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.body_speeds import part_speeds
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
+from app.choreography.damage import FASTEST
 from app.choreography.features import height_m, points_m
+from app.choreography.joint_speeds import within_speeds
 from app.choreography.standing_feet import planted, stands
-from app.choreography.sudden_ends import MOST, UsualAccelerations, usual_accelerations, without_twitches
+from app.choreography.sudden_ends import (
+    MOST,
+    UsualAccelerations,
+    usual_accelerations,
+    within_limits,
+    without_twitches,
+)
 from tests.support.dances import stepping, still
 
 FPS = Fraction(60)
@@ -76,8 +85,24 @@ def test_a_straight_leg_is_calmed_within_its_reach() -> None:
     assert (after <= MOST * usual.feet * height_m(clip)).all()
 
 
+def test_a_kick_keeps_the_limits_of_acceleration_and_of_its_joints() -> None:
+    """A calmed kick turns the thigh faster than joints may, and slowing the thigh down jerks the foot again."""
+    clip = still(90, int(FPS))
+    kick_rad = 1.3 * (1.0 + np.tanh((np.arange(90) - 45) / 2.0))
+    thigh = SEGMENTS.index("leftUpperLeg")
+    turns = Rotation.from_rotvec(-kick_rad[:, None] * np.array((1.0, 0.0, 0.0)))
+    clip.rotations[:, thigh] = turns.as_quat()
+    slower = within_speeds(clip, np.zeros((90, 2), bool))
+    usual = UsualAccelerations(0.35 * accelerations(slower, "leftFoot").max(axis=0) / height_m(clip), np.full(2, 1e6))
+    found = within_limits(clip, (), usual)
+    assert (accelerations(found, "leftFoot").max(axis=0) <= MOST * usual.feet * height_m(clip)).all()
+    assert part_speeds(found)[:, thigh].max() <= FASTEST[thigh]
+
+
 def test_what_is_as_sudden_as_the_capture_is_left_as_it_is() -> None:
-    assert without_twitches(CLIP, (), usual_accelerations([CLIP], FPS)) is CLIP
+    usual = usual_accelerations([CLIP], FPS)
+    assert without_twitches(CLIP, (), usual) is CLIP
+    assert within_limits(CLIP, (), usual) is CLIP
 
 
 def test_standing_feet_stay_where_they_stand() -> None:
