@@ -17,8 +17,6 @@ from character_surface import Surface, smooth_normals, triangulate, vertex_norma
 from character_textures import Texture, jpeg, normals_of, png, sampled, spread, to_linear, to_srgb
 from PIL import Image, ImageDraw
 from scipy.ndimage import binary_opening, distance_transform_edt, gaussian_filter, label, map_coordinates, maximum
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 from scipy.special import erf
 
@@ -41,9 +39,11 @@ CAP_HALF_PX, HAIRLINE_PX, EDGE_PX = 40, 40, 10
 behind it in which shades are evened, since painted edges are pale.
 """
 BAND_HALF_PX = 80
-"""Half the width of parts of the scalp's hair below which they are bands."""
+"""Half the width of parts of the scalp's hair below which they are bands, whose edges do not dissolve."""
 FRINGE_PX, FRINGE_STEEP, FRINGE_STEPS = 30, 4.0, 2
 """Width over which an edge of the scalp's hair dissolves into fine hairs, the steepness of their ends, their length."""
+LEAST_LEFT, FRINGE_SHARES = 0.85, (1.0, 0.5, 0.25)
+"""Share of a style's opaque pixels that dissolving edges leaves at least, and shares of the widths tried for it."""
 EVEN_PX = 9.0
 """Reach over which the painted spikes of a hairline are evened before it dissolves."""
 WELD_M, ROOT_M, ROOT_PX = 0.0015, 0.003, 30
@@ -52,8 +52,6 @@ the end of a lock is its root, and the width over which roots dissolve.
 """
 OVER_AN_EYE = frozenset({"bob02"})
 """Styles that are combed aside."""
-BAND_OVER_AN_EYE = {"braid01": 0}
-"""Styles of which a band of hair is left out, by a vertex of it: it covers forehead and an eye."""
 AXIS_M, FREE_DEG, BEHIND_DEG = 0.07, 58.0, 105.0
 """Distance of the head's axis behind the eyes; angles about it, from ahead to the right, of the edge of hair that is
 combed aside, and of that which stays."""
@@ -137,7 +135,8 @@ def _fringe(
     """Alpha (H, W) with the hairline dissolved into fine hairs: the nearer to where nothing is painted, or to where
     the mesh ends (masks `ends_here`), the fewer. Roots of locks dissolve likewise.
 
-    Where only the drawing of a face ends, as at a seam of the texture, nothing changes.
+    Where only the drawing of a face ends, as at a seam of the texture, nothing changes, nor at edges of bands. The
+    edges are narrower, or stay, in a style that would lose more than a small share of its hair.
     """
     # Painted spikes are evened, or the hairline would be a saw.
     even = gaussian_filter(alpha * used, EVEN_PX) / np.maximum(gaussian_filter(used.astype(float), EVEN_PX), 1e-6)
@@ -145,16 +144,19 @@ def _fringe(
     bare = binary_opening(used & (even < 0.5), iterations=3) | ends_here[0]
     single = strands(along, 33, FRINGE_STEPS, 0.3)
     ends = 0.5 * (1.0 + erf(single / np.sqrt(2.0)))
-    caps = _caps(alpha)
-    bands = caps & ~_caps(alpha, BAND_HALF_PX)
-    for edge, parts, width in ((bare, caps, FRINGE_PX), (ends_here[1], ~caps, ROOT_PX)):
-        if not edge.any():
-            continue
-        inside = distance_transform_edt(~edge) / width
-        left = np.clip(ALPHA_CUTOFF + (inside - ends) * FRINGE_STEEP, 0.0, 1.0)
-        alpha = np.where(parts & (inside < 1.0), np.minimum(alpha, left), alpha)
     # Of a band little wider than its edges single hairs would be left, apart from all others.
-    return np.where(bands & _flecks(alpha > ALPHA_CUTOFF), 0.0, alpha)
+    scalp, locks = _caps(alpha, BAND_HALF_PX), ~_caps(alpha)
+    for share in FRINGE_SHARES:
+        thinned = alpha
+        for edge, parts, width in ((bare, scalp, FRINGE_PX), (ends_here[1], locks, ROOT_PX)):
+            if not edge.any():
+                continue
+            inside = distance_transform_edt(~edge) / (share * width)
+            left = np.clip(ALPHA_CUTOFF + (inside - ends) * FRINGE_STEEP, 0.0, 1.0)
+            thinned = np.where(parts & (inside < 1.0), np.minimum(thinned, left), thinned)
+        if (thinned > ALPHA_CUTOFF).sum() >= LEAST_LEFT * (alpha > ALPHA_CUTOFF).sum():
+            return thinned
+    return alpha
 
 
 def _hairline(grey: np.ndarray, alpha: np.ndarray, fine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -298,22 +300,11 @@ def hair(folder: Path, style: str, source: Source, fit: SkeletonFit) -> tuple[Su
     if asset.material is None:
         raise ValueError(f"{style} has no material")
     painted = read_picture(read_material(asset.material).textures["diffuseTexture"])
-    if style in BAND_OVER_AN_EYE:
-        asset = _without_part(asset, BAND_OVER_AN_EYE[style])
     used = covered(asset.uvs, asset.uv_faces, HAIR_PX)
     surface = asset_surface(asset, source, fit, "hair", "hair")
     positions = asset.binding.positions(source.vertices)
     ends_here = mesh_ends(asset, positions, _near_skin(positions, source), HAIR_PX)
     return _combed(surface, fit) if style in OVER_AN_EYE else surface, *hair_textures(style, painted, used, ends_here)
-
-
-def _without_part(asset: Asset, vertex: int) -> Asset:
-    """An asset without the connected part of its mesh that a vertex is in."""
-    sides = np.concatenate([asset.faces[:, [0, 1]], asset.faces[:, [1, 2]], asset.faces[:, [2, 3]]])
-    links = coo_array((np.ones(len(sides)), (sides[:, 0], sides[:, 1])), shape=(sides.max() + 1,) * 2)
-    parts = connected_components(links, directed=False)[1]
-    kept = parts[asset.faces[:, 0]] != parts[vertex]
-    return replace(asset, faces=asset.faces[kept], uv_faces=asset.uv_faces[kept])
 
 
 def _combed(surface: Surface, fit: SkeletonFit) -> Surface:

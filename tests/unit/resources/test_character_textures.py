@@ -18,6 +18,18 @@ from PIL import Image
 Module = Callable[[str], ModuleType]
 
 
+HAIR = Path(__file__).parents[3] / "resources" / "characters" / "hair"
+PAINTED = {
+    "afro01": 0.489,
+    "bob02": 0.345,
+    "braid01": 0.507,
+    "long01": 0.577,
+    "short02": 0.390,
+    "short04": 0.430,
+}
+"""Share of each style's picture that is opaque as MakeHuman's authors painted it, where faces use it."""
+
+
 def _pixels(content: bytes) -> np.ndarray:
     return np.asarray(Image.open(io.BytesIO(content)), dtype=np.float64) / 255.0
 
@@ -230,6 +242,25 @@ def test_hair_dissolves_where_its_mesh_ends_but_not_along_a_seam(build_module: M
     shown = (alpha > strands.ALPHA_CUTOFF).mean(axis=0)
     assert shown[2:6].mean() < 0.3 < shown[8:24].mean() < 0.8
     assert (shown[strands.FRINGE_PX + 4 :] == 1.0).all()
+
+
+def test_a_band_of_hair_does_not_dissolve(build_module: Module) -> None:
+    strands = build_module("character_strands")
+    used, ends = np.zeros((256, 256), dtype=bool), np.zeros((256, 256), dtype=bool)
+    used[:, 80:176] = True
+    ends[:, [80, 81, 174, 175]] = True
+    colour, _ = strands.hair_textures("band", np.ones((64, 64, 4)), used, (ends, np.zeros_like(used)))
+    assert (_pixels(colour.content)[..., 3] > strands.ALPHA_CUTOFF).sum() > 0.9 * used.sum()
+
+
+@pytest.mark.parametrize("style", PAINTED)
+def test_a_style_keeps_the_hair_that_is_painted(style: str) -> None:
+    (path,) = HAIR.glob(f"*/{style}.glb")
+    stored = gltf.GLTF2().load(str(path))
+    view = stored.bufferViews[next(one.bufferView for one in stored.images if one.name == f"hair_{style}_color")]
+    start = view.byteOffset or 0
+    alpha = _pixels(bytes(stored.binary_blob()[start : start + view.byteLength]))[..., 3]
+    assert (alpha > stored.materials[0].alphaCutoff).mean() > 0.8 * PAINTED[style]
 
 
 def test_brows_and_lashes_share_a_picture_and_lower_lashes_are_thin(build_module: Module, tmp_path: Path) -> None:
