@@ -93,11 +93,16 @@ def curve_names(names: CurveNames) -> Mapping[str, Mapping[str, float]]:
     return {shape: {way: 1.0} if isinstance(way, str) else way for shape, way in first.items()}
 
 
+MOST_WEIGHT: Final = 1.0
+"""Greatest weight of a face curve."""
+
+
 def with_curve_names(scene: Scene, names: CurveNames) -> Scene:
     """Return a scene with renamed face curves and morph targets, in which the mesh moves as before.
 
-    A shape may drive several curves, and a curve several shapes: curve weights are summed, and the mesh's targets are
-    chosen such that the curves together reproduce the shapes.
+    A shape may drive several curves, and a curve several shapes: curve weights are summed up to 1, beyond which a
+    MetaHuman's controls have no effect, and the mesh's targets are chosen such that the curves together reproduce the
+    shapes below that limit.
     """
     if names == "arkit" or scene.clip is None:
         return scene
@@ -106,7 +111,8 @@ def with_curve_names(scene: Scene, names: CurveNames) -> Scene:
     for shape, values in scene.clip.morph_weights.items():
         for curve, share in table.get(shape, {shape: 1.0}).items():
             part = values if share == 1.0 else (values * share).astype(values.dtype)
-            weights[curve] = np.add(weights[curve], part, dtype=values.dtype) if curve in weights else part
+            summed = np.add(weights[curve], part, dtype=values.dtype) if curve in weights else part
+            weights[curve] = np.minimum(summed, MOST_WEIGHT, dtype=values.dtype) if curve in weights else summed
     shares = _shares_of_shapes(table)
     meshes = tuple(_renamed(mesh, shares) for mesh in scene.meshes)
     return replace(scene, meshes=meshes, clip=replace(scene.clip, morph_weights=weights))

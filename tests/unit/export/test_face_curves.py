@@ -102,7 +102,7 @@ def test_a_mesh_shows_the_same_by_other_names(names: CurveNames) -> None:
     body = replace(made.meshes[0], morphs=(*made.meshes[0].morphs, funnel, pucker))
     shown = {
         name: np.linspace(*ends, made.clip.frames)
-        for name, ends in {"mouthFunnel": (1.0, 0.2), "mouthPucker": (0.1, 0.9)}.items()
+        for name, ends in {"mouthFunnel": (0.85, 0.1), "mouthPucker": (0.1, 0.85)}.items()
     }
     weights = {**made.clip.morph_weights, **shown}
     given = replace(made, meshes=(body, *made.meshes[1:]), clip=replace(made.clip, morph_weights=weights))
@@ -112,6 +112,19 @@ def test_a_mesh_shows_the_same_by_other_names(names: CurveNames) -> None:
     assert found.clip.morph_weights.keys() == {curve for shape in weights for curve in table[shape]}
     for frame in (0, 20, made.clip.frames - 1):
         np.testing.assert_allclose(_deformed(found, frame), _deformed(given, frame), atol=1e-9)
+
+
+def test_curves_that_serve_several_shapes_stay_within_their_range() -> None:
+    """Raised brows, inner and outer, drive one control of a MetaHuman, which ends at 1."""
+    made = scenes.character(Fraction(30))
+    assert made.clip is not None
+    raised = np.linspace(0.0, 0.9, made.clip.frames, dtype=np.float32)
+    clip = replace(made.clip, morph_weights={"browInnerUp": raised, "browOuterUpLeft": raised})
+    found = with_curve_names(replace(made, clip=clip), "metahuman").clip
+    assert found is not None
+    shared = found.morph_weights["CTRL_expressions_browRaiseInL"]
+    np.testing.assert_array_equal(shared, np.minimum(2.0 * raised, 1.0))
+    assert max(float(weights.max()) for weights in found.morph_weights.values()) == 1.0
 
 
 def test_all_shapes_belong_to_one_part_and_others_to_none() -> None:
