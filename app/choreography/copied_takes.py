@@ -19,6 +19,7 @@ from app.arrays import FloatArray, IntArray
 from app.choreography.clip import MotionClip
 from app.choreography.features import facing, joint_points_m, size_m
 from app.choreography.near_copies import COPIES, MOST_PAIRS
+from app.identity_cache import IdentityCache
 from app.rig import quaternion
 
 _EVERY_S: Final = 1.0 / 60.0
@@ -60,6 +61,14 @@ class Takes:
 
 def takes_of(clips: Sequence[MotionClip]) -> Takes:
     """Find the takes of which clips are copies."""
+    return _FOUND.step(_takes_of, *clips)
+
+
+_FOUND: Final[IdentityCache[Takes]] = IdentityCache(2)
+"""Takes of the models asked about last: every report on a model needs them."""
+
+
+def _takes_of(*clips: MotionClip) -> Takes:
     count = len(clips)
     takes, shifts_s = np.arange(count), np.zeros(count)
     if count < 2:

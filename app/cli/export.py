@@ -313,6 +313,8 @@ def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:
         raise UsageError("keys.formats", possible=names_where(lambda kind: kind.reduces_keys))
     if arguments.face_names != DEFAULT_FACE.names and arguments.unreal is not None:
         raise UsageError("unreal.face_names")
+    if arguments.face_names != DEFAULT_FACE.names and not any(kind.face_names for kind in requested(formats)):
+        raise UsageError("face_names.formats", possible=names_where(lambda kind: kind.face_names))
     if arguments.motion_only and arguments.unreal is not None:
         raise UsageError("unreal.motion_only")
     if arguments.motion_only and not any(kind.without_meshes for kind in requested(formats)):

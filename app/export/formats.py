@@ -93,6 +93,8 @@ class FileFormat:
         Whether meshes can be omitted (`WriteOptions.meshes`).
     face_without_meshes : bool
         Whether files without meshes have the weights of the face.
+    face_names : bool
+        Whether the curves of the face have names that can be chosen.
     textured : bool
         Whether surfaces have textures.
     bones_by_name : bool
@@ -119,6 +121,7 @@ class FileFormat:
     keys_by_pose: bool = False
     without_meshes: bool = False
     face_without_meshes: bool = False
+    face_names: bool = False
     textured: bool = False
     bones_by_name: bool = False
     package: str = ""
@@ -219,6 +222,7 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             tangents=True,
             without_meshes=True,
             face_without_meshes=True,
+            face_names=True,
             textured=True,
         ),
         FileFormat(
@@ -243,6 +247,7 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             read=_read_glb,
             tangents=True,
             without_meshes=True,
+            face_names=True,
             textured=True,
         ),
         FileFormat(
@@ -254,6 +259,7 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             _write_usd,
             read=_read_usd,
             keys_by_pose=True,
+            face_names=True,
             textured=True,
             package="usd-core",
             refuse=refuse_without_usd,

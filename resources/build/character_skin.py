@@ -135,7 +135,7 @@ def _face_masks(layout: Layout) -> dict[str, np.ndarray]:
 
 def _pair(layout: Layout, u: float, beside: float, wide: float, high: float) -> np.ndarray:
     """Soft spots on both sides of the face's middle."""
-    return sum(_blob(layout, u, 0.484 + side * beside, wide, high) for side in (-1.0, 1.0))  # type: ignore[return-value]
+    return _blob(layout, u, 0.484 - beside, wide, high) + _blob(layout, u, 0.484 + beside, wide, high)
 
 
 def read_picture(path: Path) -> np.ndarray:

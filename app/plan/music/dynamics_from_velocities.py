@@ -136,7 +136,7 @@ def _distribution(unread: Sequence[IntArray], constant: bool) -> tuple[float, fl
     low, high = np.percentile(several, [10, 90])
     meant = float(np.clip((high - low - UNMEANT_SPREAD) / (MEANT_SPREAD - UNMEANT_SPREAD), 0.0, 1.0))
     if constant:
-        # A single velocity that no program writes by default was chosen by a person.
+        # A single velocity that no program writes by default was chosen deliberately.
         return usual, 1.0, 0.0
     if len(several) < 4 * STROKES:
         return usual, meant, 0.0

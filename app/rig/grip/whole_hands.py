@@ -55,21 +55,21 @@ def within_reach(
     reaches = [_Reach(character, hand, stand, tube) for hand in grip.hands]
     order = sorted(range(len(reaches)), key=lambda number: -reaches[number].along_m)
     # The farther hand moves the nearer one along, so that they do not lie in each other.
-    wanted = dict[int, float]()
+    needed_m = dict[int, float]()
     for place, number in enumerate(order):
         one, after = reaches[number], order[place - 1] if place else None
         least_m = 0.0
         if after is not None and reaches[after].forwards == one.forwards:
-            least_m = wanted[after] - max(reaches[after].along_m - one.along_m - length_m, 0.0)
-        wanted[number] = one.slid_m(max(least_m, 0.0), max(one.along_m - length_m, 0.0))
+            least_m = needed_m[after] - max(reaches[after].along_m - one.along_m - length_m, 0.0)
+        needed_m[number] = one.slid_m(max(least_m, 0.0), max(one.along_m - length_m, 0.0))
     shifts = dict[int, float]()
     for place, number in reversed(list(enumerate(order))):
         one, before = reaches[number], order[place + 1] if place + 1 < len(order) else None
-        most_m = wanted[number]
+        most_m = needed_m[number]
         if before is not None and reaches[before].forwards == one.forwards:
             between_m = one.along_m - reaches[before].along_m
             most_m = min(most_m, max(between_m - min(between_m, length_m), 0.0) + shifts[before])
-        shifts[number] = one.slid_m(0.0, most_m) if most_m < wanted[number] else most_m
+        shifts[number] = one.slid_m(0.0, most_m) if most_m < needed_m[number] else most_m
     hands = tuple(
         hand if shifts[number] == 0.0 else reaches[number].slid(shifts[number])
         for number, hand in enumerate(grip.hands)

@@ -180,3 +180,9 @@ def test_the_command_reads_parts_and_says_which_there_are(capsys: pytest.Capture
     assert face_parts("Mouth, gaze") == ("gaze", "mouth")
     assert main(["export", "x.mid", "--to", "out", "--face-parts", "ears"]) == 2
     assert "brows, eyes, gaze, cheeks, nose, mouth" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("kind", ["vrma", "bvh", "bvh,vrma"])
+def test_names_for_formats_that_have_none_are_refused(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["export", "x.mid", "--to", "out", "--format", kind, "--face-names", "metahuman"]) == 2
+    assert "fbx, glb, usd" in capsys.readouterr().err
