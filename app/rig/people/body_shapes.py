@@ -6,6 +6,7 @@ all shapes. The file is made by ``resources/build/build_bodies.py``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -192,17 +193,16 @@ def body_m(shapes: BodyShapes, phenotype: Phenotype) -> FloatArray:
 
     Its height is as near to the phenotype's as its age and sex allow.
     """
-    low, high = (_sum(shapes, _coefficients(shapes, phenotype, end)) for end in ENDS)
     local = _local(shapes, phenotype)
-    low, high = low + local, high + local
+    low, high = (one + local for one in _sums(shapes, [_coefficients(shapes, phenotype, end) for end in ENDS]))
     return _of_height(low, high, phenotype.height_m, _skin_count(shapes))
 
 
 def heights_m(shapes: BodyShapes, phenotype: Phenotype) -> tuple[float, float]:
     """Return the least and the greatest height in metres of a body with the phenotype's age and sex."""
     local, count = _local(shapes, phenotype), _skin_count(shapes)
-    ends = (_sum(shapes, _coefficients(shapes, phenotype, end)) + local for end in ENDS)
-    low_m, high_m = (float(np.ptp(body[:count, 1])) for body in ends)
+    ends = _sums(shapes, [_coefficients(shapes, phenotype, end) for end in ENDS])
+    low_m, high_m = (float(np.ptp((body + local)[:count, 1])) for body in ends)
     return low_m, high_m
 
 
@@ -227,13 +227,15 @@ def _of_height(low: FloatArray, high: FloatArray, height_m: float, count: int) -
     return body
 
 
-def _sum(shapes: BodyShapes, coefficients: FloatArray) -> FloatArray:
-    amounts = (coefficients @ shapes.places).astype(np.float32)
-    total: SingleArray = np.zeros(shapes.directions.shape[1], dtype=np.float32)
-    for start in range(0, len(amounts), ROWS):
-        total = total + amounts[start : start + ROWS] @ shapes.directions[start : start + ROWS].astype(np.float32)
-    moved: FloatArray = shapes.mean_m.astype(np.float64) + total.reshape(3, -1).T
-    return moved
+def _sums(shapes: BodyShapes, coefficients: Sequence[FloatArray]) -> list[FloatArray]:
+    """Return the bodies (V + J, 3) of several weights (K,) of the shapes, which are unpacked once for all of them."""
+    amounts = [(own @ shapes.places).astype(np.float32) for own in coefficients]
+    totals = [np.zeros(shapes.directions.shape[1], dtype=np.float32) for _ in amounts]
+    for start in range(0, len(shapes.directions), ROWS):
+        rows = shapes.directions[start : start + ROWS].astype(np.float32)
+        for own, total in zip(amounts, totals, strict=True):
+            total += own[start : start + ROWS] @ rows
+    return [shapes.mean_m.astype(np.float64) + total.reshape(3, -1).T for total in totals]
 
 
 def _local(shapes: BodyShapes, phenotype: Phenotype) -> FloatArray:

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from app.arrays import AnyFloatArray, FloatArray, IndexArray, SingleArray
+from app.arrays import AnyFloatArray, AnyIntArray, FloatArray, IndexArray, SingleArray
 from app.identity_cache import IdentityCache
 from app.rig.mesh import Mesh
 from app.rig.model import Character
 
 if TYPE_CHECKING:
+    from scipy.sparse import csr_array
     from scipy.spatial import cKDTree
 
 NEIGHBOURS = 8
@@ -46,7 +47,8 @@ class Binding:
 
     def carried(self, moved_m: FloatArray) -> FloatArray:
         """Return the displacements (N, 3) of the bound vertices for displacements (V, 3) of the base mesh."""
-        carried: FloatArray = np.einsum("nk,nka->na", self.shares, moved_m[self.corners].astype(np.float32))
+        steps_m = moved_m.astype(np.float32).take(self.corners, axis=0)
+        carried: FloatArray = np.einsum("nk,nka->na", self.shares, steps_m)
         return carried.astype(np.float64)
 
 
@@ -113,14 +115,25 @@ def normals_of(positions_m: AnyFloatArray, mesh: Mesh, places: IndexArray) -> Fl
     places : (V,) int
         Number of each vertex's position; vertices with equal numbers (either side of a seam) get equal normals.
     """
-    corners = positions_m[mesh.triangles]
-    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    across: AnyFloatArray = np.asarray(np.cross(first, second), dtype=np.float64)
-    rows, count = places[mesh.triangles].ravel(), len(positions_m)
-    summed = [np.bincount(rows, np.repeat(across[:, axis], 3), count) for axis in range(3)]
-    found = np.stack(summed, axis=1).astype(np.float64)[places]
+    corners = positions_m.take(mesh.triangles.T, axis=0)
+    (ax, ay, az), (bx, by, bz) = (corners[1] - corners[0]).T, (corners[2] - corners[0]).T
+    across = np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=1).astype(np.float64)
+    found: FloatArray = _FACES.step(_faces_at, mesh.triangles, places) @ across
     found /= np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-12)
-    return found
+    return found.take(places, axis=0)
+
+
+def _faces_at(triangles: AnyIntArray, places: IndexArray) -> csr_array:
+    """Return a matrix (P, T) that sums over the corners of T triangles at each of P positions; the position of each
+    vertex is ``places`` (V,)."""
+    from scipy.sparse import csr_array  # slow to import, as above
+
+    rows, columns = places[triangles].ravel(), np.repeat(np.arange(len(triangles)), 3)
+    size = int(places.max(initial=-1)) + 1, len(triangles)
+    return csr_array((np.ones(len(rows)), (rows, columns)), shape=size)
+
+
+_FACES: IdentityCache[csr_array] = IdentityCache(256)
 
 
 def places_of(mesh: Mesh) -> IndexArray:
@@ -175,8 +188,8 @@ def face_change(before: Character, mesh: Mesh, after_m: FloatArray) -> FaceChang
     face = _face_before(before, mesh)
     if face is None:
         return NO_CHANGE
-    after = np.einsum("awk,wl->akl", face.ways, after_m[face.head])
-    turns = np.linalg.solve(face.spreads, after + face.keep).transpose(0, 2, 1)
+    after = face.ways.transpose(0, 2, 1) @ after_m[face.head]
+    turns = np.linalg.solve(face.spreads, after + face.keep).transpose(0, 2, 1).astype(np.float64)
     return FaceChange(face.anchors, turns)
 
 

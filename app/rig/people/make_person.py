@@ -13,21 +13,21 @@ from typing import Final
 
 import numpy as np
 
-from app.arrays import FloatArray, IndexArray
+from app.arrays import AnyIntArray, FloatArray, IndexArray, SingleArray
 from app.formats.scene import Material
 from app.formats.textures import Texture
+from app.identity_cache import IdentityCache
 from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character, Skeleton
 from app.rig.people.body_shapes import BodyShapes, Phenotype, body_m
 from app.rig.people.displacement import NO_CHANGE, Attaching, Binding, FaceChange, face_change, normals_of, places_of
+from app.rig.people.eyeballs import NearEye, ball_rows, near_eyes, off_the_eyes
 from app.rig.people.moved_joints import SIDES, MovedJoints, moved_joints, t_positions, with_arms_to
 from app.rig.people.person import Color
 from app.rig.skeleton import ancestors
 
 HAND_SHARE = 0.5
 """Least weight of skin that belongs to a hand."""
-LID_M = (0.002, 0.008)
-"""Heights in metres above the eyeball up to which lids keep their distance from it, and from which they do not."""
 SKIN = "body"
 """Mesh with the shapes of the face."""
 SKIN_MATERIAL: Final = "skin"
@@ -157,11 +157,13 @@ def person_character(
     joints = _joints(original, shapes, body, hands)
     before = original.character
     skin = next(mesh for mesh in before.meshes if mesh.name == SKIN)
-    face = face_change(before, skin, _moved(original, skin, body, joints))
+    skin_m = _moved(original, skin, body, joints)
+    face = face_change(before, skin, skin_m)
     meshes = []
     for mesh, owner in _chosen(original, worn or {}):
         own = joints if owner is original else _joints(owner, shapes, body, hands)
-        meshes.append(_recolored(_changed(owner, mesh, body, own, face), colors or {}, skin_colors))
+        moved = skin_m if mesh is skin else _moved(owner, mesh, body, own)
+        meshes.append(_recolored(_changed(owner, mesh, moved, own, face), colors or {}, skin_colors))
     hands_of = before if hands == 1.0 else None
     return _standing(replace(before, id=id, meshes=tuple(meshes), hands_of=hands_of, made_from=before), joints)
 
@@ -183,7 +185,8 @@ def carried(
     if wearer is not None:
         places_m = np.linalg.inv(wearer.joint_from_mesh)[:, :3, 3].astype(np.float64)
         joints = with_arms_to(joints, wearer.skeleton, places_m)
-    return tuple(_changed(original, mesh, body, joints, NO_CHANGE) for mesh in original.character.meshes)
+    meshes = original.character.meshes
+    return tuple(_changed(original, mesh, _moved(original, mesh, body, joints), joints, NO_CHANGE) for mesh in meshes)
 
 
 def _chosen(original: Original, worn: Mapping[str, Original]) -> list[tuple[Mesh, Original]]:
@@ -216,26 +219,59 @@ def _joints(original: Original, shapes: BodyShapes, body: FloatArray, hands: flo
     return moved_joints(original.character, dict(zip(shapes.joints, steps, strict=True)), hands)
 
 
+@dataclass(frozen=True, eq=False)
+class _Parts:
+    """Parts of a bundled body's mesh with N vertices, which are the same for all people made from it.
+
+    Attributes
+    ----------
+    points_m : (N, 3)
+        The vertices.
+    hands : tuple of ((K,) int, (K, 1))
+        Vertices of the left and of the right hand, and their shares of its motion.
+    balls : tuple of (K,) int
+        Vertices of the left and of the right eyeball.
+    lids : tuple of NearEye
+        Vertices near the eyeballs.
+    """
+
+    points_m: FloatArray
+    hands: tuple[tuple[IndexArray, FloatArray], ...]
+    balls: tuple[IndexArray, ...]
+    lids: tuple[NearEye, ...]
+
+
+@lru_cache(maxsize=256)
+def _parts(original: Original, mesh: Mesh) -> _Parts:
+    points, index = mesh.positions_m.astype(np.float64), original.character.skeleton.index
+    hands = []
+    for share in original.hands[mesh.name].T[:, :, None]:
+        rows = np.flatnonzero(share[:, 0] > 0.0)
+        hands.append((rows, share[rows]))
+    balls = tuple(ball_rows(mesh, index(f"{side}Eye")) for side, _ in SIDES)
+    return _Parts(points, tuple(hands), balls, near_eyes(original.character, points))
+
+
 def _moved(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoints) -> FloatArray:
     """Return the vertices (N, 3) of a mesh, moved as its base mesh becomes ``body``, including lengthened limbs."""
-    binding, points = original.bindings[mesh.name], mesh.positions_m.astype(np.float64)
-    moved = points + binding.carried(body - original.base_m) + original.arms[mesh.name] @ joints.lengthened
-    skeleton = original.character.skeleton
-    for place, (side, _) in enumerate(SIDES):
-        share = original.hands[mesh.name][:, place, None]
-        hand = np.flatnonzero(share[:, 0] > 0.0)
-        rigid = joints.rigidly(skeleton.index(f"{side}Hand"), points[hand], joints.hands)
-        moved[hand] += share[hand] * (rigid - moved[hand])
-        eye = skeleton.index(f"{side}Eye")
-        ball = np.flatnonzero((mesh.weights * (mesh.joints == eye)).sum(axis=1) > 0.99)
-        moved[ball] = joints.rigidly(eye, points[ball])
+    parts, index = _parts(original, mesh), original.character.skeleton.index
+    carried = original.bindings[mesh.name].carried(body - original.base_m)
+    moved = parts.points_m + carried + original.arms[mesh.name] @ joints.lengthened
+    for (side, _), (hand, share), ball in zip(SIDES, parts.hands, parts.balls, strict=True):
+        if len(hand):
+            rigid = joints.rigidly(index(f"{side}Hand"), parts.points_m[hand], joints.hands)
+            moved[hand] += share * (rigid - moved[hand])
+        if len(ball):
+            moved[ball] = joints.rigidly(index(f"{side}Eye"), parts.points_m[ball])
     return moved
 
 
-def _changed(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoints, face: FaceChange) -> Mesh:
-    """Return a mesh of a bundled body, fitted to another body: vertices, normals and morphs."""
-    points, moved = mesh.positions_m.astype(np.float64), _moved(original, mesh, body, joints)
-    moved = _off_the_eyes(original, points, moved, joints)
+def _changed(original: Original, mesh: Mesh, moved: FloatArray, joints: MovedJoints, face: FaceChange) -> Mesh:
+    """Return a mesh of a bundled body, fitted to another body: vertices, normals and morphs.
+
+    ``moved`` (N, 3) are its vertices as in `_moved`, which are changed.
+    """
+    moved = off_the_eyes(_parts(original, mesh).lids, moved, joints)
     normals = mesh.normals + normals_of(moved, mesh, original.places[mesh.name]) - original.normals[mesh.name]
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
     morphs = _shapes(original, mesh, moved, joints, face) if mesh.morphs else ()
@@ -249,12 +285,10 @@ def _shapes(
     """Return the morphs of a mesh for another person's face: displacements are turned and stretched with the skin, and
     lids stay on the eyeballs. ``moved`` (N, 3) are the mesh's vertices on the other body.
     """
-    rows = _moved_by_morphs(mesh)
-    before = rows.places_m + np.concatenate([morph.deltas_m for morph in mesh.morphs])
-    turned = np.einsum("nij,nj->ni", face.at(rows.moving_m)[rows.numbered], before - rows.places_m)
-    rest = moved[rows.vertices]
-    after = rest + turned
-    after = _off_the_eyes(original, before, after, joints)
+    rows = _moved_by_morphs(original, mesh)
+    turned = np.einsum("nij,nj->ni", face.at(rows.moving_m).take(rows.numbered, axis=0), rows.moves_m)
+    rest = moved.take(rows.vertices, axis=0)
+    after = off_the_eyes(rows.lids, rest + turned, joints)
     made = np.split((after - rest).astype(np.float32), rows.ends)
     return tuple(replace(morph, deltas_m=own) for morph, own in zip(mesh.morphs, made, strict=True))
 
@@ -267,61 +301,35 @@ class _MorphRows:
     ----------
     vertices : (R,) int
         Indices of the vertices.
-    places_m : (R, 3)
-        Their positions.
+    moves_m : (R, 3)
+        Their displacements.
     moving_m : (M, 3)
-        The positions without repetition.
+        Their positions without repetition.
     numbered : (R,) int
         Index into ``moving_m``.
+    lids : tuple of NearEye
+        Rows that are near the eyeballs when they are displaced.
     ends : (N - 1,) int
         First row of each of N morphs but the first.
     """
 
     vertices: IndexArray
-    places_m: FloatArray
+    moves_m: FloatArray
     moving_m: FloatArray
     numbered: IndexArray
+    lids: tuple[NearEye, ...]
     ends: IndexArray
 
 
 @lru_cache(maxsize=64)
-def _moved_by_morphs(mesh: Mesh) -> _MorphRows:
-    points = mesh.positions_m.astype(np.float64)
+def _moved_by_morphs(original: Original, mesh: Mesh) -> _MorphRows:
+    points = _parts(original, mesh).points_m
     rows = np.concatenate([morph.vertices for morph in mesh.morphs]).astype(np.intp)
     moving, numbered = np.unique(rows, return_inverse=True)
     ends = np.cumsum([len(morph.vertices) for morph in mesh.morphs])[:-1]
-    return _MorphRows(rows, points[rows], points[moving], numbered, ends)
-
-
-def _off_the_eyes(original: Original, before: FloatArray, after: FloatArray, joints: MovedJoints) -> FloatArray:
-    """Return the points ``after`` (N, 3), in which those near an eyeball keep the distance from its centre that they
-    have in ``before``, so that lids still fit.
-    """
-    for side, _ in SIDES:
-        eye = original.character.skeleton.index(f"{side}Eye")
-        radius_m = _ball_m(original.character, eye)
-        off = before - joints.before[eye, :3, 3]
-        far = np.linalg.norm(off, axis=1)
-        near = np.flatnonzero((far < radius_m + LID_M[1]) & (far > 0.5 * radius_m))
-        if not radius_m or not len(near):
-            continue
-        share = np.clip((radius_m + LID_M[1] - far[near]) / (LID_M[1] - LID_M[0]), 0.0, 1.0)[:, None]
-        share = share * share * (3.0 - 2.0 * share)
-        way = after[near] - joints.after[eye, :3, 3]
-        kept = way * (far[near] / np.maximum(np.linalg.norm(way, axis=1), 1e-6))[:, None]
-        after[near] += share * (kept - way)
-    return after
-
-
-@lru_cache(maxsize=16)
-def _ball_m(character: Character, eye: int) -> float:
-    """Return the radius of an eyeball in metres; 0 if there is none."""
-    centre = np.linalg.inv(character.joint_from_mesh[eye])[:3, 3]
-    radii = [0.0]
-    for mesh in character.meshes:
-        own = (mesh.weights * (mesh.joints == eye)).sum(axis=1) > 0.99
-        radii += np.linalg.norm(mesh.positions_m[own] - centre, axis=1).tolist()
-    return float(max(radii))
+    before = points[rows] + np.concatenate([morph.deltas_m for morph in mesh.morphs])
+    lids = near_eyes(original.character, before)
+    return _MorphRows(rows, before - points[rows], points[moving], numbered, lids, ends)
 
 
 def _recolored(mesh: Mesh, colors: Mapping[str, Color], skin: Texture | None) -> Mesh:
@@ -360,14 +368,23 @@ def _lowest_m(character: Character, joint_from_mesh: FloatArray, places: FloatAr
 
     ``places`` (J, 3) are the positions of the joints in the T-pose.
     """
-    feet = [character.skeleton.index(f"{side}{part}") for side, _ in SIDES for part in ("Foot", "Toes")]
     lowest_m = np.inf
     world = joint_from_mesh[:, 1, :].copy()
     world[:, 3] += places[:, 1]
     for mesh in character.meshes:
-        own = np.flatnonzero((mesh.weights * np.isin(mesh.joints, feet)).sum(axis=1) > 0.5)
+        own = _FEET.step(_feet, character.skeleton.names, mesh.joints, mesh.weights)
         if len(own):
             rows = world[mesh.joints[own]]
             heights = np.einsum("nka,na->nk", rows[..., :3], mesh.positions_m[own]) + rows[..., 3]
             lowest_m = min(lowest_m, float((heights * mesh.weights[own]).sum(axis=1).min()))
     return lowest_m if np.isfinite(lowest_m) else 0.0
+
+
+def _feet(names: tuple[str, ...], joints: AnyIntArray, weights: SingleArray) -> IndexArray:
+    """Return those of N vertices, given by joints and weights (N, K), that belong to the feet."""
+    feet = [names.index(f"{side}{part}") for side, _ in SIDES for part in ("Foot", "Toes")]
+    return np.flatnonzero((weights * np.isin(joints, feet)).sum(axis=1) > 0.5)
+
+
+# People made from one body share joints and weights.
+_FEET: IdentityCache[IndexArray] = IdentityCache(256)
