@@ -6,23 +6,19 @@ import argparse
 import os
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from app.encoding import shown
 from app.errors import FileError, StopRequested, UsageError
-from app.project.camera_bookmarks import CameraBookmark, View
+from app.project.camera_bookmarks import OF_INSTRUMENTS, CameraBookmark, View
 from app.project.parameters import select_players
 
 if TYPE_CHECKING:
     from app.project.model import Project
-
-
-_OF_PLAYERS: Final = ("hands", "mouth")
-"""Views that need an instrument."""
 
 
 def kept_camera(project: Project, name: str) -> CameraBookmark:
@@ -34,16 +30,31 @@ def kept_camera(project: Project, name: str) -> CameraBookmark:
     return found
 
 
-def parsed_view(arguments: argparse.Namespace, project: Project) -> tuple[View, tuple[str, ...]]:
-    """Return the requested view, and the ids of the players in it. Raises UsageError for an unknown player or an
-    instrument view of a dancer."""
+def parsed_view(
+    arguments: argparse.Namespace, project: Project, of_all: Collection[View] = ()
+) -> tuple[View, tuple[str, ...]]:
+    """Return the requested view, and the ids of the performers in it.
+
+    Parameters
+    ----------
+    of_all : collection of View
+        Views of all performers unless players are named; the others are of the first. The ensemble view is always of
+        all and gets no ids.
+
+    Raises
+    ------
+    UsageError
+        If a player is unknown, or an instrument view is requested of a dancer.
+    """
     everyone = project.performers
     view: View = arguments.view or ("front" if arguments.players else "ensemble")
     if not arguments.players and view == "ensemble":
         return view, ()
-    indices = select_players(arguments.players, [one.name for one in everyone]) if arguments.players else (0,)
-    chosen = [everyone[index] for index in indices]
-    if view in _OF_PLAYERS and chosen[0].id in project.dancer_ids:
+    if arguments.players:
+        chosen = [everyone[index] for index in select_players(arguments.players, [one.name for one in everyone])]
+    else:
+        chosen = list(everyone if view in of_all else everyone[:1])
+    if view in OF_INSTRUMENTS and chosen[0].id in project.dancer_ids:
         raise UsageError("picture.dancer_view", dancer=chosen[0].name, view=view)
     return view, tuple(one.id for one in chosen)
 

@@ -46,6 +46,8 @@ LEAST_PX: Final = (64, 64)
 FILM_PX, SHEET_PX = (1280, 720), (320, 180)
 USUAL_EVERY_S: Final = Fraction(1, 2)
 MOST_COLUMNS: Final = 200
+_VIEWS_OF_ALL: Final[tuple[View, ...]] = ("front", "side", "top")
+"""Views that show all performers, dancers too, unless players are named; close-ups are of one."""
 
 Kind: TypeAlias = Literal["mp4", "folder", "sheet"]
 
@@ -130,7 +132,7 @@ def film(arguments: argparse.Namespace) -> int:
     _check_options(arguments, kind)
     clean_up()
     project = open_project(arguments, if_empty="picture.no_players")
-    view, player_ids = parsed_view(arguments, project)
+    view, player_ids = parsed_view(arguments, project, of_all=_VIEWS_OF_ALL)
     seen = view if arguments.camera is None else kept_camera(project, arguments.camera)
     performance = Performance(project)
     span = shown_span(performance, arguments, kind)

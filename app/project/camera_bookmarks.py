@@ -13,6 +13,8 @@ from app.project.value_checks import Fault, text_faults, unique
 View: TypeAlias = Literal["ensemble", "front", "side", "top", "hands", "mouth", "feet"]
 """Subject and direction of the camera; a close-up follows a player."""
 VIEWS: Final[tuple[View, ...]] = get_args(View)
+OF_INSTRUMENTS: Final[tuple[View, ...]] = ("hands", "mouth")
+"""Views that need an instrument."""
 MOST_CAMERAS: Final = 100
 
 _Metres: TypeAlias = Annotated[float, msgspec.Meta(ge=limits.STAGE_M[0], le=limits.STAGE_M[1])]

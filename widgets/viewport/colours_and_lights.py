@@ -34,14 +34,15 @@ class ViewportLook:
 
 @dataclass(frozen=True)
 class Emphasis:
-    """State of the picture beyond the poses: rings on the floor by row, the conductor's place, rows drawn transparent
-    because they are in the way, wireframe, props and video.
+    """State of the picture beyond the poses: rings on the floor by row, the conductor's place, performers in the way,
+    wireframe, props and video.
     """
 
     rings: Mapping[int, Color] = field(default_factory=dict)
     podium: tuple[float, float, Color] | None = None
     """Position (x, z) of the conductor in metres and colour of the rings that mark it; None without a conductor."""
-    in_the_way: frozenset[int] = frozenset()
+    in_the_way: Mapping[int, float] = field(default_factory=dict)
+    """Share of the pixels omitted, 0..1, by row of the performers in the way of those that the view is about."""
     wireframe: bool = False
     props: bool = True
     """True if straps and chairs are drawn."""

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import product
+from typing import Final
 
 import numpy as np
 
@@ -29,6 +30,8 @@ _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
 }
 _HALF_M: dict[View, float] = {"mouth": 0.115, "feet": 0.30}
 """Least half height in metres of a close-up's picture, by view."""
+_STEPPING_HALF_M: Final = 0.14
+"""Half size in metres of a box around a dancing foot, from heel to toe."""
 _HANDS_MARGIN = 1.25
 """Height of the picture relative to that of the hands' bones, so that hands and part of the instrument are visible."""
 _FINGERS = tuple(
@@ -51,6 +54,13 @@ _BUST_M = 0.3
 """Distance in metres from the centre of the head to the side of a bust's box."""
 BODY_M = 0.55
 """Distance in metres from the middle that a player with an instrument takes."""
+SEEN_THROUGH: Final = 0.85
+"""Share of the pixels that are omitted to draw a performer in the way transparently."""
+_LEAST_COMMON_FRONT: Final = 0.2
+"""Length of the mean of several performers' front directions below which they have no common front."""
+_OMITTED_SHARES: Final = (0.55, 0.7)
+"""Shares of the way to the selected performer up to which one in the way is omitted wholly, and from which one is drawn
+transparently; a body at half of the way looks twice as large."""
 
 
 def view_camera(view: View, stage: Stage, rows: Sequence[int], camera: Camera, aspect: float) -> Camera:
@@ -87,7 +97,7 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
         chosen = everyone if view == "ensemble" else [row for row in rows if stage.shown[row]]
         if not chosen:
             continue
-        turn = 0.0 if view == "ensemble" else turn_rad(stage, chosen[0])
+        turn = 0.0 if view == "ensemble" else _turn_of_all_rad(stage, chosen)
         if view == "hands":
             clear.append(fingers_seen(stage, chosen[0], directions(usual), turn))
         middle = tracked(view, stage, chosen[0])
@@ -141,24 +151,32 @@ def needed_distance_m(view: View, stage: Stage, row: int, camera: Camera, aspect
     return frame_around(camera, middle, middle + _around(view, stage, row, middle), aspect, _HANDS_MARGIN).distance_m
 
 
-def in_the_way(view: View, stage: Stage, rows: Sequence[int], camera: Camera) -> frozenset[int]:
-    """Return the rows of players who stand between the camera and the selected players, if the view is about these."""
+def in_the_way(view: View, stage: Stage, rows: Sequence[int], camera: Camera) -> dict[int, float]:
+    """Return the performers who stand between the camera and the selected ones, if the view is about these: by row, the
+    share of pixels to omit, 0 to 1. A body near the camera, which would fill the picture, is omitted wholly.
+    """
     chosen = [row for row in rows if stage.shown[row]]
-    if view == "ensemble" or not chosen:
-        return frozenset()
-    chests = np.array([member.world_from_player[:, 3] for member in stage.members])
+    others = [row for row in range(len(stage.members)) if stage.shown[row] and row not in chosen]
+    if view == "ensemble" or not chosen or not others:
+        return {}
+    # Dancers and players who step are not at their places.
+    chests = np.array([stage.joint_m(row, "hips") for row in (*chosen, *others)])
     chests[:, 1] = camera.eye_m[1]
-    found = set[int]()
-    for row in chosen:
-        way = chests[row] - camera.eye_m
+    off = chests - camera.eye_m
+    found = dict[int, float]()
+    for way in off[: len(chosen)]:
         length = float(np.linalg.norm(way))
         if length < 1e-6:
             continue
-        off = chests - camera.eye_m
-        along = off @ way / length
-        aside = np.linalg.norm(off - along[:, None] * way / length, axis=1)
-        found |= set(np.flatnonzero((along > -BODY_M) & (along < length - BODY_M) & (aside < BODY_M)).tolist())
-    return frozenset(found - set(chosen))
+        along = off[len(chosen) :] @ way / length
+        aside = np.linalg.norm(off[len(chosen) :] - along[:, None] * way / length, axis=1)
+        before = (along > -BODY_M) & (along < length - BODY_M) & (aside < BODY_M)
+        full, half = (share * length for share in _OMITTED_SHARES)
+        omitted = np.interp(along, (full, half), (1.0, SEEN_THROUGH))
+        for index in np.flatnonzero(before):
+            row = others[index]
+            found[row] = max(found.get(row, 0.0), float(omitted[index]))
+    return found
 
 
 def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
@@ -206,6 +224,16 @@ def turn_rad(stage: Stage, row: int) -> float:
     return math.atan2(forward[0], forward[2])
 
 
+def _turn_of_all_rad(stage: Stage, rows: Sequence[int]) -> float:
+    """Return the mean direction in which performers face, radians from +Z towards +X; that of the first one if they
+    face one another.
+    """
+    mean: FloatArray = np.mean([front_direction(stage, row) for row in rows], axis=0)
+    if math.hypot(mean[0], mean[2]) < _LEAST_COMMON_FRONT:
+        return turn_rad(stage, rows[0])
+    return math.atan2(mean[0], mean[2])
+
+
 def front_direction(stage: Stage, row: int) -> FloatArray:
     """Horizontal unit vector (3,) in the world to which a player faces."""
     return stage.members[row].world_from_player[:, 2]
@@ -223,4 +251,9 @@ def _around(view: View, stage: Stage, row: int, middle: FloatArray) -> FloatArra
     half = 0.58 * _HALF_M[view]
     if view == "mouth":
         half *= face_size(stage.members[row].assets.character)
-    return half * np.array(list(product((-1.0, 1.0), repeat=3)))
+    corners = np.array(list(product((-1.0, 1.0), repeat=3)))
+    if view == "feet" and stage.members[row].dances_on_foot:
+        # Steps go out of a picture of standing feet.
+        feet = np.array([stage.joint_m(row, name) for name in ("leftFoot", "rightFoot")]) - middle
+        return np.concatenate([half * corners, *(foot + _STEPPING_HALF_M * corners for foot in feet)])
+    return half * corners

@@ -379,7 +379,8 @@ class ViewportPanel(Retranslated, QWidget):
         """Return camera, look and emphasis of the present picture, for the canvas."""
         stage, pointer, session = self.scene.stage, self._pointer, self._session
         here = self._elsewhere is None
-        camera, view, rows, marked = self._eye.camera, self._eye.view, self.scene.rows(), True
+        camera, view, marked = self._eye.camera, self._eye.view, True
+        rows = self.scene.viewed_rows(view)
         if self._elsewhere is not None and stage is not None:
             camera, shot = self._elsewhere
             view, rows, marked = shot.view, stage.rows(shot.player_ids), shot.marked
@@ -389,7 +390,7 @@ class ViewportPanel(Retranslated, QWidget):
         emphasis = Emphasis(
             rings=self.scene.rings(pointer.hovered if pointer is not None and here else None) if marked else {},
             podium=self.scene.podium() if marked else None,
-            in_the_way=in_the_way(view, stage, rows, camera) if stage is not None else frozenset(),
+            in_the_way=in_the_way(view, stage, rows, camera) if stage is not None else {},
             wireframe=session.viewport.shows("wireframe"),
             props=session.viewport.shows("props"),
             video=session.video.picture if here and session.video.placement == "behind" else None,
@@ -433,7 +434,7 @@ class ViewportPanel(Retranslated, QWidget):
 
     def _tracked(self) -> FloatArray | None:
         """Return the point (3,) in the world that the view keeps in the middle; None if it follows nothing."""
-        stage, rows = self.scene.stage, self.scene.rows()
+        stage, rows = self.scene.stage, self.scene.viewed_rows(self._eye.view)
         return tracked(self._eye.view, stage, rows[0]) if stage is not None and rows else None
 
     def _needed_m(self) -> float | None:
@@ -449,7 +450,7 @@ class ViewportPanel(Retranslated, QWidget):
         if stage is None or widget is None:
             return self._eye.camera
         aspect = widget.width() / max(widget.height(), 1)
-        return view_camera(self._eye.view, stage, self.scene.rows(), self._eye.camera, aspect)
+        return view_camera(self._eye.view, stage, self.scene.viewed_rows(self._eye.view), self._eye.camera, aspect)
 
     def _place_camera(self) -> None:
         """Place the camera by the view, unless the user has moved it."""

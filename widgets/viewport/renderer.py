@@ -49,9 +49,6 @@ SPREAD_M = 1.25
 SHADOW_RADIUS_M = 1.9
 OVER = ("src_alpha", "one_minus_src_alpha", "zero", "one")
 """Blending over the existing picture, which stays opaque."""
-SEEN_THROUGH = 0.85
-"""Share of the pixels that are omitted to draw a player transparently."""
-
 
 _SHADERS = Path(__file__).with_name("shaders")
 """Folder of the programs in GLSL 120, which all drivers of the last fifteen years support."""
@@ -290,7 +287,9 @@ class Renderer:
             rows[:, 3 * stage.first_support : -1] = 0.0
         rows[:, -1] = 0.0
         rows[:, -1, 0] = level == LEVELS - 1
-        rows[[row for row in emphasis.in_the_way if row < count], -1, 2] = SEEN_THROUGH
+        for row, omitted in emphasis.in_the_way.items():
+            if row < count:
+                rows[row, -1, 2] = omitted
         self._bones.set_data(rows)
         capsules = limbs.capsules()
         self._limb_rows[:, :-1] = capsules.reshape(count, -1, 4)

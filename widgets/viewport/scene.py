@@ -17,6 +17,7 @@ from app.errors import Message
 from app.messages import text
 from app.performance.cast import LeftOut
 from app.performance.chunks import Pose
+from app.project.camera_bookmarks import OF_INSTRUMENTS, View
 from app.project.performers import Dancer, Player
 from widgets.common.text import message_text
 from widgets.viewport.camera import Camera
@@ -197,6 +198,13 @@ class ViewportScene(QObject):
     def rows(self) -> list[int]:
         """Return the rows of the selected players, the active one first."""
         return [] if self.stage is None else self.stage.rows(self._session.players)
+
+    def viewed_rows(self, view: View) -> list[int]:
+        """Return the rows of the performers that a view is about: the selected players, or in a piece without players
+        the selected dancer, unless the view needs an instrument.
+        """
+        ids = self._session.players if view in OF_INSTRUMENTS else self._session.in_front
+        return [] if self.stage is None else self.stage.rows(ids)
 
     def visible(self, selected: bool) -> list[int]:
         """Return the rows of the performers with a pose: of the selected players, or of all."""
