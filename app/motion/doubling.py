@@ -13,6 +13,7 @@ from fractions import Fraction
 import numpy as np
 
 from app.arrays import FloatArray, IndexArray, SingleArray
+from app.motion.contacts.clear_seat import highest_seat, on_seat
 from app.motion.contacts.instrument_put_aside import Aside
 from app.motion.contacts.trunk_and_legs import solve_legs
 from app.motion.curves.curve import EVERYWHERE, Curve, frame_times, moves
@@ -160,10 +161,22 @@ def doubled(played: Sequence[PerformanceCurves], first: str, found: Sequence[Ins
     found : sequence of InstrumentChange
         Instrument changes in order.
     """
-    ready = tuple(_with_ways(one, number, first, found) for number, one in enumerate(played))
+    seated = _on_one_seat(played)
+    ready = tuple(_with_ways(one, number, first, found) for number, one in enumerate(seated))
     shares = tuple(_share(one.player_id, first, found) for one in played)
     last = LastChunk()
     return tuple(_doubling(one, ready, shares, number, last) for number, one in enumerate(ready))
+
+
+def _on_one_seat(played: Sequence[PerformanceCurves]) -> list[PerformanceCurves]:
+    """Return the curves of a musician on the seat that is high enough for every instrument."""
+    place = highest_seat(one.player for one in played)
+    return [
+        one
+        if one.player.place is place or not place.seated
+        else replace(one, player=on_seat(one.player, place, one.instrument_map.endpin))
+        for one in played
+    ]
 
 
 def _doubling(

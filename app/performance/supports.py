@@ -13,12 +13,13 @@ import numpy as np
 from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.motion.body_motion import BodyMotion
+from app.motion.contacts.clear_seat import highest_seat
 from app.motion.contacts.ready_player import player_body
 from app.motion.contacts.solve import PlayerBody, body_with_help, needs, poses, with_elbows_out
 from app.motion.contacts.still_player import ContactCurves
-from app.motion.contacts.trunk_and_legs import hips_path, solve_legs, stance, trunk
+from app.motion.contacts.trunk_and_legs import Stance, hips_path, solve_legs, stance, trunk
 from app.motion.model import Motion
-from app.performance.bodies import body_of
+from app.performance.bodies import body_of, dressed_character
 from app.plan.parameters import PlayerParameters
 from app.project.performers import Player
 from app.rig import quaternion
@@ -60,21 +61,27 @@ def supports_of(character: Character, held: Sequence[HeldInstrument]) -> Support
     grips = tuple(one.grip for one in held)
     player = held[0].player
     posture = sys.intern(maps[0].hold.possible(player.parameters.posture))
-    return _MADE.step(_supports, character, body_of(player), posture, *maps, *grips)
+    # As in the motion, whose outfit has all its materials.
+    worn = character if character.own is not None else dressed_character(player)
+    return _MADE.step(_supports, character, worn, body_of(player), posture, *maps, *grips)
 
 
 def _supports(
-    character: Character, body: Body, posture: str, *held: InstrumentMap | GripPose | None
+    character: Character, dressed: Character, body: Body, posture: str, *held: InstrumentMap | GripPose | None
 ) -> Supports | None:
     maps = [cast(InstrumentMap, one) for one in held[: len(held) // 2]]
     grips = [cast(GripPose | None, one) for one in held[len(held) // 2 :]]
     named = cast(PostureName, posture)
-    joints = still_joints(character, maps[0], body, named)
+    parameters, players = PlayerParameters(posture=named), dict[int, PlayerBody]()
+    for number, (instrument, grip) in enumerate(zip(maps, grips, strict=True)):
+        if grip is not None and (worn(instrument, named) or instrument.endpin is not None):
+            players[number] = player_body(parameters, instrument, dressed, grip, body)
     sits = body.postures[named].seat_height_shank > 0.0
+    joints = still_joints(character, maps[0], body, named, highest_seat(players.values()) if players else None)
     fit = chair_fit(character, joints) if sits else None
     asked: dict[str, Asked] = {}
-    for number, (instrument, grip) in enumerate(zip(maps, grips, strict=True)):
-        if grip is None:
+    for number, instrument in enumerate(maps):
+        if number not in players:
             continue
         for support in worn(instrument, named):
             hook = Hook(number, np.asarray(support.hook_m, np.float64))
@@ -82,10 +89,8 @@ def _supports(
             if known is not None:
                 asked[support.kind] = replace(known, hooks=(*known.hooks, hook))
                 continue
-            parameters = PlayerParameters(posture=named)
-            still = player_body(parameters, instrument, character, grip, body)
-            held_still = still_pose(still)
-            ends = [instrument_matrices(one)[0] for one in (held_still, still_pose(still, lowered=1.0))]
+            held_still, low = (still_pose(players[number], lowered) for lowered in (0.0, 1.0))
+            ends = [instrument_matrices(one)[0] for one in (held_still, low)]
             # Clothes lie on the shoulders as they are while the arms hold the instrument.
             joints = joints if asked else joints_of(character, held_still)[0]
             hook_m, low_m = (matrix[:, :3] @ hook.at_m + matrix[:, 3] for matrix in ends)
@@ -108,13 +113,15 @@ def worn(instrument: InstrumentMap, posture: PostureName) -> tuple[Support, ...]
     return instrument.hold.worn(posture)
 
 
-def still_joints(character: Character, instrument: InstrumentMap, body: Body, posture: PostureName) -> FloatArray:
+def still_joints(
+    character: Character, instrument: InstrumentMap, body: Body, posture: PostureName, place: Stance | None = None
+) -> FloatArray:
     """Transforms ``world_from_joint`` (J, 3, 4) of all J joints of a player who keeps still, with the arms as in the
-    T-pose, in the player's frame.
+    T-pose, in the player's frame; ``place`` is that of feet and hips if it is not the posture's.
     """
     skeleton, hold = character.skeleton, instrument.hold
     shape = carrying(body, hold.possible(posture), hold.carriage(posture))
-    place, still = stance(skeleton, shape), BodyMotion.still(shape)
+    place, still = stance(skeleton, shape) if place is None else place, BodyMotion.still(shape)
     hips_m, hips = hips_path(place, skeleton, still)
     local = {skeleton.index("hips"): hips} | trunk(skeleton, hips_m, hips, still).local
     local |= solve_legs(place, skeleton, hips_m, hips, still.feet)

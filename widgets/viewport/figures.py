@@ -95,8 +95,9 @@ def _supports(project: Project, musician: Player, assets: RenderAssets) -> Suppo
     held = []
     for player in project.played_by(musician):
         instrument = suited_to(player, library().maps[player.instrument_id]).instrument
-        # Only straps need the hold, which takes as long as all else of a figure.
-        needed = bool(instrument.hold.supports) and is_known(player)
+        # Only straps, and seats that are as high as a pin requires, need the hold, which takes as long as all else of a
+        # figure.
+        needed = (bool(instrument.hold.supports) or instrument.endpin is not None) and is_known(player)
         held.append(HeldInstrument(player, instrument, hold_of(player, instrument) if needed else None))
     return supports_of(assets.character, held)
 

@@ -34,24 +34,11 @@ OFF_M = 0.006
 """Depth that counts as much as an instrument at the end of a range."""
 
 
-def carried_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> PlayerBody:
-    """Return the player with an instrument that leaves room between forearms, hands and body: held at other angles at
-    the lips, and lowered farther ahead.
-
-    Unchanged where there is room, or where the instrument rests on something.
-
-    Parameters
-    ----------
-    supports : sequence of Support
-        Straps on which the instrument hangs: it goes ahead about the neck, as far as they reach, and not at all on a
-        strap that is fastened to the seat.
-    """
+def played_clear(player: PlayerBody) -> PlayerBody:
+    """Return the player with the instrument at the lips held at other angles, if forearms or hands would be inside the
+    body; unchanged where there is room, or where the instrument stands on the floor."""
     if player.shape is None or player.stand is not None:
         return player
-    return lowered_clear(_played_clear(player), supports)
-
-
-def _played_clear(player: PlayerBody) -> PlayerBody:
     carriage = player.carriage
     ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
     usual = _left(player, np.zeros((1, 3)), ranges)
@@ -71,9 +58,25 @@ def _played_clear(player: PlayerBody) -> PlayerBody:
     return replace(player, carriage=moved)
 
 
+def lacking_m(player: PlayerBody) -> float:
+    """Return the room in metres that forearms and hands lack with the instrument at the lips, 0 or more; a wrist beyond
+    its range counts too. It is 0 for a body of unknown shape."""
+    carriage = player.carriage
+    ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
+    left = _left(player, np.zeros((1, 3)), ranges)
+    return 0.0 if left is None else float(_cost_m(left, ROOM_M)[0])
+
+
 def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> PlayerBody:
     """Return the player with an instrument that is lowered farther ahead, and without straps higher, where that leaves
-    room between arms and body; parameters as in `carried_clear`."""
+    room between arms and body; unchanged where the instrument stands on the floor.
+
+    Parameters
+    ----------
+    supports : sequence of Support
+        Straps on which the instrument hangs: it goes ahead about the neck, as far as they reach, and not at all on a
+        strap that is fastened to the seat.
+    """
     unknown = player.shape is None or player.stand is not None
     if unknown or any(support.kind not in FROM_NECK_M for support in supports):
         return player

@@ -67,6 +67,11 @@ class EndpinStand:
         """
         return np.clip(_needed(self.endpin, position_m, rotation)[0] / self.endpin.most_m, 0.0, 1.0)
 
+    def pin_m(self, carried: InstrumentTransform) -> float:
+        """Return the length in metres by which the pin has to be pulled out to stand on the floor, in the first frame
+        of a placement; negative: the instrument ends below the floor."""
+        return float(_needed(self.endpin, carried.position_m, carried.rotation)[0][0])
+
     def _tip_m(self, out_m: FloatArray) -> FloatArray:
         tip_m: FloatArray = np.asarray(self.endpin.tip_m) + np.multiply.outer(out_m, np.asarray(self.endpin.axis))
         return tip_m

@@ -12,7 +12,8 @@ from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.carried_instrument import InstrumentTransform
-from app.motion.contacts.clear_carriage import carried_clear, lowered_clear
+from app.motion.contacts.clear_carriage import lowered_clear, played_clear
+from app.motion.contacts.clear_seat import seated_clear
 from app.motion.contacts.instrument_put_aside import Aside
 from app.motion.contacts.instrument_tipping import with_bell_room
 from app.motion.contacts.solve import PlayerBody
@@ -63,7 +64,8 @@ def player_body(
     """Return the time-independent data of a player, including reach of the hands and tilt of the instrument; cached, so
     that equal bodies in equal postures share one object.
 
-    On the clothes that the character wears it depends how far elbows go out, and where the instrument is lowered.
+    On the clothes that the character wears it depends how far elbows go out, how a player sits, and where the
+    instrument is lowered.
     """
     curved = _CURVED.step(_curved, grip, character.skeleton)
     made = _PLAYERS.step(
@@ -71,12 +73,16 @@ def player_body(
     )
     if character.undressed is None:
         return made
-    return _DRESSED.step(_dressed, made, character, instrument_map, sys.intern(parameters.posture))
+    return _DRESSED.step(_dressed, made, character, instrument_map, body, sys.intern(parameters.posture))
 
 
-def _dressed(player: PlayerBody, character: Character, instrument_map: InstrumentMap, posture: str) -> PlayerBody:
-    supports = instrument_map.hold.worn(instrument_map.hold.possible(cast(PostureName, posture)))
-    return lowered_clear(replace(player, shape=dressed_shape(character)), supports)
+def _dressed(
+    player: PlayerBody, character: Character, instrument_map: InstrumentMap, body: Body, posture_name: str
+) -> PlayerBody:
+    named = instrument_map.hold.possible(cast(PostureName, posture_name))
+    posture = carrying(body, named, instrument_map.hold.carriage(named))
+    worn = seated_clear(replace(player, shape=dressed_shape(character)), posture, instrument_map.endpin)
+    return lowered_clear(worn, instrument_map.hold.worn(named))
 
 
 def _made(
@@ -106,8 +112,9 @@ def _made(
         shape=shape,
         wrists=wrists_of(body, load_skeleton()),
     )
-    standing = made.standing_on(instrument_map.endpin)
-    return with_bell_room(carried_clear(standing, instrument_map.hold.worn(instrument_map.hold.possible(named))))
+    played = played_clear(made.standing_on(instrument_map.endpin))
+    seated = seated_clear(played, posture, instrument_map.endpin)
+    return with_bell_room(lowered_clear(seated, instrument_map.hold.worn(instrument_map.hold.possible(named))))
 
 
 def _grip_of_lips(lips: Lips, embouchure: EmbouchureWeights) -> FloatArray:

@@ -16,8 +16,10 @@ _LEAST_SHARE = 0.6
 _CLEAR_M = 0.045
 """Distance in metres between a player's back and the chair's, since players do not lean back."""
 _SIZES = (0.55, 1.15)
-_SEAT_SHARE = 0.75
-"""Share of the thigh, from behind, that rests on the seat."""
+_SEAT_SHARE, _STEEP_SHARE = 0.75, 0.3
+"""Share of the thigh, from behind, that rests on the seat: of a level thigh, and of one that descends steeply."""
+_LEVEL, _STEEP = 0.1, 0.4
+"""Descents of thighs, as shares of their length, that count as level and as steep."""
 
 
 def chair_fit(character: Character, joints: FloatArray) -> ChairFit:
@@ -36,7 +38,10 @@ def chair_fit(character: Character, joints: FloatArray) -> ChairFit:
         sitting = hips_m[None] - [0.0, 0.1, 0.0]
     if not len(leaning):
         leaning = hips_m[None] - [0.0, 0.0, 0.1]
-    borne = sitting[:, 2] < hips_m[2] + _SEAT_SHARE * (knee_m[2] - hips_m[2])
+    upper_m = joints[character.skeleton.index("leftUpperLeg"), :, 3]
+    descent = float((upper_m[1] - knee_m[1]) / np.linalg.norm(upper_m - knee_m))
+    share = float(np.interp(descent, (_LEVEL, _STEEP), (_SEAT_SHARE, _STEEP_SHARE)))
+    borne = sitting[:, 2] < hips_m[2] + share * (knee_m[2] - hips_m[2])
     top_m = float(sitting[borne, 1].min()) if borne.any() else float(sitting[:, 1].min())
     over = leaning[leaning[:, 1] > top_m + 0.02]
     rear_m = float(over[:, 2].min()) if len(over) else float(leaning[:, 2].min())

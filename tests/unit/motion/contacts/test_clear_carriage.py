@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.motion.contacts.clear_carriage import carried_clear
+from app.motion.contacts.clear_carriage import lowered_clear, played_clear
 from app.motion.contacts.solve import PlayerBody
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import neck_m
@@ -25,7 +25,7 @@ def moved_m(support: Support | None) -> tuple[PlayerBody, np.ndarray]:
     """A player whose arms need room, and the way (3,) by which the instrument is lowered elsewhere than on the map."""
     player, _ = still_player("ewi", "man_adult", "standing")
     usual = replace(player, carriage=HOLD.carriage("standing"), lowered=HOLD.lowered("standing"))
-    clear = carried_clear(usual, () if support is None else (support,))
+    clear = lowered_clear(played_clear(usual), () if support is None else (support,))
     return clear, np.subtract(clear.lowered.offset_m, usual.lowered.offset_m)
 
 

@@ -1,0 +1,87 @@
+"""Seats players of instruments that stand on the floor high enough: on a higher seat the thighs descend to the knees.
+
+Such an instrument is before the lap, and as tall for everyone. On the usual seat the hands of a small player would be
+in the lap, and the instrument would end below the floor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import msgspec
+import numpy as np
+
+from app.motion.contacts.clear_carriage import lacking_m
+from app.motion.contacts.solve import PlayerBody
+from app.motion.contacts.still_player import ContactCurves
+from app.motion.contacts.trunk_and_legs import Stance, hips_path, stance, trunk
+from app.motion.contacts.upper_body import upper_body
+from instrument_maps.model import Endpin
+from metadata.model import Posture
+
+LOWER_DEG = np.linspace(0.0, 24.0, 7)
+"""Tried angles by which the thighs descend more than in the posture."""
+LOWER_M_PER_DEG = 0.0006
+"""Room that counts as much as a degree of that."""
+ACCEPTED_M = 0.008
+"""Lacking room for which the usual seat is kept."""
+
+
+def seated_clear(player: PlayerBody, posture: Posture, endpin: Endpin | None) -> PlayerBody:
+    """Return the player on a seat that leaves room between arms and body and above the floor.
+
+    Unchanged where there is room, for a standing player, and for an instrument without an endpin, which has room to be
+    held elsewhere.
+
+    Parameters
+    ----------
+    posture : Posture
+        Posture of the player on the usual seat.
+    endpin : Endpin or None
+        Pin of the instrument, which stays on the floor if it is there on the usual seat.
+    """
+    if endpin is None or player.shape is None or not player.place.seated:
+        return player
+    best, least_m = player, _lacking_m(player)
+    if least_m <= ACCEPTED_M:
+        return player
+    for lower_deg in LOWER_DEG[1:].tolist():
+        cost_m = LOWER_M_PER_DEG * lower_deg
+        if cost_m >= least_m:
+            break
+        tried = on_seat(player, stance(player.skeleton, _lower(posture, lower_deg)), endpin)
+        if (tried.stand is None) is not (player.stand is None):
+            continue
+        cost_m += _lacking_m(tried)
+        if cost_m < least_m:
+            best, least_m = tried, cost_m
+    return best
+
+
+def on_seat(player: PlayerBody, place: Stance, endpin: Endpin | None) -> PlayerBody:
+    """Return the player on another seat, with an instrument that stands on its endpin where that reaches the floor."""
+    base = trunk(player.skeleton, *hips_path(place, player.skeleton, player.still), player.still)
+    return replace(player, place=place, base=base, stand=None).standing_on(endpin)
+
+
+def highest_seat(players: Iterable[PlayerBody]) -> Stance:
+    """Return the place of the one who sits highest, of players with one body."""
+    return max((player.place for player in players), key=lambda place: float(place.hips_m[1]))
+
+
+def _lower(posture: Posture, lower_deg: float) -> Posture:
+    """Return a seated posture with the thighs lowered; the shanks keep their angle."""
+    return msgspec.structs.replace(
+        posture,
+        hip_flexion_deg=posture.hip_flexion_deg - lower_deg,
+        knee_bend_deg=posture.knee_bend_deg - lower_deg,
+    )
+
+
+def _lacking_m(player: PlayerBody) -> float:
+    """Return the room in metres that arms lack, and the length of an instrument's pin that would be below the floor."""
+    if player.stand is None:
+        return lacking_m(player)
+    carried = upper_body(player, ContactCurves(player.still, {}, {}, np.zeros(1))).carried
+    return lacking_m(player) + max(0.0, -player.stand.pin_m(carried))

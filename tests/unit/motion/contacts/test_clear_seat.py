@@ -1,0 +1,96 @@
+"""Seats of players whose instruments stand on the floor: small players sit high enough for hands and pin."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import msgspec
+import numpy as np
+import pytest
+
+from app.export.arm_depths import ARM_MM
+from app.motion.contacts.clear_seat import highest_seat, on_seat
+from app.motion.contacts.ready_player import player_body
+from app.motion.contacts.solve import PlayerBody
+from app.motion.contacts.still_player import ContactCurves
+from app.motion.contacts.trunk_and_legs import stance
+from app.motion.contacts.upper_body import upper_body
+from app.performance.bodies import body_of, dressed_character, hold_of, suited_to
+from app.performance.supports import joints_of, still_pose
+from app.rig.characters.character_library import character_named
+from app.rig.grip.carriage import carrying
+from app.rig.model import Character
+from app.rig.people.wardrobe import OutfitChoice
+from app.rig.supports.seat_fit import chair_fit
+from instrument_maps.load import bundled_maps
+from tests.unit.motion.contacts.test_arms_off_trunk import depth_mm, frames_of
+from tests.unit.viewport.poses import quartet
+
+SMALL, TALL = "cast_sachiko", "cast_thomas"
+
+
+@lru_cache(maxsize=8)
+def seated(instrument_id: str, character_id: str, outfit: str) -> tuple[PlayerBody, PlayerBody, Character]:
+    """A seated player in an outfit, the same one on the usual seat, and the dressed character."""
+    first = quartet().players[0]
+    parameters = msgspec.structs.replace(first.parameters, posture="seated")
+    player = msgspec.structs.replace(
+        first,
+        instrument_id=instrument_id,
+        character_id=character_id,
+        outfit=OutfitChoice(outfit),
+        parameters=parameters,
+    )
+    instrument, character = suited_to(player, bundled_maps()[instrument_id]).instrument, dressed_character(player)
+    made = player_body(parameters, instrument, character, hold_of(player, instrument), body_of(player))
+    posture = carrying(body_of(player), "seated", instrument.hold.carriage("seated"))
+    return made, on_seat(made, stance(made.skeleton, posture), instrument.endpin), character
+
+
+def pin_m(player: PlayerBody) -> float:
+    """Length by which the pin of a still player's instrument is pulled out; negative: the floor is in its way."""
+    assert player.stand is not None
+    return player.stand.pin_m(upper_body(player, ContactCurves(player.still, {}, {}, np.zeros(1))).carried)
+
+
+@pytest.mark.parametrize(
+    ("instrument_id", "outfit"),
+    [("clarinet_bass_Bb", "concert_black"), ("clarinet_bass_Bb", "evening"), ("contrabassoon", "concert_black")],
+)
+def test_a_small_player_sits_higher_with_an_instrument_on_the_floor(instrument_id: str, outfit: str) -> None:
+    """On the usual seat a hand is in the lap, and the instrument ends below the floor."""
+    made, usual, character = seated(instrument_id, SMALL, outfit)
+    assert pin_m(usual) < -0.01
+    assert depth_mm(character, frames_of(usual, out=True)) > 2.0 * ARM_MM
+    assert pin_m(made) >= 0.0
+    assert depth_mm(character, frames_of(made, out=True)) <= ARM_MM
+    assert 0.05 < made.place.hips_m[1] - usual.place.hips_m[1] < 0.2
+
+
+def test_players_with_room_keep_the_usual_seat() -> None:
+    """A tall body has the lap far below its hands; an instrument in the hands alone has room elsewhere."""
+    for instrument_id, character_id in (("contrabassoon", TALL), ("clarinet_Bb", SMALL)):
+        made, usual, _ = seated(instrument_id, character_id, "concert_black")
+        np.testing.assert_array_equal(made.place.hips_m, usual.place.hips_m)
+
+
+def test_a_musician_of_two_instruments_has_one_seat() -> None:
+    """It is as high as the one that needs it requires."""
+    high, low, _ = seated("clarinet_bass_Bb", SMALL, "concert_black")
+    assert highest_seat([low, high]) is high.place
+    clarinet, _, _ = seated("clarinet_Bb", SMALL, "concert_black")
+    moved = on_seat(clarinet, high.place, None)
+    assert moved.base.head_m[0, 1] - clarinet.base.head_m[0, 1] == pytest.approx(
+        high.place.hips_m[1] - clarinet.place.hips_m[1]
+    )
+
+
+def test_the_chair_is_as_high_as_its_sitter() -> None:
+    """It carries the part of the thighs that does not descend far: no gap is left below the hips."""
+    player, _, character = seated("contrabassoon", SMALL, "concert_black")
+    still = still_pose(player)
+    joints = joints_of(character, still)[0]
+    below_hips_m = joints[character.skeleton.index("hips"), 1, 3] - chair_fit(character, joints).top_m
+    usual_m = joints_of(character_named(SMALL), still_pose(seated("clarinet_Bb", SMALL, "")[0]))[0]
+    own = chair_fit(character_named(SMALL), usual_m)
+    assert below_hips_m == pytest.approx(usual_m[character.skeleton.index("hips"), 1, 3] - own.top_m, abs=0.05)
