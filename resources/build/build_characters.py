@@ -24,6 +24,7 @@ from character_eyeballs import IRIS_MEAN_LINEAR, eyeballs, iris_colour, wet_colo
 from character_garments import measure, trousers
 from character_glb import Material, write_character
 from character_landmarks import landmarks
+from character_lashes import brows_and_lashes
 from character_mouth import WET, with_wet_material
 from character_shoes import shoes, soles
 from character_skeleton import FINGERS, SkeletonFit, fit_skeleton
@@ -38,7 +39,7 @@ from character_skin import (
     skin_roughness,
 )
 from character_source import Phenotype, Source, load_model
-from character_strands import ALPHA_CUTOFF, STRANDS_MEAN_LINEAR, brows_and_lashes, hair
+from character_strands import ALPHA_CUTOFF, STRANDS_MEAN_LINEAR, hair
 from character_teeth import teeth
 from character_textures import Texture
 from wardrobe_atlas import CLOTH_MEAN_LINEAR, atlas_textures, write_atlas

@@ -12,7 +12,7 @@ import numpy as np
 from character_cloth import smoothstep
 from character_source import Source
 
-AT_EASE: Final = {"mouthSmileLeft": 0.13, "mouthSmileRight": 0.13, "browInnerUp": 0.16}
+AT_EASE: Final = {"mouthSmileLeft": 0.21, "mouthSmileRight": 0.21, "browInnerUp": 0.30}
 """Weights of the shapes at rest: corners of the mouth 1.8 mm higher, inner ends of the brows 0.8 mm."""
 MIDDLE_M: Final = (0.014, 0.025)
 """Distances from the face's middle up to which the mouth stays and from which it moves wholly."""

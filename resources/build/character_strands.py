@@ -1,4 +1,4 @@
-"""Hair, brows and lashes as cards: MakeHuman's meshes, their painted strands made grey, so that any colour tints them.
+"""Hair as cards: MakeHuman's meshes, their painted strands made grey, so that any colour tints them.
 
 The painted pictures are 512 pixels wide. Finer strands are drawn along those that are painted: noise smeared along the
 direction in which the picture changes least.
@@ -6,15 +6,16 @@ direction in which the picture changes least.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from character_assets import Asset, asset_surface, read_asset, read_material
+from character_fine_hair import CURLY, PATCH_PX, STRAIGHT, drawn_hairs, free_patch, skin_of, with_fine_hairs
 from character_skin import read_picture
 from character_surface import Surface, smooth_normals, triangulate, vertex_normals
-from character_textures import Texture, jpeg, normals_of, png, sampled, spread, to_linear, to_srgb
+from character_textures import Texture, jpeg, noise, normals_of, png, sampled, spread, to_linear, to_srgb
 from PIL import Image, ImageDraw
 from scipy.ndimage import binary_opening, distance_transform_edt, gaussian_filter, label, map_coordinates, maximum
 from scipy.spatial import cKDTree
@@ -25,13 +26,12 @@ if TYPE_CHECKING:
     from character_source import Source
 
 HAIR_PX = 1024
-STRAND_STEPS, STRAND_STEP_PX = 14, 1.5
+STRAND_STEPS, STRAND_STEP_PX, LOCK_STEP_PX = 14, 1.5, 3.0
 STRANDS_MEAN_LINEAR = 0.32
 """Mean of the grey strands, by which a hair colour is divided to tint them, up to fair hair."""
 ALPHA_CUTOFF = 0.4
-LASH_GREY_LINEAR, LOWER_LASHES = 0.05, 0.6
 LOCK_HEIGHT, STRAND_SLOPE = 0.8, 0.23
-STRAND_CONTRAST, LOCK_CONTRAST = 0.42, 0.22
+STRAND_CONTRAST, LOCK_CONTRAST = 0.55, 0.32
 """Deviations of the grey of single strands and of locks."""
 FLECK_PX = 150
 CAP_HALF_PX, HAIRLINE_PX, EDGE_PX = 40, 40, 10
@@ -40,28 +40,32 @@ behind it in which shades are evened, since painted edges are pale.
 """
 BAND_HALF_PX = 80
 """Half the width of parts of the scalp's hair below which they are bands, whose edges do not dissolve."""
-FRINGE_PX, FRINGE_STEEP, FRINGE_STEPS = 30, 4.0, 2
+FRINGE_PX, FRINGE_STEEP, FRINGE_STEPS = 14, 4.0, 2
 """Width over which an edge of the scalp's hair dissolves into fine hairs, the steepness of their ends, their length."""
 LEAST_LEFT, FRINGE_SHARES = 0.85, (1.0, 0.5, 0.25)
 """Share of a style's opaque pixels that dissolving edges leaves at least, and shares of the widths tried for it."""
 EVEN_PX = 9.0
 """Reach over which the painted spikes of a hairline are evened before it dissolves."""
-WELD_M, ROOT_M, ROOT_PX = 0.0015, 0.003, 30
+WELD_M, ROOT_M, ROOT_PX = 0.0015, 0.003, 20
 """Distance within which faces of a mesh that end at one place are taken for joined, that from the skin within which
 the end of a lock is its root, and the width over which roots dissolve.
 """
-OVER_AN_EYE = frozenset({"bob02"})
-"""Styles that are combed aside."""
+CURLED = frozenset({"afro01"})
+"""Styles of curls, whose painted lace has the grid of a repeated tile; curls are drawn instead."""
+CURLS_PX, CURL_STEPS, CURL_BLUR_PX, LACE, LACE_CLOSED = (7.0, 30.0), 7, 1.1, (0.3, 0.8, 0.35), 1.5
+"""Waves of the directions of curls, half their length in steps and their width; least and greatest median of the
+alpha of lace and the greatest spread of it, and by how much it is closed."""
+OVER_AN_EYE = {
+    "bob02": ((0.0, 0.035, 0.085), (1.0, 0.8, 0.0)),
+    "braid01": ((0.0, 0.018, 0.042), (1.0, 0.7, 0.0)),
+}
+"""Styles that are combed aside: share of the way by height over the eyes, metres."""
 AXIS_M, FREE_DEG, BEHIND_DEG = 0.07, 58.0, 105.0
 """Distance of the head's axis behind the eyes; angles about it, from ahead to the right, of the edge of hair that is
 combed aside, and of that which stays."""
-COMBED = ((0.0, 0.035, 0.085), (1.0, 0.8, 0.0))
-"""Share of the way aside by height over the eyes, metres."""
-BROW_PX, BROW_FROM = (2.0, 9.0), 0.35
-"""Reach in pixels, down and along, over which the hairs of a brow close, and the density from which they do."""
 FAINT, EDGE_SHADE = 0.25, 0.85
 """Alpha below which hairs before the edge are invisible except as fragments, and shade of the others."""
-GREYS, ALPHAS = 48, 8
+GREYS, ALPHAS = 32, 8
 """Number of steps of grey and alpha, which halve the size of the pictures."""
 
 
@@ -86,7 +90,9 @@ def directions(grey: np.ndarray, reach_px: float) -> tuple[np.ndarray, np.ndarra
     return np.stack([-np.sin(across), np.cos(across)], axis=-1), clear
 
 
-def strands(along: np.ndarray, seed: int, steps: int = STRAND_STEPS, blur_px: float = 0.55) -> np.ndarray:
+def strands(
+    along: np.ndarray, seed: int, steps: int = STRAND_STEPS, blur_px: float = 0.55, step_px: float = STRAND_STEP_PX
+) -> np.ndarray:
     """(H, W) fine strands, mean 0 and deviation 1: white noise averaged along the directions, both ways."""
     height, width = along.shape[:2]
     white = gaussian_filter(np.random.Generator(np.random.PCG64(seed)).normal(0, 1, (height, width)), blur_px)
@@ -95,7 +101,7 @@ def strands(along: np.ndarray, seed: int, steps: int = STRAND_STEPS, blur_px: fl
     for sign in (1.0, -1.0):
         place, heading = start.copy(), along * sign
         for _ in range(steps):
-            place += heading * STRAND_STEP_PX
+            place += heading * step_px
             rows = np.clip(np.round(place[..., 0]).astype(int), 0, height - 1)
             columns = np.clip(np.round(place[..., 1]).astype(int), 0, width - 1)
             ahead = along[rows, columns]
@@ -105,11 +111,11 @@ def strands(along: np.ndarray, seed: int, steps: int = STRAND_STEPS, blur_px: fl
     return (total - total.mean()) / total.std()
 
 
-def _steps(picture: np.ndarray, count: int) -> np.ndarray:
+def in_steps(picture: np.ndarray, count: int) -> np.ndarray:
     return np.round(np.clip(picture, 0, 1) * (count - 1)) / (count - 1)
 
 
-def _enlarged(picture: np.ndarray, size: int) -> np.ndarray:
+def enlarged(picture: np.ndarray, size: int) -> np.ndarray:
     centres = (np.arange(size) + 0.5) / size
     u, v = np.meshgrid(centres, centres[::-1])
     return np.clip(sampled(picture, u, v), 0.0, 1.0)
@@ -129,6 +135,14 @@ def _caps(alpha: np.ndarray, least_px: float = CAP_HALF_PX) -> np.ndarray:
     return (parts > 0) & (half >= least_px)[parts]
 
 
+def _bare(alpha: np.ndarray, used: np.ndarray, mesh_ends_here: np.ndarray) -> np.ndarray:
+    """Mask (H, W) of what faces show without hair, and of the lines where the mesh ends."""
+    # Painted spikes are evened, or the hairline would be a saw.
+    even = gaussian_filter(alpha * used, EVEN_PX) / np.maximum(gaussian_filter(used.astype(float), EVEN_PX), 1e-6)
+    # A line of few pixels is where the drawing of a face ends.
+    return binary_opening(used & (even < 0.5), iterations=3) | mesh_ends_here
+
+
 def _fringe(
     alpha: np.ndarray, along: np.ndarray, used: np.ndarray, ends_here: tuple[np.ndarray, np.ndarray]
 ) -> np.ndarray:
@@ -138,10 +152,7 @@ def _fringe(
     Where only the drawing of a face ends, as at a seam of the texture, nothing changes, nor at edges of bands. The
     edges are narrower, or stay, in a style that would lose more than a small share of its hair.
     """
-    # Painted spikes are evened, or the hairline would be a saw.
-    even = gaussian_filter(alpha * used, EVEN_PX) / np.maximum(gaussian_filter(used.astype(float), EVEN_PX), 1e-6)
-    # A line of few pixels is where the drawing of a face ends.
-    bare = binary_opening(used & (even < 0.5), iterations=3) | ends_here[0]
+    bare = _bare(alpha, used, ends_here[0])
     single = strands(along, 33, FRINGE_STEPS, 0.3)
     ends = 0.5 * (1.0 + erf(single / np.sqrt(2.0)))
     # Of a band little wider than its edges single hairs would be left, apart from all others.
@@ -212,23 +223,71 @@ def _near_skin(positions: np.ndarray, source: Source) -> np.ndarray:
     return above < ROOT_M
 
 
-def hair_textures(style: str, painted: np.ndarray, used: np.ndarray, ends_here: np.ndarray) -> tuple[Texture, Texture]:
-    """Grey strands with alpha, and their normals, from a painted (H, W, 4) picture; unused parts are empty.
+@dataclass(frozen=True)
+class Strands:
+    """Pictures (H, W) of a style of hair: linear grey, alpha, heights, directions (H, W, 2).
+
+    Attributes
+    ----------
+    scalp : the parts that cover the scalp.
+    bare : where they end.
+    """
+
+    grey: np.ndarray
+    alpha: np.ndarray
+    heights: np.ndarray
+    along: np.ndarray
+    scalp: np.ndarray
+    bare: np.ndarray
+
+
+def with_single_hairs(strands: Strands, corner: tuple[int, int], curled: bool = False) -> Strands:
+    """The pictures with the hairs of cards drawn from a corner on."""
+    place = tuple(slice(start, start + length) for start, length in zip(corner, PATCH_PX, strict=True))
+    shade, hairs = drawn_hairs(curled)
+    grey, alpha, heights = strands.grey.copy(), strands.alpha.copy(), strands.heights.copy()
+    grey[place], alpha[place] = np.clip(STRANDS_MEAN_LINEAR * shade, 0.02, 0.95), hairs
+    heights[place] = 0.0
+    return replace(strands, grey=grey, alpha=alpha, heights=heights)
+
+
+def _curls(painted: np.ndarray, used: np.ndarray) -> np.ndarray:
+    """A painted (H, W, 4) picture with curls drawn over the parts of even shade and over lace."""
+    size = len(used)
+    angle = 2.0 * np.pi * noise(size, *CURLS_PX, 35)
+    curls = strands(np.stack([np.sin(angle), np.cos(angle)], axis=-1), 36, CURL_STEPS, CURL_BLUR_PX)
+    covering = gaussian_filter(painted[..., 3], CURLS_PX[1])
+    drawn = painted.copy()
+    parts, count = label(used)
+    for part in range(1, count + 1):
+        own = parts == part
+        inner = own & (distance_transform_edt(own) > CAP_HALF_PX)
+        if not inner.any():
+            continue
+        low, median, high = np.quantile(covering[inner], (0.1, 0.5, 0.9))
+        if median > LACE[1] or (median > LACE[0] and high - low < LACE[2]):
+            drawn[own, :3] = to_srgb(0.3 * np.exp(STRAND_CONTRAST * curls[own]))[:, None]
+        if LACE[0] < median < LACE[1] and high - low < LACE[2]:
+            share = np.clip(LACE_CLOSED * covering[own], 0.0, 1.0)
+            drawn[own, 3] = np.clip(0.5 + 2.0 * (share - 0.5 * (1.0 + erf(curls[own] / np.sqrt(2.0)))), 0.0, 1.0)
+    return drawn
+
+
+def hair_strands(painted: np.ndarray, used: np.ndarray, ends_here: tuple[np.ndarray, np.ndarray]) -> Strands:
+    """Grey strands from a painted (H, W, 4) picture of the wanted size; unused parts are empty.
 
     `used` is the mask of the pixels that faces use, `ends_here` are those where the mesh ends (`mesh_ends`).
     """
-    size = len(used)
-    large = _enlarged(painted, size)
-    alpha = large[..., 3] * used
+    alpha = painted[..., 3] * used
     solid = alpha > 0.5
-    grey = to_linear(large[..., :3]) @ np.array([0.2126, 0.7152, 0.0722])
+    grey = to_linear(painted[..., :3]) @ np.array([0.2126, 0.7152, 0.0722])
     smooth = gaussian_filter(spread(grey, solid), 6)
     # Shine and shade painted over whole locks are mostly taken out; light does that.
     grey = spread(grey, solid) / (smooth + 1e-3) ** 0.75
     along, clear = directions(grey / grey[solid].mean(), 4.0)
     # Without a clear direction strands would curl like wood grain.
     fine = strands(along, 31) * np.minimum(1.0, 0.25 + 1.25 * clear)
-    locks = strands(along, 34, 2 * STRAND_STEPS, 3.0) * np.minimum(1.0, 0.25 + 1.25 * clear)
+    locks = strands(along, 34, 2 * STRAND_STEPS, 3.0, LOCK_STEP_PX) * np.minimum(1.0, 0.25 + 1.25 * clear)
     grey = grey / grey[solid].mean() * np.exp(STRAND_CONTRAST * fine + LOCK_CONTRAST * locks)
     grey = np.clip(grey / grey[solid].mean() * STRANDS_MEAN_LINEAR, 0.02, 0.95)
     # Strands end apart: the edge of a lock is where its alpha falls, sooner between strands.
@@ -236,62 +295,20 @@ def hair_textures(style: str, painted: np.ndarray, used: np.ndarray, ends_here: 
     grey, alpha = _hairline(spread(grey, solid), alpha, fine)
     for least in (0.0, ALPHA_CUTOFF):
         alpha[_flecks(alpha > least)] = 0.0
+    even = gaussian_filter(alpha, EVEN_PX / 3.0) * used
+    scalp, bare = _caps(even), _bare(alpha, used, ends_here[0])
     alpha = _fringe(alpha, along, used, ends_here)
-    shade = _steps(to_srgb(grey), GREYS)
-    colour = png(f"hair_{style}_color", np.stack([shade, shade, shade, _steps(alpha, ALPHAS)], axis=-1))
-    # Normals have half the size: locks follow the painted picture, strands the noise.
-    rows = slice(None, None, 2)
-    heights = gaussian_filter(locks, 1.5)[rows, rows] * LOCK_HEIGHT + gaussian_filter(fine, 0.6)[rows, rows]
+    # Locks follow the painted picture, strands the noise.
+    heights = gaussian_filter(locks, 1.5) * LOCK_HEIGHT + gaussian_filter(fine, 0.6)
+    return Strands(grey, alpha, heights, along, scalp, bare)
+
+
+def hair_textures(style: str, strands: Strands) -> tuple[Texture, Texture]:
+    """Grey strands with alpha, and their normals, which have half the size."""
+    shade = in_steps(to_srgb(strands.grey), GREYS)
+    colour = png(f"hair_{style}_color", np.stack([shade, shade, shade, in_steps(strands.alpha, ALPHAS)], axis=-1))
+    heights = strands.heights[::2, ::2]
     return colour, jpeg(f"hair_{style}_normal", normals_of(heights, STRAND_SLOPE), quality=85)
-
-
-def _strip(asset: Asset) -> tuple[np.ndarray, np.ndarray]:
-    """Lower left and upper right corner of the part of its texture that an asset uses."""
-    used = asset.uvs[np.unique(asset.uv_faces)]
-    return np.clip(used.min(axis=0) - 0.004, 0, 1), np.clip(used.max(axis=0) + 0.004, 0, 1)
-
-
-def _brow_picture(painted: np.ndarray) -> np.ndarray:
-    """Grey hairs, single ones at the edges and closed in the middle, so that reduced pictures keep the brow whole."""
-    alpha = np.clip(painted[..., 3], 0, 1)
-    fine = strands(directions(gaussian_filter(alpha, 1.0) + 0.5 * painted[..., :3].mean(axis=-1), 2.5)[0], 32)
-    grey = to_srgb(np.clip(STRANDS_MEAN_LINEAR * np.exp(0.45 * fine), 0.05, 0.9))
-    closed = gaussian_filter(alpha, BROW_PX)
-    closed = np.clip((closed / np.quantile(closed[closed > 0.02], 0.9) - BROW_FROM) / (1 - BROW_FROM), 0.0, 1.0)
-    hairs = np.maximum(alpha * (0.95 + 0.32 * fine), closed + 0.40 * fine * (closed > 0.0) * (1.0 - 0.7 * closed))
-    return np.stack([grey, grey, grey, np.clip(hairs, 0, 1)], axis=-1)
-
-
-def _lash_picture(painted: np.ndarray, lower: np.ndarray) -> np.ndarray:
-    """Near black, and thinner along the lower lid (mask `lower`)."""
-    grey = to_srgb(np.full(painted.shape[:2], LASH_GREY_LINEAR))
-    alpha = np.clip(painted[..., 3], 0, 1) * np.where(lower, LOWER_LASHES, 0.95)
-    return np.stack([grey, grey, grey, alpha], axis=-1)
-
-
-def brow_textures(name: str, brow: Asset, lash: Asset, lower_lid: np.ndarray) -> tuple[Texture, Asset, Asset]:
-    """One picture, brows above lashes, and both assets with their texture coordinates in it.
-
-    `lower_lid` are the base mesh's vertices of the lower lashes.
-    """
-    height, width = HAIR_PX // 2, HAIR_PX
-    u, v = np.meshgrid((np.arange(width) + 0.5) / width, 1 - (np.arange(height // 2) + 0.5) / (height // 2))
-    halves, moved = [], []
-    below = np.isin(lash.binding.corners[lash.faces], lower_lid).all(axis=(1, 2))
-    lower = covered(lash.uvs, lash.uv_faces[below], HAIR_PX).astype(float)
-    for asset, floor in ((brow, 0.5), (lash, 0.0)):
-        if asset.material is None:
-            raise ValueError(f"{asset.name} has no material")
-        painted = read_picture(read_material(asset.material).textures["diffuseTexture"])
-        low, high = _strip(asset)
-        place = (low[0] + u * (high - low)[0], low[1] + v * (high - low)[1])
-        part = sampled(painted, *place)
-        halves.append(_brow_picture(part) if asset is brow else _lash_picture(part, sampled(lower, *place) > 0.5))
-        moved.append(replace(asset, uvs=(asset.uvs - low) / (high - low) * [1.0, 0.5] + [0.0, floor]))
-    picture = np.concatenate(halves)
-    picture[..., :3] = _steps(picture[..., :3], GREYS)
-    picture[..., 3] = _steps(picture[..., 3], 2 * ALPHAS)
-    return png(name, picture), moved[0], moved[1]
 
 
 def hair(folder: Path, style: str, source: Source, fit: SkeletonFit) -> tuple[Surface, Texture, Texture]:
@@ -300,14 +317,33 @@ def hair(folder: Path, style: str, source: Source, fit: SkeletonFit) -> tuple[Su
     if asset.material is None:
         raise ValueError(f"{style} has no material")
     painted = read_picture(read_material(asset.material).textures["diffuseTexture"])
+    curled = style in CURLED
+    if curled:
+        asset = _without_tufts(asset)
     used = covered(asset.uvs, asset.uv_faces, HAIR_PX)
     surface = asset_surface(asset, source, fit, "hair", "hair")
     positions = asset.binding.positions(source.vertices)
     ends_here = mesh_ends(asset, positions, _near_skin(positions, source), HAIR_PX)
-    return _combed(surface, fit) if style in OVER_AN_EYE else surface, *hair_textures(style, painted, used, ends_here)
+    if style in OVER_AN_EYE:
+        surface = _combed(surface, fit, *OVER_AN_EYE[style])
+    large = enlarged(painted, HAIR_PX)
+    made = hair_strands(_curls(large, used) if curled else large, used, ends_here)
+    corner = free_patch(used)
+    if corner is None:
+        raise ValueError(f"the picture of {style} has no room for single hairs")
+    standing = CURLY if curled else STRAIGHT
+    surface = with_fine_hairs(surface, skin_of(source), made.along, made.scalp, made.bare, corner, standing)
+    return surface, *hair_textures(style, with_single_hairs(made, corner, curled))
 
 
-def _combed(surface: Surface, fit: SkeletonFit) -> Surface:
+def _without_tufts(asset: Asset) -> Asset:
+    """The asset without faces that stand alone, half of which are lit from behind as they stand across the rest."""
+    shared = np.bincount(np.unique(asset.faces, axis=0).ravel(), minlength=len(asset.binding.corners)) > 1
+    kept = shared[asset.faces].any(axis=1)
+    return replace(asset, faces=asset.faces[kept], uv_faces=asset.uv_faces[kept])
+
+
+def _combed(surface: Surface, fit: SkeletonFit, heights_m: tuple[float, ...], shares: tuple[float, ...]) -> Surface:
     """Hair whose parting falls over the right eye, combed to the temple."""
     points = fit.to_t_pose(surface.positions, surface.weights)
     eye = fit.positions_t[fit.index("rightEye")]
@@ -317,26 +353,9 @@ def _combed(surface: Surface, fit: SkeletonFit) -> Surface:
     own = (angle > -25.0) & (angle < BEHIND_DEG)
     first = [angle[own & (np.abs(points[:, 1] - y) < 0.012)].min(initial=BEHIND_DEG - 1.0) for y in levels]
     edge = np.interp(points[:, 1], levels, gaussian_filter(np.array(first), 1.5))
-    free = np.interp(points[:, 1] - eye[1], *COMBED)
+    free = np.interp(points[:, 1] - eye[1], heights_m, shares)
     goal = np.maximum(edge, edge + (FREE_DEG - edge) * free)
     share = np.clip((angle - edge) / (BEHIND_DEG - edge), 0.0, 1.0)
     turned = np.radians(np.where(own, goal + share * (BEHIND_DEG - goal), angle))
     moved = np.stack([-radius * np.sin(turned), points[:, 1], radius * np.cos(turned) + eye[2] - AXIS_M], axis=1)
     return smooth_normals(replace(surface, positions=fit.to_rest_pose(moved, surface.weights)))
-
-
-def brows_and_lashes(
-    folder: Path, brow: str, lash: str, source: Source, fit: SkeletonFit
-) -> tuple[tuple[Surface, Surface], Texture]:
-    """Brows and lashes on a body, with the shapes of the face, and their picture."""
-    texture, *assets = brow_textures(
-        f"{brow}_{lash}_color",
-        read_asset(folder / "eyebrows" / brow / f"{brow}.mhclo"),
-        read_asset(folder / "eyelashes" / lash / f"{lash}.mhclo"),
-        np.unique([source.groups[group].vertices for group in ("helper-l-eyelashes-1", "helper-r-eyelashes-1")]),
-    )
-    first, second = (
-        asset_surface(asset, source, fit, name, "brows", morphs=True)
-        for asset, name in zip(assets, ("brows", "lashes"), strict=True)
-    )
-    return (first, second), texture

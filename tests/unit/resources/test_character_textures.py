@@ -20,14 +20,16 @@ Module = Callable[[str], ModuleType]
 
 HAIR = Path(__file__).parents[3] / "resources" / "characters" / "hair"
 PAINTED = {
-    "afro01": 0.489,
+    "afro01": 0.245,
     "bob02": 0.345,
     "braid01": 0.507,
     "long01": 0.577,
     "short02": 0.390,
     "short04": 0.430,
 }
-"""Share of each style's picture that is opaque as MakeHuman's authors painted it, where faces use it."""
+"""Share of each style's picture that is opaque as MakeHuman's authors painted it, where faces use it (of `afro01`
+without its tufts).
+"""
 
 
 def _pixels(content: bytes) -> np.ndarray:
@@ -185,6 +187,13 @@ def test_strands_run_along_what_is_painted(build_module: Module) -> None:
     assert np.abs(np.diff(fine, axis=1)).mean() < 0.4 * np.abs(np.diff(fine, axis=0)).mean()
 
 
+def _textures(
+    strands: ModuleType, style: str, painted: np.ndarray, used: np.ndarray, ends: tuple[np.ndarray, np.ndarray]
+) -> tuple[SimpleNamespace, SimpleNamespace]:
+    large = strands.enlarged(painted, len(used))
+    return strands.hair_textures(style, strands.hair_strands(large, used, ends))
+
+
 def test_hair_is_grey_with_alpha_where_it_is_used_alone(build_module: Module) -> None:
     strands, textures = build_module("character_strands"), build_module("character_textures")
     painted = np.zeros((64, 64, 4))
@@ -193,7 +202,8 @@ def test_hair_is_grey_with_alpha_where_it_is_used_alone(build_module: Module) ->
     painted[8:56, 8:56, :3] *= np.random.default_rng(4).uniform(0.6, 1, (48, 48, 1))
     used = np.zeros((128, 128), dtype=bool)
     used[:, :64] = True
-    colour, normals = strands.hair_textures("bob", painted, used, (np.zeros_like(used), np.zeros_like(used)))
+    none = np.zeros_like(used)
+    colour, normals = _textures(strands, "bob", painted, used, (none, none))
     assert (colour.name, normals.name) == ("hair_bob_color", "hair_bob_normal")
     pixels = _pixels(colour.content)
     assert np.array_equal(pixels[..., 0], pixels[..., 2])
@@ -212,7 +222,7 @@ def test_a_hairline_has_no_pale_edge_and_no_scraps_before_it(build_module: Modul
     painted[..., 3] = np.where(columns < 128, 1.0, np.where((columns < 144) & (rows % 6 < 3), 0.12, 0.0))
     painted[:6, :, 3] = 0.0
     used = np.ones((1024, 1024), dtype=bool)
-    colour, _ = strands.hair_textures("cap", painted, used, (~used, ~used))
+    colour, _ = _textures(strands, "cap", painted, used, (~used, ~used))
     pixels = _pixels(colour.content)
     shade = textures.to_linear(pixels[200:900, :, 0])
     assert shade[:, 508:516].mean() < 1.2 * shade[:, 300:450].mean()
@@ -238,9 +248,9 @@ def test_hair_dissolves_where_its_mesh_ends_but_not_along_a_seam(build_module: M
     used = np.ones((1024, 1024), dtype=bool)
     edge = np.zeros_like(used)
     edge[:, :2] = True
-    alpha = _pixels(strands.hair_textures("cap", painted, used, (edge, ~used))[0].content)[100:900, :, 3]
+    alpha = _pixels(_textures(strands, "cap", painted, used, (edge, ~used))[0].content)[100:900, :, 3]
     shown = (alpha > strands.ALPHA_CUTOFF).mean(axis=0)
-    assert shown[2:6].mean() < 0.3 < shown[8:24].mean() < 0.8
+    assert shown[2:4].mean() < 0.3 < shown[4:10].mean() < 0.8
     assert (shown[strands.FRINGE_PX + 4 :] == 1.0).all()
 
 
@@ -249,8 +259,60 @@ def test_a_band_of_hair_does_not_dissolve(build_module: Module) -> None:
     used, ends = np.zeros((256, 256), dtype=bool), np.zeros((256, 256), dtype=bool)
     used[:, 80:176] = True
     ends[:, [80, 81, 174, 175]] = True
-    colour, _ = strands.hair_textures("band", np.ones((64, 64, 4)), used, (ends, np.zeros_like(used)))
+    colour, _ = _textures(strands, "band", np.ones((64, 64, 4)), used, (ends, np.zeros_like(used)))
     assert (_pixels(colour.content)[..., 3] > strands.ALPHA_CUTOFF).sum() > 0.9 * used.sum()
+
+
+def test_fine_hairs_bridge_from_the_edge_of_hair_to_the_skin(build_module: Module) -> None:
+    fine, surface = build_module("character_fine_hair"), build_module("character_surface")
+    # A cap of hair, 4 mm over a flat scalp, whose picture ends at a line across its middle.
+    steps = np.linspace(0.0, 1.0, 9)
+    x, z = (0.2 * grid.ravel() for grid in np.meshgrid(steps, steps))
+    places = np.stack([x, np.full(81, 0.004), z], axis=1)
+    first = (np.arange(8)[:, None] * 9 + np.arange(8)).reshape(-1, 1)
+    quads = first + np.array([0, 9, 10, 1])
+    cap = surface.modelled(
+        "hair", places, np.ones((81, 1)), {"hair": surface.triangulate(quads, places)}, uvs=places[:, [0, 2]] / 0.2
+    )
+    ground = places - [0.0, 0.004, 0.0]
+    skin = fine.skin_of(SimpleNamespace(vertices=ground, groups={"body": SimpleNamespace(vertices=quads)}))
+    rows, _ = np.mgrid[:512, :512]
+    along = np.broadcast_to([1.0, 0.0], (512, 512, 2))
+    made = fine.with_fine_hairs(cap, skin, along, rows < 256, rows >= 256, (400, 10))
+    cards = made.positions[81:].reshape(-1, 6, 3)
+    assert len(made.triangles["hair"]) == len(cap.triangles["hair"]) + 4 * len(cards)
+    edge = cards[np.abs(cards[:, 2:4, 2].mean(axis=1) - 0.1) < 0.001]
+    assert 40 < len(edge) < fine.MOST
+    # The picture's lower rows, where the skin is bare, lie towards z = 0.
+    assert (edge[:, 4:, 2].mean(axis=1) < 0.0975).all()
+    assert (edge[:, :2, 2].mean(axis=1) > 0.1025).all()
+    assert edge[:, 4:, 1] == pytest.approx(fine.ABOVE_SKIN_M, abs=1e-6), "on the skin"
+    assert (edge[:, :2, 1] > 0.004).all(), "on the hair"
+    gaps = np.diff(np.sort(edge[:, 2:4, 0].mean(axis=1)))
+    assert gaps.max() < 0.012, "no part of the edge is left out"
+    drawn = made.uvs[81:]
+    u, v = drawn[:, 0] * 512, (1.0 - drawn[:, 1]) * 512
+    assert u.min() >= 10
+    assert u.max() <= 10 + fine.PATCH_PX[1]
+    assert v.min() >= 400
+    assert v.max() <= 400 + fine.PATCH_PX[0]
+    # Normals of cards are those of the hair beneath, so that no card is lit apart.
+    assert made.normals[81:] == pytest.approx(np.tile([0.0, 1.0, 0.0], (6 * len(cards), 1)))
+
+
+def test_single_hairs_are_drawn_where_nothing_else_is(build_module: Module) -> None:
+    fine = build_module("character_fine_hair")
+    used = np.ones((512, 512), dtype=bool)
+    assert fine.free_patch(used) is None
+    used[300:450, 100:400] = False
+    row, column = fine.free_patch(used)
+    assert not used[row : row + fine.PATCH_PX[0], column : column + fine.PATCH_PX[1]].any()
+    shade, alpha = fine.drawn_hairs()
+    assert shade.shape == alpha.shape == fine.PATCH_PX
+    outer, middle, inner = (alpha[rows].mean() for rows in (slice(0, 8), slice(40, 60), slice(-4, None)))
+    assert outer < 0.5 * middle, "thin towards the skin"
+    assert inner < middle
+    assert np.abs(fine.drawn_hairs(curled=True)[1] - alpha).max() > 0.5
 
 
 @pytest.mark.parametrize("style", PAINTED)
@@ -265,6 +327,7 @@ def test_a_style_keeps_the_hair_that_is_painted(style: str) -> None:
 
 def test_brows_and_lashes_share_a_picture_and_lower_lashes_are_thin(build_module: Module, tmp_path: Path) -> None:
     strands, assets = build_module("character_strands"), build_module("character_assets")
+    lashes = build_module("character_lashes")
     picture = np.zeros((64, 64, 4), dtype=np.uint8)
     picture[16:48, 16:48, 3] = 255
     Image.fromarray(picture).save(tmp_path / "a.png")
@@ -276,7 +339,7 @@ def test_brows_and_lashes_share_a_picture_and_lower_lashes_are_thin(build_module
     uvs = np.array([(0, 0), (0.5, 0), (0.5, 1), (0, 1), (0.5, 0), (1, 0), (1, 1), (0.5, 1)], dtype=float)
     faces = np.arange(8).reshape(2, 4)
     asset = assets.Asset("a", binding, faces, faces, uvs, np.zeros(0), material)
-    texture, brow, lash = strands.brow_textures("x", replace(asset, name="b"), asset, np.array([4, 5, 6, 7]))
+    texture, brow, lash = lashes.brow_textures("x", replace(asset, name="b"), asset, np.array([4, 5, 6, 7]))
     assert brow.uvs[:, 1].min() >= 0.5
     assert lash.uvs[:, 1].max() <= 0.5
     alpha = _pixels(texture.content)[..., 3]

@@ -40,6 +40,17 @@ def test_a_style_of_hair_sits_on_the_head_of_another_body(style: str) -> None:
     assert hair.materials[0].textures.color is not None
 
 
+@pytest.mark.parametrize("style", hair_styles())
+def test_no_hair_hangs_before_an_eye(style: str) -> None:
+    person = _person(hair=style)
+    hair = mesh_named(person, "hair")
+    for side in ("left", "right"):
+        eye_m = np.linalg.inv(person.joint_from_mesh[person.skeleton.index(f"{side}Eye")])[:3, 3]
+        off_m = hair.positions_m[hair.triangles].mean(axis=1) - eye_m
+        before = (off_m[:, 2] > 0.0) & (np.abs(off_m[:, 0]) < 0.012) & (np.abs(off_m[:, 1]) < 0.008)
+        assert not before.any(), f"{before.sum()} faces of hair before the {side} eye"
+
+
 @pytest.mark.parametrize("skin", skins())
 def test_a_skin_by_itself_takes_the_place_of_the_body_s(skin: str) -> None:
     before, after = (mesh_named(_person(skin=name), "body").materials[0] for name in ("", skin))
