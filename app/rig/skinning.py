@@ -122,9 +122,13 @@ def skin_of(
     morphs : iterable of (name, vertices, displacements)
         Morphs of the mesh: M vertices, and their displacements (M, 3) in metres.
     """
-    dense = np.zeros((len(vertices), len(joint_from_mesh)))
-    np.add.at(dense, (np.arange(len(vertices))[:, None], joints), weights)
-    used = np.flatnonzero(dense.any(axis=0))
+    is_used = np.zeros(len(joint_from_mesh), dtype=np.bool_)
+    is_used[joints[weights != 0.0]] = True
+    used = np.flatnonzero(is_used)
+    columns = np.maximum(np.cumsum(is_used) - 1, 0)[joints]
+    places = (np.arange(len(vertices))[:, None] * len(used) + columns).ravel()
+    total = len(vertices) * len(used)
+    summed = np.asarray(np.bincount(places, weights.ravel(), total)[:total], dtype=np.float64)
     moved = {}
     chosen = np.zeros(len(positions_m), dtype=np.bool_)
     chosen[vertices] = True
@@ -138,7 +142,7 @@ def skin_of(
             moved[name] = np.zeros((len(vertices), 3))
             moved[name][hit] = deltas_m[rank[vertices[hit]]]
     place_m = positions_m[vertices].astype(np.float64)
-    return Skin(place_m, used, np.ascontiguousarray(dense[:, used]), joint_from_mesh[used, :3], moved)
+    return Skin(place_m, used, summed.reshape(len(vertices), len(used)), joint_from_mesh[used, :3], moved)
 
 
 def patch(character: Character, mesh: Mesh, vertices: AnyIntArray) -> Patch:

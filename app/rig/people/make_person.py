@@ -69,9 +69,7 @@ class Original:
 
 def original_of(character: Character, shapes: BodyShapes, phenotype: Phenotype) -> Original:
     """Prepare a bundled body with a phenotype for making people from it; takes a fraction of a second."""
-    base_m = body_m(shapes, phenotype)
-    ankle_m = float(base_m[len(shapes.vertices) + shapes.joints.index("leftFoot"), 1])
-    attaching = Attaching(base_m[: len(shapes.vertices)], ankle_m)
+    base_m, attaching = _BASES.step(_base, shapes, phenotype)
     places = {mesh.name: places_of(mesh) for mesh in character.meshes}
     return Original(
         character,
@@ -85,6 +83,17 @@ def original_of(character: Character, shapes: BodyShapes, phenotype: Phenotype) 
             for mesh in character.meshes
         },
     )
+
+
+def _base(shapes: BodyShapes, phenotype: Phenotype) -> tuple[FloatArray, Attaching]:
+    """Return the base mesh and joints (V + J, 3) of a bundled body's phenotype, and what binds meshes to it."""
+    base_m = body_m(shapes, phenotype)
+    ankle_m = float(base_m[len(shapes.vertices) + shapes.joints.index("leftFoot"), 1])
+    return base_m, Attaching(base_m[: len(shapes.vertices)], ankle_m)
+
+
+# A bundled body, its hair and its clothes are bound to the same base mesh.
+_BASES: IdentityCache[tuple[FloatArray, Attaching]] = IdentityCache(4)
 
 
 def _hand_shares(character: Character, mesh: Mesh) -> FloatArray:

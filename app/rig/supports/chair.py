@@ -145,12 +145,14 @@ def _rounded(half: float, deep: float, corner: float) -> FloatArray:
     right, the second down, and the outline runs anticlockwise.
     """
     corner = min(corner, half, deep)
-    points = []
-    for quarter, (x, z) in enumerate(((1, 1), (1, -1), (-1, -1), (-1, 1))):
-        for step in range(_ROUND // 4):
-            angle = 0.5 * np.pi * (1.0 - step / (_ROUND // 4 - 1)) - 0.5 * np.pi * quarter
-            points.append((x * (half - corner) + corner * np.cos(angle), z * (deep - corner) + corner * np.sin(angle)))
-    return np.array(points)
+    quarters = np.array([(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)]).repeat(_ROUND // 4, axis=0)
+    outline: FloatArray = quarters * [half - corner, deep - corner] + corner * _CIRCLE
+    return outline
+
+
+_ANGLES_RAD = 0.5 * np.pi * (np.linspace(1.0, 0.0, _ROUND // 4) - np.arange(4)[:, None]).ravel()
+_CIRCLE = np.stack([np.cos(_ANGLES_RAD), np.sin(_ANGLES_RAD)], axis=1)
+"""Corners of an outline: four quarters of a circle, each with both of its ends."""
 
 
 def _leg(line_m: FloatArray, only: Shares) -> SurfaceStrip:

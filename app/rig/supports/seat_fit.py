@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.arrays import BoolArray, FloatArray
+from app.arrays import AnyIntArray, BoolArray, FloatArray, IndexArray, SingleArray
+from app.identity_cache import IdentityCache
 from app.rig.grip.body_size import leg_size
 from app.rig.model import Character
 from app.rig.skinning import patch
@@ -48,16 +49,26 @@ def chair_fit(character: Character, joints: FloatArray) -> ChairFit:
     return ChairFit(max(top_m, 0.12), rear_m - size * _CLEAR_M, size)
 
 
+def _carried(
+    names: tuple[str, ...], all_names: tuple[str, ...], joints: AnyIntArray, weights: SingleArray
+) -> IndexArray:
+    """Return the vertices, given by joints and weights (N, K), that the named joints move."""
+    carrying: BoolArray = np.isin(all_names, names)
+    return np.flatnonzero((weights * carrying[joints]).sum(axis=1) >= _LEAST_SHARE)
+
+
+# People made from one body share joints and weights.
+_CARRIED: IdentityCache[IndexArray] = IdentityCache(256)
+
+
 def _skin(character: Character, joints: FloatArray, names: tuple[str, ...]) -> FloatArray:
     """Return the posed vertices (N, 3) of the skin that the named joints move."""
     skeleton = character.skeleton
-    carrying: BoolArray = np.isin(skeleton.names, names)
     world = np.zeros((1, len(skeleton.names), 4, 4))
     world[0, :, :3], world[0, :, 3, 3] = joints, 1.0
     found = [np.zeros((0, 3))]
     for mesh in character.meshes:
-        share = (mesh.weights * carrying[mesh.joints]).sum(axis=1)
-        rows = np.flatnonzero(share >= _LEAST_SHARE)
+        rows = _CARRIED.step(_carried, names, skeleton.names, mesh.joints, mesh.weights)
         if len(rows):
             found.append(patch(character, mesh, rows).deformed(world)[0])
     return np.concatenate(found)
