@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +12,7 @@ from app.arrays import SingleArray
 from app.formats.scene import Material
 from app.formats.texture_colors import plain_material
 from app.formats.textures import NO_TEXTURES
+from app.identity_cache import IdentityCache
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +55,13 @@ class Mesh:
     weights: SingleArray
     morphs: tuple[Morph, ...] = ()
 
+    @property
+    def is_skinned(self) -> bool:
+        """True for a mesh that bends, such as a character's. People made from one body share all of its arrays but
+        vertices, normals and displacements of morphs.
+        """
+        return bool(self.joints.shape[1] > 1)
+
 
 def materials_once(mesh: Mesh) -> tuple[tuple[Material, ...], npt.NDArray[np.int32]]:
     """Return a mesh's materials with equal ones only once, and the index (T,) into them of each triangle.
@@ -72,16 +81,55 @@ _MOST_AVERAGED = 2000
 
 def plain_materials(mesh: Mesh) -> tuple[Material, ...]:
     """Return a mesh's materials with each texture replaced by its mean colour."""
-    made = []
-    for number, material in enumerate(mesh.materials):
-        if material.textures == NO_TEXTURES:
-            made.append(material)
-            continue
-        own = np.flatnonzero(mesh.triangle_materials == number)
-        corners = mesh.uvs[mesh.triangles[own[:: 1 + len(own) // _MOST_AVERAGED]]]
+    if all(material.textures == NO_TEXTURES for material in mesh.materials):
+        return mesh.materials
+    arrays = mesh.uvs, mesh.triangles, mesh.triangle_materials
+    seen = _SEEN.step(_seen, *arrays) if mesh.is_skinned else _seen(*arrays)
+    return tuple(_plain(material, seen, number) for number, material in enumerate(mesh.materials))
+
+
+def _plain(material: Material, seen: _Seen, number: int) -> Material:
+    """Return a material with its textures replaced by their means."""
+    if material.textures == NO_TEXTURES:
+        return material
+    white = replace(material, base_color=(1.0, 1.0, 1.0, material.base_color[3]), roughness=1.0, metallic=1.0)
+    mean = _mean(white, seen, number)
+    red, green, blue = (own * its for own, its in zip(material.base_color[:3], mean.base_color[:3], strict=True))
+    return replace(
+        mean,
+        base_color=(red, green, blue, material.base_color[3]),
+        roughness=material.roughness * mean.roughness,
+        metallic=material.metallic * mean.metallic,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """Texture coordinates (N, 2) of some places of each material of a mesh."""
+
+    uvs: tuple[SingleArray, ...]
+
+
+def _seen(uvs: SingleArray, triangles: npt.NDArray[np.int32], of_triangles: npt.NDArray[np.int32]) -> _Seen:
+    found = []
+    for number in range(int(of_triangles.max(initial=-1)) + 1):
+        own = np.flatnonzero(of_triangles == number)
+        corners = uvs[triangles[own[:: 1 + len(own) // _MOST_AVERAGED]]]
         # Only the corners of a hair card are cut out.
-        made.append(plain_material(material, np.concatenate([corners.reshape(-1, 2), corners.mean(axis=1)])))
-    return tuple(made)
+        found.append(np.concatenate([corners.reshape(-1, 2), corners.mean(axis=1)]))
+    return _Seen(tuple(found))
+
+
+# People made from one body share these arrays.
+_SEEN: IdentityCache[_Seen] = IdentityCache(128)
+
+
+@lru_cache(maxsize=128)
+def _mean(white: Material, seen: _Seen, number: int) -> Material:
+    """Return a white material with its textures replaced by their means, which are the same for people in all colours
+    of skin, hair and clothes.
+    """
+    return plain_material(white, seen.uvs[number] if number < len(seen.uvs) else np.zeros((0, 2)))
 
 
 def scaled_mesh(mesh: Mesh, size: float) -> Mesh:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import inf
 from time import perf_counter
 from typing import Any
@@ -17,6 +17,7 @@ from vispy import app as vispy_app
 from widgets.viewport.camera import Camera
 from widgets.viewport.colours_and_lights import Emphasis, ViewportLook
 from widgets.viewport.renderer import Renderer
+from widgets.viewport.shape_model import LevelsOfDetail
 
 SAMPLES = 4
 NO_GL_PLATFORMS = ("offscreen", "minimal", "vnc", "linuxfb")
@@ -54,12 +55,20 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         Returns camera, look and emphasis for the present picture, given its width and height in pixels.
     failed : callable
         Called once with the reason if drawing does not work.
+    coarse : callable
+        Called with levels of detail that were missing in the picture, after it is drawn.
     """
 
-    def __init__(self, picture: Callable[[int, int], Picture], failed: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        picture: Callable[[int, int], Picture],
+        failed: Callable[[str], None],
+        coarse: Callable[[Sequence[LevelsOfDetail]], None],
+    ) -> None:
         # Set before the base class, which may draw at once.
         self._picture = picture
         self._failed = failed
+        self._coarse = coarse
         self._renderer: Renderer | None = None
         self._broken = False
         self._prepare: Callable[[Renderer], None] | None = None
@@ -118,6 +127,8 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
                 prepare(self._renderer)
             self._renderer.draw(*_sized(self._picture(width, height), width, height))
             self.context.flush_commands()
+            if self._renderer.missing:
+                self._coarse(self._renderer.missing)
         except Exception as error:  # noqa: BLE001  A driver fails in many ways; the rest of the editor works on.
             self._broken = True
             self._failed(f"{type(error).__name__}: {error}")

@@ -50,6 +50,8 @@ class Emphasis:
     """Video picture drawn behind the players; None without a video."""
     video_opacity: float = 1.0
     """Opacity of the video's picture, 0..1."""
+    is_final: bool = False
+    """True if missing levels of detail are made before the picture is drawn, since no better one follows."""
     in_motion: bool = False
     """True if the next picture follows immediately: drawing without a graphics card may then be less exact."""
 

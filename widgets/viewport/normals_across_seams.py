@@ -60,7 +60,7 @@ class SplitMesh:
 
 
 def split_mesh(mesh: Mesh) -> SplitMesh:
-    if not mesh.morphs:
+    if not mesh.is_skinned:
         return SplitMesh(mesh, *_split(mesh.triangles, mesh.triangle_materials))
     return SplitMesh(mesh, *_SPLITS.step(_split, mesh.triangles, mesh.triangle_materials))
 
@@ -74,7 +74,7 @@ def _split(corners: AnyIntArray, of_triangles: AnyIntArray) -> tuple[IntArray, I
 
 
 # People made from one body share their triangles.
-_SPLITS: IdentityCache[tuple[IntArray, IntArray, IntArray]] = IdentityCache(48)
+_SPLITS: IdentityCache[tuple[IntArray, IntArray, IntArray]] = IdentityCache(128)
 
 
 @dataclass(frozen=True, eq=False)

@@ -153,6 +153,7 @@ class ViewportPanel(Retranslated, QWidget):
         session.viewport.dollied.connect(self._dolly)
         scene.staged.connect(self._staged)
         scene.shown.connect(self._place_camera)
+        scene.refined.connect(self._update)
         if self._pointer is not None:
             self._pointer.moved.connect(self._update)
             self._pointer.posed.connect(self.refresh)
@@ -348,7 +349,7 @@ class ViewportPanel(Retranslated, QWidget):
         if reason is not None:
             return reason
         try:
-            canvas = Canvas(self._picture, self._drawing_failed)
+            canvas = Canvas(self._picture, self._drawing_failed, self.scene.refine)
         except Exception as error:  # noqa: BLE001  Drivers and vispy fail in many ways; the editor works without.
             return f"{type(error).__name__}: {error}"
         native: QWidget = canvas.native
@@ -395,6 +396,7 @@ class ViewportPanel(Retranslated, QWidget):
             props=session.viewport.shows("props"),
             video=session.video.picture if here and session.video.placement == "behind" else None,
             video_opacity=session.video.opacity,
+            is_final=not here,
             in_motion=moving and here,
         )
         return camera, look_of(session.tokens), emphasis

@@ -8,6 +8,7 @@ frame.
 from __future__ import annotations
 
 from collections import OrderedDict
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -26,15 +27,14 @@ from widgets.viewport.geometry import (
     crowd_edges,
 )
 from widgets.viewport.limb_capsules import HELD, LIMBS, SHADING, LimbCapsules
-from widgets.viewport.shape_model import Geometry
-from widgets.viewport.shapes import Shapes, Solid, draw_sides, looks_same, sides
+from widgets.viewport.shape_model import Geometry, LevelsOfDetail
+from widgets.viewport.shapes import MOST_NEAR, Shapes, Solid, draw_sides, looks_same, sides, unmade
 from widgets.viewport.texture_maps import MULTISAMPLED, WHOLE_PIXELS, TextureMaps
 
 FINE_PX_PER_M = 620.0
 """Pixels per metre above which a player is drawn with all vertices."""
 COARSE_PX_PER_M = 120.0
 """Pixels per metre below which a player is drawn with the fewest vertices, together with all others."""
-MOST_NEAR = 12
 HASTY_FACTOR = 1.7
 """Factor by which sizes are reduced for choosing levels of detail in fast pictures."""
 SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software", "basic render", "gdi generic")
@@ -88,6 +88,8 @@ class Renderer:
         self._sent: dict[object, object] = {}
         """Sources of the programs' uniforms: most pictures have the camera and look of the one before."""
         self._software: bool | None = None
+        self.missing: tuple[LevelsOfDetail, ...] = ()
+        """Performers' levels of detail that the last picture would have needed, had they been made."""
 
     def set_stage(self, stage: Stage, shapes: Shapes, everyone: Crowd | None) -> None:
         """Set the stage to draw.
@@ -111,9 +113,11 @@ class Renderer:
             # The same players at other positions: uploaded data remains valid.
             self._limbs = LimbCapsules(stage)
             return
-        alive = {
-            id(level) for levels in (*shapes.characters.values(), *shapes.instruments.values()) for level in levels
-        } | {id(shapes.stand), *map(id, shapes.supports.values())}
+        figures = (*shapes.characters.values(), *shapes.instruments.values())
+        alive = {id(level) for levels in figures for level in levels.made} | {
+            id(shapes.stand),
+            *map(id, shapes.supports.values()),
+        }
         self._solids = {key: solid for key, solid in self._solids.items() if key in alive}
         self._morphed.clear()
         count = len(stage.members)
@@ -179,6 +183,7 @@ class Renderer:
         width, height = size_px
         aspect = width / max(height, 1)
         gloo.set_viewport(0, 0, width, height)
+        self.missing = ()
         gloo.set_state(depth_test=False, blend=False, cull_face=False)
         gloo.clear(color=(*look.horizon, 1.0), depth=True)
         hasty = emphasis.in_motion and self._draws_without_card()
@@ -196,6 +201,13 @@ class Renderer:
         # While the camera moves, drawing waits for no texture; a still picture uses all of them.
         self._maps.left = 1 if emphasis.in_motion else _ALL
         level = self._levels(stage, camera, matrix, height / HASTY_FACTOR if hasty else height)
+        coarse = unmade(stage, shapes, np.flatnonzero((level >= 0) & (level < LEVELS - 1)))
+        if coarse and emphasis.is_final:
+            for levels in chain(*coarse.values()):
+                levels.complete()
+        elif coarse:
+            level[[*coarse]] = LEVELS - 1
+            self.missing = tuple(dict.fromkeys(chain(*coarse.values())))
         self._upload(stage, limbs, level, emphasis)
         clip = matrix.T.astype(np.float32)
         gloo.set_state(blend=True, blend_func=OVER)

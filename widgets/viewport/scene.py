@@ -13,7 +13,7 @@ from app.editor.live_poses import LivePoses, WornFaces
 from app.editor.poses import PoseSource, same
 from app.editor.session import Session, Severity
 from app.editor.translated import tr
-from app.errors import Message
+from app.errors import Message, Progress, StopRequested, raise_if_stopped
 from app.messages import text
 from app.performance.cast import LeftOut
 from app.performance.chunks import Pose
@@ -29,6 +29,7 @@ from widgets.viewport.handles import TARGETS, Handle, handles
 from widgets.viewport.limb_capsules import LimbCapsules, hit
 from widgets.viewport.overlay import NameTag, OverlayMarks, over_heads_m
 from widgets.viewport.pose_tool import PoseTool
+from widgets.viewport.shape_model import LevelsOfDetail
 from widgets.viewport.shapes import Shapes
 
 FEW = 12
@@ -56,10 +57,13 @@ class ViewportScene(QObject):
         The performers on the stage have changed.
     shown()
         The number of players with a pose has changed.
+    refined()
+        Levels of detail that were missing are made.
     """
 
     staged = Signal()
     shown = Signal()
+    refined = Signal()
 
     def __init__(self, session: Session, poses: PoseSource, tool: PoseTool, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -69,6 +73,7 @@ class ViewportScene(QObject):
         self._loaded: DrawableFigures | None = None
         self._shapes: Shapes | None = None
         """Those of the piece before, which may be worn again."""
+        self._refining = False
         self.missing = False
         """True if a pose was missing when it was last requested."""
         self._others = QTimer(self, interval=FRONT_MS, singleShot=True)
@@ -117,6 +122,29 @@ class ViewportScene(QObject):
             self._arrived,
             key="viewport.load",
         )
+
+    def refine(self, coarse: Sequence[LevelsOfDetail]) -> None:
+        """Make missing levels of detail in the background, after the present picture."""
+        if self._refining:
+            return
+        self._refining = True
+
+        def make(progress: Progress, stop_requested: StopRequested) -> None:
+            for number, levels in enumerate(coarse):
+                raise_if_stopped(stop_requested)
+                levels.complete()
+                progress((number + 1) / len(coarse))
+
+        def ended() -> None:
+            self._refining = False
+
+        def begin() -> None:
+            self._session.tasks.run(
+                Message("work.load_figures"), make, lambda _: self.refined.emit(), key="viewport.refine", ended=ended
+            )
+
+        # Deferred until the picture is painted.
+        QTimer.singleShot(0, self, begin)
 
     def sent(self, shapes: Shapes) -> None:
         """Drop the vertices of the crowd of ``shapes``, which the graphics card has received."""

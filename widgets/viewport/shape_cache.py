@@ -23,11 +23,13 @@ from app.formats.cache import cache_folder
 from app.formats.files import open_file
 from app.formats.json_data import UNREADABLE
 from app.formats.table_cache import digest_of
+from app.identity_cache import IdentityCache
 from app.rig.mesh import Mesh
 from widgets.viewport.shape_model import SHAPE, SURFACE, Geometry, MorphTargets
 
-MOST_FILES: Final = 128
-"""Greatest number of cached files of characters and instruments, earlier versions included; the oldest are deleted."""
+MOST_FILES: Final = 256
+"""Greatest number of cached files, two for each character and instrument, earlier versions included; the oldest are
+deleted."""
 _ALIGNED: Final = 64
 _BEGINNING: Final = struct.Struct("<II")
 """Format of the beginning of a file: length of the head, and CRC-32 of the remaining content."""
@@ -102,16 +104,24 @@ def kept(
 def _digest(meshes: Sequence[Mesh], made_with: tuple[object, ...]) -> str:
     digest = hashlib.blake2b(repr((digest_of(Path(__file__).parent), made_with)).encode(), digest_size=16)
     for mesh in meshes:
-        digest.update(repr(mesh.materials).encode())
-        arrays = [mesh.positions_m, mesh.normals, mesh.uvs, mesh.triangles, mesh.triangle_materials]
-        arrays += [mesh.joints, mesh.weights]
-        for morph in mesh.morphs:
-            digest.update(morph.name.encode())
-            arrays += [morph.vertices, morph.deltas_m]
-        for array in arrays:
-            digest.update(repr((array.shape, array.dtype.str)).encode())
-            digest.update(np.ascontiguousarray(array).data)
+        digest.update(repr((mesh.materials, [morph.name for morph in mesh.morphs])).encode())
+        arrays = (mesh.uvs, mesh.triangles, mesh.triangle_materials, mesh.joints, mesh.weights)
+        shared = (*arrays, *(morph.vertices for morph in mesh.morphs))
+        digest.update(_SHARED.step(_digest_of, *shared) if mesh.is_skinned else _digest_of(*shared))
+        digest.update(_digest_of(mesh.positions_m, mesh.normals, *(morph.deltas_m for morph in mesh.morphs)))
     return digest.hexdigest()
+
+
+def _digest_of(*arrays: npt.NDArray[Any]) -> bytes:
+    digest = hashlib.blake2b(digest_size=16)
+    for array in arrays:
+        digest.update(repr((array.shape, array.dtype.str)).encode())
+        digest.update(np.ascontiguousarray(array).data)
+    return digest.digest()
+
+
+# People made from one body share these arrays.
+_SHARED: Final[IdentityCache[bytes]] = IdentityCache(128)
 
 
 def _write(file: BinaryIO, levels: Sequence[Geometry]) -> None:

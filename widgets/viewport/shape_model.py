@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from threading import Lock
 
 import numpy as np
 import numpy.typing as npt
@@ -96,6 +98,53 @@ class Geometry:
         if self.surface_of is None:
             return self.surfaces
         return numbers(self.surfaces).take(self.surface_of, axis=0).view(SURFACE).reshape(-1)
+
+
+class LevelsOfDetail:
+    """Levels of detail of a character or instrument, finest first. Only the coarsest is made at once: the others are
+    seen of few performers of a large band, and take several times as long.
+
+    Parameters
+    ----------
+    coarsest : Geometry
+        The coarsest level, without morphs.
+    count : int
+        Number of levels.
+    make : callable
+        Makes the finer levels; called once, in any thread.
+    """
+
+    def __init__(self, coarsest: Geometry, count: int, make: Callable[[], tuple[Geometry, ...]]) -> None:
+        self.coarsest = coarsest
+        self._count, self._make = count, make
+        self._finer: tuple[Geometry, ...] = ()
+        self._lock = Lock()
+
+    @property
+    def made(self) -> tuple[Geometry, ...]:
+        """The levels that are made so far, in any order."""
+        return (*self._finer, self.coarsest)
+
+    @property
+    def is_complete(self) -> bool:
+        """True if all levels are made."""
+        return len(self.made) == self._count
+
+    def complete(self) -> None:
+        """Make the finer levels if they are missing."""
+        with self._lock:
+            if not self.is_complete:
+                self._finer = self._make()
+                self._make = tuple
+
+    def __iter__(self) -> Iterator[Geometry]:
+        return (self[level] for level in range(self._count))
+
+    def __getitem__(self, level: int) -> Geometry:
+        if level in (-1, self._count - 1):
+            return self.coarsest
+        self.complete()
+        return (*self._finer, self.coarsest)[level]
 
 
 def numbers(records: npt.NDArray[np.void]) -> SingleArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,7 +19,10 @@ from widgets.viewport.geometry import (
     stand,
     supports_geometry,
 )
-from widgets.viewport.shape_model import Geometry
+from widgets.viewport.shape_model import Geometry, LevelsOfDetail
+
+MOST_NEAR = 12
+"""Greatest number of performers that are drawn with finer levels of detail."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,17 +31,19 @@ class Shapes:
     chairs by player id; the stand.
     """
 
-    characters: Mapping[str, tuple[Geometry, ...]]
-    instruments: Mapping[str, tuple[Geometry, ...]]
+    characters: Mapping[str, LevelsOfDetail]
+    instruments: Mapping[str, LevelsOfDetail]
     supports: Mapping[str, Geometry]
     stand: Geometry
 
 
 def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
-    """Return the shapes of a stage, reusing those in ``before``."""
+    """Return the shapes of a stage, reusing those in ``before``. Finer levels of detail are made if all performers may
+    be near; in a larger band when they are seen near.
+    """
     # Clothes that are no longer worn are dropped, or each colour tried would be kept.
     known = {} if before is None else before.characters
-    characters: dict[str, tuple[Geometry, ...]] = {}
+    characters: dict[str, LevelsOfDetail] = {}
     for member in stage.members:
         character = member.assets.character
         if character.id not in characters:
@@ -51,6 +56,9 @@ def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
             instruments[member.assets.map.id] = instrument_levels(member.assets.instrument, stage.first_node)
         if member.supports is not None:
             supports[member.player_id] = supports_geometry(member.supports, stage.first_support)
+    if len(stage.members) <= MOST_NEAR:
+        for levels in (*characters.values(), *instruments.values()):
+            levels.complete()
     return Shapes(characters, instruments, supports, stand(stage.stand_bone))
 
 
@@ -67,6 +75,19 @@ def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
         if member.stand_m is not None:
             parts.append((row, shapes.stand))
     return crowd(parts)
+
+
+def unmade(stage: Stage, shapes: Shapes, rows: Iterable[int]) -> dict[int, list[LevelsOfDetail]]:
+    """Return those of some members of a stage, by row, of whom finer levels of detail are not made yet, with these."""
+    found: dict[int, list[LevelsOfDetail]] = {}
+    for row in map(int, rows):
+        member = stage.members[row]
+        drawn = [shapes.characters[member.assets.character.id]] if member.has_body else []
+        drawn += [shapes.instruments[member.assets.map.id]] if member.assets.held is not None else []
+        missing = [levels for levels in drawn if not levels.is_complete]
+        if missing:
+            found[row] = missing
+    return found
 
 
 def looks_same(one: Stage, other: Stage) -> bool:

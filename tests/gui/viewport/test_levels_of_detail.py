@@ -1,0 +1,58 @@
+"""Finer figures of a large band, made when they are seen near."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.editor.session import Session
+from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
+from tests.support.windows import show
+from widgets.viewport import geometry, shapes
+from widgets.viewport.panel import ViewportPanel
+from widgets.viewport.shape_model import LevelsOfDetail
+
+pytestmark = pytest.mark.drawn
+
+
+@pytest.fixture
+def panel(qtbot: QtBot, session: Session, poses: MadeNow, monkeypatch: pytest.MonkeyPatch) -> ViewportPanel:
+    """A viewport that treats the quartet like a large band."""
+    monkeypatch.setattr(shapes, "MOST_NEAR", 0)
+    geometry.character_levels.cache_clear()
+    geometry.instrument_levels.cache_clear()
+    session.set_playhead(AT_S)
+    panel = ViewportPanel(session, poses)
+    qtbot.addWidget(panel)
+    panel.resize(*SIZE)
+    return panel
+
+
+def people(panel: ViewportPanel) -> list[LevelsOfDetail]:
+    assert panel.scene.loaded is not None
+    return [*panel.scene.loaded.shapes.characters.values()]
+
+
+def test_a_still_picture_has_all_details_at_once(panel: ViewportPanel) -> None:
+    assert not any(levels.is_complete for levels in people(panel))
+    first = panel.render_image(320, 180, AT_S, "mouth")
+    assert any(levels.is_complete for levels in people(panel))
+    for levels in people(panel):
+        levels.complete()
+    assert (panel.render_image(320, 180, AT_S, "mouth") == first).all()
+
+
+def test_the_window_draws_coarse_figures_until_finer_ones_are_made(
+    qtbot: QtBot, panel: ViewportPanel, session: Session
+) -> None:
+    made = list[tuple[LevelsOfDetail, ...]]()
+    panel.scene.refined.connect(lambda: made.append(tuple(one for one in people(panel) if one.is_complete)))
+    show(panel)
+    QApplication.processEvents()
+    session.viewport.set_view("mouth")
+    qtbot.waitUntil(lambda: bool(made))
+    assert made[-1]
+    assert np.ptp(panel.render_image(320, 180, AT_S)) > 100
+    assert panel.has_gl, panel.message()

@@ -1,0 +1,272 @@
+"""A figure with all its meshes, from which the levels of detail of characters and instruments are made.
+
+What depends only on arrays that all people made from one body share is computed once for them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from app.arrays import BoolArray, FloatArray, IntArray, SingleArray
+from app.formats.scene import Material
+from app.formats.texture_colors import linear, sampled
+from app.formats.textures import TextureUse
+from app.identity_cache import IdentityCache
+from app.rig.mesh import Mesh, plain_materials
+from widgets.viewport.normals_across_seams import SplitMesh, numbered, row_keys, split_mesh, turned_morphs
+from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
+from widgets.viewport.texture_groups import texture_groups, textured_looks, uv_islands
+
+PLAIN_LEAST_M = 0.08
+"""Thickness in metres below which a mesh without morphs (eyes) is not simplified more than skin."""
+LEAST_CELL_M = 1e-5
+"""Finest cell in metres for flat meshes."""
+_MOST_SHORT = 2**16 - 1
+"""Greatest number of vertices with 16-bit indices."""
+
+
+class WholeFigure:
+    """All meshes of a character or instrument concatenated.
+
+    Parameters
+    ----------
+    meshes : sequence of Mesh
+        The meshes.
+    plain_factor : float
+        Factor by which cloth and hair are coarser than skin.
+    """
+
+    def __init__(self, meshes: Sequence[Mesh], plain_factor: float) -> None:
+        splits = [split_mesh(mesh) for mesh in meshes]
+        counts = [len(split.vertices) for split in splits]
+        self._starts = np.cumsum([0, *counts])
+        self._splits = splits
+        self._bends = any(split.mesh.joints.shape[1] > 1 for split in splits)
+        self._triangles = np.concatenate(
+            [split.triangles + start for split, start in zip(splits, self._starts, strict=False)]
+        )
+        total = int(self._starts[-1])
+        self._shape = np.zeros(total, SHAPE)
+        self._surface = np.zeros(total, SURFACE)
+        self._part = np.repeat(np.arange(len(splits)), counts)
+        thick_m = [_thickness_m(split.mesh) for split in splits]
+        self._thickness = np.repeat(thick_m, counts)
+        self._two_sided = np.zeros(total, dtype=bool)
+        self._uvs, self._look = np.zeros((total, 2), np.float32), np.full(total, -1, np.int32)
+        self._shades = np.ones((total, 3), np.float32)
+        """Colour of a texture at a vertex, beside its mean."""
+        looks = textured_looks(meshes)
+        plain = [not mesh.morphs and own_m > PLAIN_LEAST_M for mesh, own_m in zip(meshes, thick_m, strict=True)]
+        self._coarser = np.repeat(np.where(plain, plain_factor, 1.0), counts)
+        for split, start in zip(splits, self._starts, strict=False):
+            own = slice(int(start), int(start) + len(split.vertices))
+            mesh = split.mesh
+            self._shape["a_position"][own] = mesh.positions_m.take(split.vertices, axis=0)
+            self._shape["a_normal"][own] = mesh.normals.take(split.vertices, axis=0)
+            bones, weights = _strongest(split)
+            self._surface["a_bones"][own, : bones.shape[1]] = bones
+            self._surface["a_weights"][own, : bones.shape[1]] = weights
+            plains = plain_materials(mesh)
+            colors = np.array([(*material.base_color[:3], material.roughness) for material in plains], np.float32)
+            metallic = np.array([material.metallic for material in plains], np.float32)
+            self._surface["a_color"][own] = colors[split.materials]
+            self._surface["a_metallic"][own] = metallic[split.materials]
+            self._texture(own, split, looks, plains)
+            two_sided = np.array([material.double_sided for material in mesh.materials])
+            self._two_sided[own] = two_sided[split.materials]
+        colors = np.ascontiguousarray(self._surface["a_color"]).view(np.int32)
+        islands = np.concatenate([_islands(split) for split in splits])
+        self._looks = numbered(row_keys(self._part, islands, *colors.T))[1]
+        """The same number for vertices of one mesh and colour and, where they have textures, of one part of these."""
+        self._surface["a_color"][:, :3] *= self._shades
+
+    def _texture(self, own: slice, split: SplitMesh, looks: tuple[Material, ...], plains: tuple[Material, ...]) -> None:
+        """Store texture coordinates, textured materials and colours of a mesh's vertices, which are in the range
+        ``own``.
+        """
+        mesh, places = split.mesh, _placed(split)
+        self._uvs[own] = places.uvs
+        for number, (material, plain) in enumerate(zip(mesh.materials, plains, strict=True)):
+            if material not in looks:
+                continue
+            here = np.flatnonzero(split.materials == number)
+            self._look[own][here] = looks.index(material)
+            found = None
+            if material.textures.color is not None and material.alpha_mode == "opaque":
+                found = _pictured(material.textures.color, places, number)
+            if found is not None:
+                self._shades[own][here] = found * material.base_color[:3] / np.maximum(plain.base_color[:3], 1e-4)
+
+    def level(self, cell_m: float, thin_share: float, far: bool) -> Geometry:
+        """Return one level of detail; the ``far`` one has no morphs, and mean colours instead of textures."""
+        kept, triangles = self._clustered(cell_m, thin_share)
+        names = () if far else tuple(self._morphs)
+        moved = np.zeros(len(self._shape), dtype=bool)
+        for name in names:
+            moved[self._morphs[name][0]] = True
+        # Vertices that morph come first, so that only they are uploaded again.
+        order = kept[np.argsort(~moved[kept], kind="stable")]
+        place = np.full(len(self._shape), -1, np.int64)
+        place[order] = np.arange(len(order))
+        count = int(moved[kept].sum())
+        shape = self._shape.take(order)
+        face = self._face(names, shape, place, count) if count else None
+        # Vertices of different materials are never merged, so the first corner decides for the triangle.
+        last = self._two_sided[triangles[:, 0]]
+        look = self._look[triangles[:, 0]]
+        textured = not far and bool((look >= 0).any())
+        if textured:
+            ranked = np.lexsort((look, last))
+            sorted_triangles = triangles[ranked]
+        else:
+            sorted_triangles = np.concatenate([triangles[~last], triangles[last]])
+        surfaces, surface_of = self._surfaces(order)
+        numbered = place[sorted_triangles]
+        corners = numbered.astype(np.uint16) if len(order) <= _MOST_SHORT else numbered.astype(np.uint32)
+        if not textured:
+            return Geometry(shape, surfaces, corners, int((~last).sum()), face, surface_of)
+        groups = texture_groups(look[ranked], last[ranked])
+        return Geometry(shape, surfaces, corners, int((~last).sum()), face, surface_of, self._uvs[order], groups)
+
+    def _surfaces(self, order: IntArray) -> tuple[npt.NDArray[np.void], npt.NDArray[np.uint16] | None]:
+        """Return the surfaces of the vertices in ``order`` for `Geometry.surfaces` and `Geometry.surface_of`: each
+        distinct surface once with the index for every vertex, or one surface for each vertex and None.
+        """
+        if self._bends:
+            return self._surface.take(order), None
+        rows = numbers(self._surface).take(order, axis=0)
+        keys = row_keys(*np.ascontiguousarray(rows.T[np.ptp(rows, axis=0) > 0.0]).view(np.int32), size=len(order))
+        first, surface_of = numbered(keys)
+        if len(first) > np.iinfo(np.uint16).max:
+            return self._surface.take(order), None
+        return self._surface.take(order[first]), surface_of.astype(np.uint16)
+
+    def _face(self, names: tuple[str, ...], shape: npt.NDArray[np.void], place: IntArray, count: int) -> MorphTargets:
+        targets = []
+        for name in names:
+            vertices, moves, turns = self._morphs[name]
+            own = place[vertices]
+            here = own >= 0
+            targets.append((own[here].astype(np.int32), np.concatenate([moves[here], turns[here]], axis=1)))
+        rest = np.ascontiguousarray(shape[:count]).view(np.float32).reshape(count, -1).copy()
+        return MorphTargets(count, names, tuple(targets), rest)
+
+    def _clustered(self, cell_m: float, thin_share: float) -> tuple[IntArray, IntArray]:
+        """Return the kept vertices (K,) and the triangles between them (T, 3) of a coarser mesh: the first vertex in
+        each cell and surface is kept. ``cell_m`` 0 keeps all."""
+        if cell_m <= 0.0:
+            return np.arange(len(self._shape)), self._triangles
+        wide = np.maximum(np.minimum(cell_m * self._coarser, thin_share * self._thickness), LEAST_CELL_M)[:, None]
+        cells = np.floor(self._shape["a_position"].astype(np.float64) / wide).astype(np.int64)
+        # Surfaces that face in different directions are not merged through a thin wall.
+        facing = np.argmax(np.abs(self._shape["a_normal"]), axis=1)
+        sign = np.take_along_axis(self._shape["a_normal"], facing[:, None], axis=1)[:, 0] > 0.0
+        keys = row_keys(*cells.T, facing * 2 + sign, self._looks)
+        first, cluster = numbered(keys)
+        triangles = first[cluster][self._triangles]
+        a, b, c = triangles.T
+        triangles = triangles[(a != b) & (b != c) & (c != a)]
+        triangles = triangles[numbered(row_keys(*np.sort(triangles, axis=1).T))[0]]
+        used = np.zeros(len(self._shape), np.bool_)
+        used[triangles] = True
+        return np.flatnonzero(used), triangles
+
+    @cached_property
+    def _morphs(self) -> dict[str, tuple[IntArray, SingleArray, SingleArray]]:
+        """Return every morph over all meshes by name: vertex indices, displacements, and changes of the normals."""
+        found: dict[str, list[tuple[IntArray, SingleArray, SingleArray]]] = {}
+        for split, start in zip(self._splits, self._starts, strict=False):
+            if not split.mesh.morphs:
+                continue
+            for morph, turned in zip(split.mesh.morphs, turned_morphs(split), strict=True):
+                parts = found.setdefault(morph.name, [])
+                if len(morph.vertices):
+                    parts.append((turned.vertices + start, turned.moves_m, turned.turns))
+        return {
+            name: (
+                np.concatenate([part[0] for part in parts]),
+                np.concatenate([part[1] for part in parts]),
+                np.concatenate([part[2] for part in parts]),
+            )
+            for name, parts in found.items()
+            if parts
+        }
+
+
+def _thickness_m(mesh: Mesh) -> float:
+    """Return the smallest side of the box around a mesh, in metres."""
+    sides_m = np.ascontiguousarray(mesh.positions_m.T)
+    return float((sides_m.max(axis=1) - sides_m.min(axis=1)).min())
+
+
+def _strongest(split: SplitMesh) -> tuple[npt.NDArray[np.int32], SingleArray]:
+    mesh = split.mesh
+    if not mesh.is_skinned:
+        return _strongest_of(split.vertices, mesh.joints, mesh.weights)
+    return _STRONGEST.step(_strongest_of, split.vertices, mesh.joints, mesh.weights)
+
+
+def _strongest_of(
+    vertices: IntArray, joints: npt.NDArray[np.int32], weights: SingleArray
+) -> tuple[npt.NDArray[np.int32], SingleArray]:
+    """Return the `BONES_PER_VERTEX` strongest joints of each of some vertices (V, K) with their weights, which sum to
+    1.
+    """
+    joints, weights = joints.take(vertices, axis=0), weights.take(vertices, axis=0)
+    if joints.shape[1] > BONES_PER_VERTEX:
+        order = np.argsort(-weights, axis=1, kind="stable")[:, :BONES_PER_VERTEX]
+        joints, weights = np.take_along_axis(joints, order, 1), np.take_along_axis(weights, order, 1)
+    total = weights.sum(axis=1, keepdims=True)
+    return joints, (weights / np.where(total > 0.0, total, 1.0)).astype(np.float32)
+
+
+_STRONGEST: IdentityCache[tuple[npt.NDArray[np.int32], SingleArray]] = IdentityCache(128)
+
+
+@dataclass(frozen=True, eq=False)
+class _Places:
+    """Texture coordinates (V, 2) and materials (V,) of the vertices of a split mesh."""
+
+    uvs: SingleArray
+    materials: IntArray
+
+
+def _placed(split: SplitMesh) -> _Places:
+    if not split.mesh.is_skinned:
+        return _places(split.vertices, split.materials, split.mesh.uvs)
+    return _PLACES.step(_places, split.vertices, split.materials, split.mesh.uvs)
+
+
+def _places(vertices: IntArray, materials: IntArray, uvs: SingleArray) -> _Places:
+    return _Places(uvs.take(vertices, axis=0), materials)
+
+
+_PLACES: IdentityCache[_Places] = IdentityCache(128)
+
+
+@lru_cache(maxsize=32)
+def _pictured(use: TextureUse, places: _Places, number: int) -> FloatArray | None:
+    """Return the linear colours (N, 3) of a texture at the vertices with one material; None if it cannot be read."""
+    found = sampled(use, places.uvs[places.materials == number])
+    return None if found is None else linear(found[:, :3])
+
+
+def _islands(split: SplitMesh) -> IntArray:
+    textured = np.array([bool(material.textures.uses) for material in split.mesh.materials])[split.materials]
+    if not split.mesh.is_skinned or not textured.any():
+        return uv_islands(split.triangles, textured)
+    return _ISLANDS.step(uv_islands, split.triangles, _same(textured.tobytes()))
+
+
+@lru_cache(maxsize=128)
+def _same(content: bytes) -> BoolArray:
+    """Convert bytes to an array of truth values; equal bytes give the same object."""
+    return np.frombuffer(content, np.bool_)
+
+
+_ISLANDS: IdentityCache[IntArray] = IdentityCache(128)
