@@ -107,6 +107,8 @@ CLOTHES = {
 COMPACT = ("hair", "shirt", "trousers")
 """Meshes with normals, texture coordinates and weights as integers, which hands never touch."""
 SHIRT_COLOUR = (0.75, 0.75, 0.74)
+HAIR_ROUGHNESS = 0.85
+"""Of hair and brows, which share a material in exported files; smoother, dark hair turns grey against the light."""
 
 CHARACTERS = (
     Character(
@@ -202,7 +204,7 @@ def _tint(colour: tuple[float, float, float], mean: float) -> tuple[float, float
 def _hair_material(textures: tuple[Texture, Texture], colour: tuple[float, float, float]) -> Material:
     return Material(
         _tint(colour, STRANDS_MEAN_LINEAR),
-        0.70,
+        HAIR_ROUGHNESS,
         two_sided=True,
         colour_texture=textures[0],
         normal_texture=textures[1],
@@ -263,7 +265,7 @@ def build(character: Character, source: Source, assets: Path, path: Path) -> Ske
         "hair": _hair_material(hair_textures, look.hair_colour),
         "brows": Material(
             _tint(look.hair_colour, STRANDS_MEAN_LINEAR),
-            0.7,
+            HAIR_ROUGHNESS,
             two_sided=True,
             colour_texture=brow_texture,
             alpha_cutoff=ALPHA_CUTOFF,

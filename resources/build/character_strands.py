@@ -14,7 +14,7 @@ import numpy as np
 from character_assets import Asset, asset_surface, read_asset, read_material
 from character_fine_hair import CURLY, PATCH_PX, STRAIGHT, drawn_hairs, free_patch, skin_of, with_fine_hairs
 from character_skin import read_picture
-from character_surface import Surface, smooth_normals, triangulate, vertex_normals
+from character_surface import Surface, parts_of, smooth_normals, triangulate, vertex_normals, weld
 from character_textures import Texture, jpeg, noise, normals_of, png, sampled, spread, to_linear, to_srgb
 from PIL import Image, ImageDraw
 from scipy.ndimage import binary_opening, distance_transform_edt, gaussian_filter, label, map_coordinates, maximum
@@ -31,6 +31,8 @@ STRANDS_MEAN_LINEAR = 0.32
 """Mean of the grey strands, by which a hair colour is divided to tint them, up to fair hair."""
 ALPHA_CUTOFF = 0.4
 LOCK_HEIGHT, STRAND_SLOPE = 0.8, 0.23
+HAIR_HEIGHT = 2.0
+"""Height of single hairs, in deviations of strands."""
 STRAND_CONTRAST, LOCK_CONTRAST = 0.55, 0.32
 """Deviations of the grey of single strands and of locks."""
 FLECK_PX = 150
@@ -52,6 +54,12 @@ the end of a lock is its root, and the width over which roots dissolve.
 """
 CURLED = frozenset({"afro01"})
 """Styles of curls, whose painted lace has the grid of a repeated tile; curls are drawn instead."""
+CAP_ALONE, CAP_FACES = frozenset({"afro01", "short04"}), 100
+"""Styles without their locks, half of which are lit from behind or end bluntly on the forehead, and the least number
+of faces of a cap.
+"""
+TUFT_M = 0.04
+"""Extent below which a part is a tuft."""
 CURLS_PX, CURL_STEPS, CURL_BLUR_PX, LACE, LACE_CLOSED = (7.0, 30.0), 7, 1.1, (0.3, 0.8, 0.35), 1.5
 """Waves of the directions of curls, half their length in steps and their width; least and greatest median of the
 alpha of lace and the greatest spread of it, and by how much it is closed."""
@@ -247,7 +255,7 @@ def with_single_hairs(strands: Strands, corner: tuple[int, int], curled: bool = 
     shade, hairs = drawn_hairs(curled)
     grey, alpha, heights = strands.grey.copy(), strands.alpha.copy(), strands.heights.copy()
     grey[place], alpha[place] = np.clip(STRANDS_MEAN_LINEAR * shade, 0.02, 0.95), hairs
-    heights[place] = 0.0
+    heights[place] = HAIR_HEIGHT * gaussian_filter(hairs, 0.8)
     return replace(strands, grey=grey, alpha=alpha, heights=heights)
 
 
@@ -318,10 +326,12 @@ def hair(folder: Path, style: str, source: Source, fit: SkeletonFit) -> tuple[Su
         raise ValueError(f"{style} has no material")
     painted = read_picture(read_material(asset.material).textures["diffuseTexture"])
     curled = style in CURLED
-    if curled:
-        asset = _without_tufts(asset)
+    # Beyond its edge a picture begins again, in files of whole numbers too.
+    asset = replace(asset, uvs=np.clip(asset.uvs, 0.0, 1.0))
+    if style in CAP_ALONE:
+        asset = _without_locks(asset)
     used = covered(asset.uvs, asset.uv_faces, HAIR_PX)
-    surface = asset_surface(asset, source, fit, "hair", "hair")
+    surface = lit_like_the_cap(asset_surface(asset, source, fit, "hair", "hair"))
     positions = asset.binding.positions(source.vertices)
     ends_here = mesh_ends(asset, positions, _near_skin(positions, source), HAIR_PX)
     if style in OVER_AN_EYE:
@@ -336,11 +346,30 @@ def hair(folder: Path, style: str, source: Source, fit: SkeletonFit) -> tuple[Su
     return surface, *hair_textures(style, with_single_hairs(made, corner, curled))
 
 
-def _without_tufts(asset: Asset) -> Asset:
-    """The asset without faces that stand alone, half of which are lit from behind as they stand across the rest."""
-    shared = np.bincount(np.unique(asset.faces, axis=0).ravel(), minlength=len(asset.binding.corners)) > 1
-    kept = shared[asset.faces].any(axis=1)
+def _without_locks(asset: Asset) -> Asset:
+    """The asset without its locks: parts of few faces that are connected to no others."""
+    parts = parts_of(asset.faces, len(asset.binding.corners))[asset.faces[:, 0]]
+    kept = np.bincount(parts)[parts] >= CAP_FACES
     return replace(asset, faces=asset.faces[kept], uv_faces=asset.uv_faces[kept])
+
+
+def lit_like_the_cap(surface: Surface) -> Surface:
+    """The surface with tufts, which stand on the cap of hair, turned and lit as the cap is beneath them."""
+    (material,) = surface.triangles
+    faces = surface.triangles[material]
+    labels = weld(surface)
+    parts = parts_of(labels[faces], labels.max() + 1)[labels]
+    extents = np.array([np.ptp(surface.positions[parts == part], axis=0).max() for part in range(parts.max() + 1)])
+    tuft = extents[parts] < TUFT_M
+    if not tuft.any() or tuft.all():
+        return surface
+    nearest = cKDTree(surface.positions[~tuft]).query(surface.positions[tuft])[1]
+    normals = surface.normals.copy()
+    normals[tuft] = surface.normals[~tuft][nearest]
+    a, b, c = (surface.positions[faces[:, k]] for k in range(3))
+    inwards = np.einsum("nk,nk->n", np.cross(b - a, c - a), normals[faces[:, 0]]) < 0.0
+    turned = np.where((inwards & tuft[faces[:, 0]])[:, None], faces[:, [0, 2, 1]], faces)
+    return replace(surface, normals=normals, triangles={material: turned})
 
 
 def _combed(surface: Surface, fit: SkeletonFit, heights_m: tuple[float, ...], shares: tuple[float, ...]) -> Surface:

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,13 @@ def weld(surface: Surface) -> np.ndarray:
     """(N,) label per vertex, equal for vertices in one place (the two sides of a texture seam)."""
     keys = np.round(surface.positions / 1e-6).astype(np.int64)
     return np.unique(keys, axis=0, return_inverse=True)[1].ravel()
+
+
+def parts_of(faces: np.ndarray, count: int) -> np.ndarray:
+    """(count,) number of the part that each vertex belongs to, parts being what faces (F, K) connect."""
+    edges = np.concatenate([faces[:, [k, k + 1]] for k in range(faces.shape[1] - 1)])
+    links = coo_array((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(count, count))
+    return connected_components(links, directed=False)[1]
 
 
 def smooth_normals(surface: Surface) -> Surface:

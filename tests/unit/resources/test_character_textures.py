@@ -25,10 +25,10 @@ PAINTED = {
     "braid01": 0.507,
     "long01": 0.577,
     "short02": 0.390,
-    "short04": 0.430,
+    "short04": 0.379,
 }
-"""Share of each style's picture that is opaque as MakeHuman's authors painted it, where faces use it (of `afro01`
-without its tufts).
+"""Share of each style's picture that is opaque as MakeHuman's authors painted it, where faces use it (of `afro01` and
+`short04` without their locks).
 """
 
 
@@ -298,6 +298,19 @@ def test_fine_hairs_bridge_from_the_edge_of_hair_to_the_skin(build_module: Modul
     assert v.max() <= 400 + fine.PATCH_PX[0]
     # Normals of cards are those of the hair beneath, so that no card is lit apart.
     assert made.normals[81:] == pytest.approx(np.tile([0.0, 1.0, 0.0], (6 * len(cards), 1)))
+
+
+def test_tufts_are_lit_like_the_cap_that_they_stand_on(build_module: Module) -> None:
+    strands, surface = build_module("character_strands"), build_module("character_surface")
+    cap = np.array([(0, 0, 0), (0, 0, 0.2), (0.2, 0, 0.2), (0.2, 0, 0)], dtype=float)
+    tuft = np.array([(0.1, 0.005, 0.1), (0.11, 0.008, 0.1), (0.11, 0.008, 0.11)], dtype=float)
+    faces = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6]])
+    for turned in (faces, np.array([[0, 1, 2], [0, 2, 3], [4, 6, 5]])):
+        whole = surface.modelled("hair", np.concatenate([cap, tuft]), np.ones((7, 1)), {"hair": turned})
+        made = strands.lit_like_the_cap(whole)
+        assert made.normals == pytest.approx(np.tile([0.0, 1.0, 0.0], (7, 1)))
+        a, b, c = made.positions[made.triangles["hair"][2]]
+        assert np.cross(b - a, c - a)[1] > 0
 
 
 def test_single_hairs_are_drawn_where_nothing_else_is(build_module: Module) -> None:

@@ -38,6 +38,7 @@ def test_a_style_of_hair_sits_on_the_head_of_another_body(style: str) -> None:
     assert abs(np.ptp(hair.positions_m[:, 0]) / 2 + hair.positions_m[:, 0].min()) < 0.03, "about the middle"
     assert hair.materials[0].alpha_mode == "mask"
     assert hair.materials[0].textures.color is not None
+    assert np.ptp(hair.uvs[hair.triangles], axis=1).max() < 0.3, "no face goes around the edge of its picture"
 
 
 @pytest.mark.parametrize("style", hair_styles())
