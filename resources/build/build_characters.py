@@ -108,7 +108,7 @@ COMPACT = ("hair", "shirt", "trousers")
 """Meshes with normals, texture coordinates and weights as integers, which hands never touch."""
 SHIRT_COLOUR = (0.75, 0.75, 0.74)
 HAIR_ROUGHNESS = 0.85
-"""Of hair and brows, which share a material in exported files; smoother, dark hair turns grey against the light."""
+"""Roughness of hair and brows, one material in exported files; smoother dark hair is grey against the light."""
 
 CHARACTERS = (
     Character(
