@@ -18,7 +18,8 @@ from character_cloth import (
 )
 from character_surface import Surface
 from scipy.ndimage import gaussian_filter
-from wardrobe_pieces import Wearer, four_bones
+from wardrobe_pieces import Wearer, few_bones
+from wardrobe_seated import on_lap
 from wardrobe_sewn import moved_to, weights_near
 
 EASE_M, HEM_M = 0.009, 0.050
@@ -27,6 +28,8 @@ SEAT_M = 0.006
 """Greatest distance of trousers from the hull of seat and waist."""
 TAPER = 0.075
 AROUND, FLARE = 73, 0.04
+LAP_M, LAP_OUT_M = 0.06, 0.012
+"""Height over the belt from which jackets go with the lap, and their distance from the drape of the trunk."""
 
 
 def drawn_to(points: np.ndarray, profile: Profile, out_m: np.ndarray, share: np.ndarray) -> np.ndarray:
@@ -91,12 +94,12 @@ def straight_legs(wearer: Wearer, trousers: Surface) -> Surface:
         draped = drawn_to(leg, drape, EASE_M + crease, share)
         draped[:, 0] = np.maximum(draped[:, 0], np.minimum(leg[:, 0], 0.004))
         places[own] = draped * np.array([sign, 1.0, 1.0])
-    return moved_to(wearer, replace(trousers, weights=four_bones(weights)), places)
+    return moved_to(wearer, replace(trousers, weights=few_bones(weights)), places)
 
 
-def tail(body: Cloth, below: Cloth, heights: np.ndarray, profile: Profile, out_m: float) -> Cloth:
+def tail(wearer: Wearer, body: Cloth, below: Cloth, heights: np.ndarray, profile: Profile, out_m: float) -> Cloth:
     """The part of a coat below its waist, from the highest to the lowest of `heights`, `out_m` off a drape; its upper
-    edge goes with the `body` of the coat, its hem with the trousers `below` it.
+    edge goes with the `body` of the coat, its hem with the trousers `below` it, or lies on the lap.
     """
     angles = 2 * np.pi * np.arange(AROUND) / (AROUND - 1)
     rows = []
@@ -111,16 +114,32 @@ def tail(body: Cloth, below: Cloth, heights: np.ndarray, profile: Profile, out_m
     points = np.concatenate(rows)
     legs = weights_near(below, points).reshape(len(heights), AROUND, -1)
     weights = gaussian_filter(legs, (1.0, 2.5, 0.0), mode=("nearest", "wrap", "nearest")).reshape(len(points), -1)
+    weights = on_lap(wearer, below, points, weights, AROUND)
     near = smoothstep(points[:, 1], heights[0] - 0.07, heights[0] - 0.01)[:, None]
     weights = near * weights_near(body, points) + (1.0 - near) * weights
-    return to_triangles(Cloth(points, weights, grid_faces(len(heights), AROUND, closed=False)))
+    return to_triangles(Cloth(points, few_bones(weights), grid_faces(len(heights), AROUND, closed=False)))
+
+
+def weights_with(wearer: Wearer, outer: Cloth, below: Cloth, from_m: float) -> np.ndarray:
+    """Weights (N, J) of a garment whose part below a height in the T-pose moves as the one below it does, with no step
+    between."""
+    arms = [index for index, name in enumerate(wearer.fit.names) if "Arm" in name or "Hand" in name]
+    share = 1.0 - smoothstep(outer.points[:, 1], from_m - 0.10, from_m)
+    share = (share * (outer.weights[:, arms].sum(axis=1) < 0.3))[:, None]
+    return few_bones((1.0 - share) * outer.weights + share * weights_near(below, outer.points))
 
 
 def going_with(wearer: Wearer, outer: Surface, below: Cloth, from_m: float) -> Surface:
-    """A garment whose part below a height in the T-pose moves as the garment below it does, with no step between."""
-    places = wearer.fit.to_t_pose(outer.positions, outer.weights)
-    arms = [index for index, name in enumerate(wearer.fit.names) if "Arm" in name or "Hand" in name]
-    share = 1.0 - smoothstep(places[:, 1], from_m - 0.10, from_m)
-    share = (share * (outer.weights[:, arms].sum(axis=1) < 0.3))[:, None]
-    weights = four_bones((1.0 - share) * outer.weights + share * weights_near(below, places))
-    return moved_to(wearer, replace(outer, weights=weights), places)
+    """A garment whose part below a height in the T-pose moves as the garment below it does."""
+    cloth = Cloth(wearer.fit.to_t_pose(outer.positions, outer.weights), outer.weights, outer.all_triangles())
+    moving = replace(outer, weights=weights_with(wearer, cloth, below, from_m))
+    return moved_to(wearer, moving, cloth.points)
+
+
+def over_lap(wearer: Wearer, body: Cloth, below: Cloth) -> Cloth:
+    """A grid about the hips that lies on the lap of a seated player in the trousers `below` it, for the weights of
+    jackets and shirts."""
+    waist, hem_m = wearer.tailoring.belt_m + LAP_M, float(body.points[:, 1].min()) - 0.01
+    drape = smoothed(hang(wearer.tailoring.trunk, 0.30), 2.0, 1.5)
+    rows = int(np.ceil((waist - hem_m) / 0.02)) + 1
+    return tail(wearer, body, below, np.linspace(waist, hem_m, rows), drape, LAP_OUT_M)

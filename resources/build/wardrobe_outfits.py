@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from character_cloth import Cloth, cut, join
 from character_surface import Surface, modelled
-from wardrobe_fitted import going_with, straight_legs, tail
+from wardrobe_fitted import LAP_M, going_with, over_lap, straight_legs, tail
 from wardrobe_marching import belt, cuffs, epaulettes, shako, stripes
-from wardrobe_pieces import ACCENT, MAIN, SECOND, Wearer, all_of, four_bones, linen_apart, piece, skin
+from wardrobe_pieces import ACCENT, MAIN, SECOND, Wearer, all_of, few_bones, linen_apart, piece, skin
 from wardrobe_polo import polo_shirt
 from wardrobe_sailor import sailor_collar, scarf
-from wardrobe_sewn import Skirt, bow_tie, garment, moved_to, over, plain, shell, skirt, throat
+from wardrobe_sewn import SKIRT_BONES, Skirt, bow_tie, garment, moved_to, over, plain, shell, skirt, throat
 from wardrobe_shirt import own_shirt
 from wardrobe_tunic import TUNIC_M, buttons, close_dress, front_strip, ribbon, stand_collar, tunic, tunic_drape
 
@@ -128,8 +128,15 @@ def cloth_of(wearer: Wearer, surface: Surface) -> Cloth:
     return Cloth(wearer.fit.to_t_pose(surface.positions, surface.weights), surface.weights, surface.all_triangles())
 
 
+def on_lap(wearer: Wearer, jacket: Surface, legs: Surface) -> Surface:
+    """A jacket that lies on the lap of a seated player in trousers."""
+    lap = over_lap(wearer, cloth_of(wearer, jacket), cloth_of(wearer, legs))
+    return going_with(wearer, jacket, lap, wearer.tailoring.belt_m + LAP_M)
+
+
 def _suit(wearer: Wearer) -> Pieces:
-    return [(suit_jacket(wearer), "top"), (suit_trousers(wearer), "bottom")]
+    legs = suit_trousers(wearer)
+    return [(on_lap(wearer, suit_jacket(wearer), legs), "top"), (legs, "bottom")]
 
 
 def _blouse_and_trousers(wearer: Wearer) -> Pieces:
@@ -146,16 +153,17 @@ def _tie_alone(wearer: Wearer) -> Pieces:
 
 
 def _blazer(wearer: Wearer) -> Pieces:
-    return [(suit_jacket(wearer), "top"), (grey_trousers(wearer), "bottom")]
+    legs = grey_trousers(wearer)
+    return [(on_lap(wearer, suit_jacket(wearer), legs), "top"), (legs, "bottom")]
 
 
 def _school_legs(wearer: Wearer, material: str, checked: bool, socks: str) -> Pieces:
     """A pleated skirt to the knee, bare knees, socks below them."""
     tailoring = wearer.tailoring
     hem, sock = tailoring.knee_m + 0.015, tailoring.knee_m - 0.10
-    pleated = skirt(wearer, Skirt(tailoring.belt_m + 0.02, hem, 0.05, 0.012, 16), checked=checked)
+    pleated = skirt(wearer, Skirt(tailoring.belt_m - 0.015, hem, 0.05, 0.012, 16), checked=checked)
     return [
-        (garment("skirt", {material: [pleated]}, wearer), "bottom"),
+        (garment("skirt", {material: [pleated]}, wearer, SKIRT_BONES), "bottom"),
         (garment("socks", {socks: [shell(wearer, tailoring.foot_m + 0.045, sock, 0.002)]}, wearer), "bottom"),
         (bare_legs(wearer, sock - 0.05, hem + 0.16), "skin"),
     ]
@@ -174,15 +182,16 @@ def _blazer_and_skirt(wearer: Wearer) -> Pieces:
 
 
 def _roomy_jacket(wearer: Wearer, below: Surface) -> Surface:
-    """Jacket of all women's suits, which leaves room for a skirt and goes with it."""
+    """A jacket that leaves room for a skirt and goes with it."""
     cloth, waist = cloth_of(wearer, below), wearer.tailoring.belt_m
     jacket = going_with(wearer, suit_jacket(wearer), cloth, waist - 0.02)
-    return moved_to(wearer, jacket, over(wearer, cloth_of(wearer, jacket), cloth, waist + 0.05, 0.013, 0.05).points)
+    return moved_to(wearer, jacket, over(wearer, cloth_of(wearer, jacket), cloth, waist + 0.05, 0.016, 0.05).points)
 
 
-def _roomy_suit(wearer: Wearer) -> Pieces:
-    below = _school_legs(wearer, SECOND, True, MAIN)[0][0]
-    return [(_roomy_jacket(wearer, below), "top"), (suit_trousers(wearer), "bottom")]
+def _suit_of_women(wearer: Wearer) -> Pieces:
+    """A suit whose jacket lies on its trousers and goes with them."""
+    legs = suit_trousers(wearer)
+    return [(worn_over(wearer, on_lap(wearer, suit_jacket(wearer), legs), legs), "top"), (legs, "bottom")]
 
 
 def hemmed(wearer: Wearer, top: Surface, hem_m: float, side: float = 1.0) -> Surface:
@@ -194,7 +203,7 @@ def hemmed(wearer: Wearer, top: Surface, hem_m: float, side: float = 1.0) -> Sur
     own = cut(Cloth(places, np.concatenate([top.weights, top.uvs], axis=1), faces), side * (places[:, 1] - hem_m))
     weights, uvs = own.weights[:, :joints], own.weights[:, joints:]
     rest = wearer.fit.to_rest_pose(own.points, weights)
-    return modelled(top.name, rest, four_bones(weights), {material: own.faces}, uvs=uvs)
+    return modelled(top.name, rest, few_bones(weights), {material: own.faces}, uvs=uvs)
 
 
 def _sailor(wearer: Wearer) -> Pieces:
@@ -208,17 +217,22 @@ def _sailor(wearer: Wearer) -> Pieces:
     return [(top, "top"), (over_it, "top"), *legs, (bare_chest(wearer), "skin"), (arms, "skin")]
 
 
+def _hip_m(wearer: Wearer) -> float:
+    """Height of the hip joints."""
+    return float(wearer.fit.positions_t[wearer.fit.index("leftUpperLeg")][1])
+
+
 def _closed(wearer: Wearer, hem_m: float, below: Surface) -> Cloth:
     """A tunic from the neck to its hem, over trousers."""
     waist, drape = wearer.tailoring.belt_m, tunic_drape(wearer)
     own, legs = tunic(wearer, waist), cloth_of(wearer, below)
-    low = tail(own, legs, np.linspace(waist + 0.002, hem_m, 11), drape, TUNIC_M)
+    low = tail(wearer, own, legs, np.linspace(waist + 0.002, hem_m, 11), drape, TUNIC_M)
     low = over(wearer, low, legs, waist, 0.006)
     return join(own, low)
 
 
 def _gakuran(wearer: Wearer) -> Pieces:
-    hem, legs = wearer.tailoring.crotch_m + 0.09, suit_trousers(wearer)
+    hem, legs = _hip_m(wearer) - 0.10, suit_trousers(wearer)
     own = _closed(wearer, hem, legs)
     top = wearer.tailoring.collar_point[1] - 0.055
     heights = np.linspace(top - 0.025, wearer.tailoring.belt_m - 0.01, 5)
@@ -230,7 +244,7 @@ def _gakuran(wearer: Wearer) -> Pieces:
 
 def _marching(wearer: Wearer) -> Pieces:
     tailoring, legs = wearer.tailoring, grey_trousers(wearer)
-    hem = tailoring.crotch_m + 0.14
+    hem = _hip_m(wearer) - 0.055
     own = _closed(wearer, hem, legs)
     top, low = tailoring.collar_point[1] - 0.085, tailoring.belt_m + 0.055
     heights = np.linspace(top, low, 6)
@@ -275,18 +289,19 @@ def _dress(wearer: Wearer) -> Pieces:
     bodice = plain(close_dress(wearer, waist - 0.01))
     start = (tailoring.wrist_m - tailoring.shoulder[0]) * 0.60 + tailoring.shoulder[0]
     return [
-        (garment("dress", {MAIN: [bodice, long]}, wearer), "dress"),
+        (garment("dress", {MAIN: [bodice, long]}, wearer, SKIRT_BONES), "dress"),
         (bare_shoulders(wearer), "skin"),
         (bare_arms(wearer, start), "skin"),
     ]
 
 
 def _dinner_suit(wearer: Wearer) -> Pieces:
-    jacket = suit_jacket(wearer, SECOND, SECOND)
+    legs = suit_trousers(wearer)
+    jacket = on_lap(wearer, suit_jacket(wearer, SECOND, SECOND), legs)
     tie = bow_tie(wearer, throat(wearer, cloth_of(wearer, jacket).points, 0.0))
     return [
         (jacket, "top"),
-        (suit_trousers(wearer), "bottom"),
+        (legs, "bottom"),
         (garment("bow_tie", {MAIN: [tie]}, wearer), "tie"),
     ]
 
@@ -338,7 +353,7 @@ OUTFITS = (
     Outfit(
         "jazz_suit",
         ("Jazz suit", "ジャズのスーツ"),
-        {"man": _suit, "woman": _roomy_suit},
+        {"man": _suit, "woman": _suit_of_women},
         {MAIN: (0.045, 0.010, 0.020), SECOND: (0.012, 0.012, 0.014), ACCENT: (0.42, 0.40, 0.36)},
     ),
     Outfit(

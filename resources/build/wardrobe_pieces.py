@@ -65,10 +65,10 @@ def _dyes(assets: Path, folder: str) -> np.ndarray:
     return to_linear(read_picture(assets / "clothes" / folder / f"{folder}_diffuse.png")[:, :, :3])
 
 
-def four_bones(weights: np.ndarray) -> np.ndarray:
-    """Skin weights (N, J) of the four heaviest bones."""
+def few_bones(weights: np.ndarray, most: int = 4) -> np.ndarray:
+    """Skin weights (N, J) of the heaviest bones."""
     few = np.where(weights < LESS_WEIGHT, 0.0, weights)
-    np.put_along_axis(few, np.argsort(-few, axis=1, kind="stable")[:, 4:], 0.0, axis=1)
+    np.put_along_axis(few, np.argsort(-few, axis=1, kind="stable")[:, most:], 0.0, axis=1)
     return few / few.sum(axis=1, keepdims=True)
 
 
@@ -108,7 +108,7 @@ def piece(
     at = [(1.0 - middles[:, 1]) * height - 0.5, middles[:, 0] * width - 0.5]
     dye = np.stack([map_coordinates(dyes[:, :, k], at, order=1, mode="nearest") for k in range(3)], axis=1)
     parts = {material: triangles[own] for material, own in materials(centres, dye).items() if own.any()}
-    weights = four_bones(binding.skin_weights(wearer.fit.weights))
+    weights = few_bones(binding.skin_weights(wearer.fit.weights))
     return modelled(name, positions, weights, parts, uvs=place.uvs(uvs))
 
 

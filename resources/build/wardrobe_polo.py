@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from character_cloth import Cloth, cut, hang, hull_profile, join, smoothed, smoothstep
 from character_garments import collar, front_of, move_out
-from wardrobe_fitted import drawn_to
+from wardrobe_fitted import LAP_M, drawn_to, over_lap, weights_with
 from wardrobe_pieces import MAIN, Wearer
 from wardrobe_sewn import Sewn, gold, neck_band, over, plain
 from wardrobe_shirt import STRIP_M, closed, laid, neck_of, untucked, without_neck
@@ -15,8 +15,8 @@ from wardrobe_tunic import buttons, ribbon
 
 SLEEVE = 0.36
 """Length of the sleeve as a share of the arm from shoulder to wrist."""
-HEM_M, HANGS_M = 0.11, 0.012
-"""Height of the hem over the crotch, and distance of the cloth from the drape of the trunk."""
+HEM_M, HANGS_M = 0.085, 0.012
+"""Depth of the hem under the hip joints, and distance of the cloth from the drape of the trunk."""
 RIB_M, RIB_LIFT_M = 0.022, 0.0022
 BUTTONS_M = (-0.018, -0.062, -0.106)
 
@@ -61,13 +61,17 @@ def polo_shirt(wearer: Wearer, legs: Cloth) -> tuple[Sewn, list[Sewn], float]:
     tailoring = wearer.tailoring
     end_m = float(tailoring.shoulder[0] + SLEEVE * (tailoring.wrist_m - tailoring.shoulder[0]))
     cloth = untucked(wearer, MAIN)
-    cloth = cut(cloth, cloth.points[:, 1] - (tailoring.crotch_m + HEM_M))
+    cloth = cut(
+        cloth, cloth.points[:, 1] - (float(wearer.fit.positions_t[wearer.fit.index("leftUpperLeg")][1]) - HEM_M)
+    )
     cloth = cut(cloth, end_m - np.abs(cloth.points[:, 0]))
     cloth = closed(wearer, _hung(wearer, without_neck(wearer, cloth)))
     cloth = _loose_sleeves(wearer, cloth, end_m)
     sewn = laid(wearer, cloth)
-    sewn = replace(sewn, cloth=over(wearer, sewn.cloth, legs, tailoring.belt_m + 0.05, 0.010))
-    own = sewn.cloth
+    own = over(wearer, sewn.cloth, legs, tailoring.belt_m + 0.05, 0.010)
+    lap = over_lap(wearer, own, legs)
+    own = replace(own, weights=weights_with(wearer, own, lap, tailoring.belt_m + LAP_M))
+    sewn = replace(sewn, cloth=own)
     under = neck_band(wearer, -0.06, 0.012, 0.0008, 0.10)
     front = front_of(join(own, under.cloth))
     turned = collar(tailoring, own, front, neck_of(wearer))
@@ -75,5 +79,5 @@ def polo_shirt(wearer: Wearer, legs: Cloth) -> tuple[Sewn, list[Sewn], float]:
     path = np.stack([np.full(24, 0.0), np.linspace(top, top - 0.15, 24)], axis=1)
     strip = ribbon(own, path, 0.014, STRIP_M)
     row = buttons(own, np.array([(0.0, top + down) for down in BUTTONS_M]), 0.0055)
-    trim = [plain(turned), plain(strip), under, _ribs(wearer, own, end_m), gold(row.cloth)]
+    trim = [replace(plain(turned), folded=True), plain(strip), under, _ribs(wearer, own, end_m), gold(row.cloth)]
     return sewn, trim, end_m

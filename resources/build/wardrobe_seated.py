@@ -1,8 +1,8 @@
-"""Weights of skirts that lie on the thighs of who sits.
+"""Weights by which skirts, and coats below their waist, lie on the thighs of a seated player.
 
-A skirt hangs from the hips, some centimetres before the legs and behind them. Turned with the thighs it would stand off
-them by as much. A share of the hips' own weight lets its front down onto them, one of the shins' lets its hem down onto
-the knees and lifts its back. Between the legs cloth spans from thigh to thigh.
+Such a cloth hangs from the hips, some centimetres before the legs and behind them. Turned with the thighs it would
+stand off them by as much. Of all mixtures of hips, thighs and shins each place gets the one that puts it onto the
+thighs, or below them, in a seated pose. Between the legs cloth spans from thigh to thigh.
 """
 
 from __future__ import annotations
@@ -10,22 +10,25 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
-from character_cloth import smoothstep
+from character_cloth import Cloth, smoothstep
 from scipy.ndimage import gaussian_filter
 from scipy.spatial import ConvexHull
 from wardrobe_pieces import Wearer
 
-SEAT_RAD = np.radians(85.0)
+SEAT_RAD = np.radians(86.0)
 LIES_M = 0.010
-LEAST_M, MOST = 0.02, 0.45
-"""Least height by which the transfer of weight moves cloth, and greatest transferred share."""
 SLICE_M, ASIDE_M = 0.02, 0.025
 """Half of the slice of the body that a place of the skirt lies on, and distance beyond its sides within which cloth
 still lies on it."""
 KNEE_CAP_M = 0.03
 """Distance behind the foremost point of seated knees of the height at which cloth hangs before them."""
-KNEE_M = (0.02, 0.10)
-"""Heights above the knees up to which the shins let the front down, and from which the hips do."""
+STEP = 0.02
+"""Difference between neighbouring mixtures that are tried."""
+ALONG, KEPT_M = 0.3, 0.01
+"""Error along the thighs as a share of one across them, and the error that a wholly different mixture outweighs."""
+ROUNDS = 3
+BETWEEN_M = 0.09
+"""Distance off the middle beyond which a coat goes with one leg alone."""
 
 
 def _seated(wearer: Wearer, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -40,13 +43,16 @@ def _seated(wearer: Wearer, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return thigh, points + ((below - about) @ turn.T + about - below)
 
 
-def _blend(wearer: Wearer, points: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def _of_legs(wearer: Wearer, weights: np.ndarray) -> np.ndarray:
+    """Weights (N, 2) of thighs, and of shins with their feet."""
+    parts = (("UpperLeg",), ("LowerLeg", "Foot", "Toes"))
+    rows = [[wearer.fit.index(f"{side}{bone}") for side in ("left", "right") for bone in own] for own in parts]
+    return np.stack([weights[:, own].sum(axis=1) for own in rows], axis=1)
+
+
+def _blend(wearer: Wearer, points: np.ndarray, legs: np.ndarray) -> np.ndarray:
     thigh, shin = _seated(wearer, points)
-    shares = [
-        weights[:, [wearer.fit.index(f"{side}{part}Leg") for side in ("left", "right")]].sum(axis=1)[:, None]
-        for part in ("Upper", "Lower")
-    ]
-    return points + shares[0] * (thigh - points) + shares[1] * (shin - points)
+    return points + legs[:, :1] * (thigh - points) + legs[:, 1:] * (shin - points)
 
 
 def _spanned(body: np.ndarray, places: np.ndarray, sign: float) -> np.ndarray:
@@ -69,54 +75,87 @@ def _spanned(body: np.ndarray, places: np.ndarray, sign: float) -> np.ndarray:
     return found
 
 
-def _of_four(wearer: Wearer, weights: np.ndarray) -> np.ndarray:
-    """Weights (N, J) of both legs with no row that has hips and shins, so that none of the four of the legs is lost."""
-    parts = {part: [wearer.fit.index(f"{side}{part}Leg") for side in ("left", "right")] for part in ("Upper", "Lower")}
-    hips, found = wearer.fit.index("hips"), weights.copy()
-    shins = weights[:, parts["Lower"]].sum(axis=1)
-    both = np.minimum(weights[:, hips], shins)
-    share = weights[:, parts["Lower"]] / np.maximum(shins, 1e-9)[:, None]
-    found[:, hips] -= both
-    found[:, parts["Lower"]] -= both[:, None] * share
-    found[:, parts["Upper"]] += 2.0 * both[:, None] * share
+def _mixtures() -> np.ndarray:
+    """Shares (K, 2) of thighs and shins that are tried."""
+    steps = np.arange(0.0, 1.0 + STEP / 2, STEP)
+    pairs = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
+    return pairs[pairs.sum(axis=1) <= 1.0 + 1e-9]
+
+
+def _laid(wearer: Wearer, points: np.ndarray, legs: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Mixtures (N, 2) whose places in a seated pose are nearest to the wanted ones (N, 2) in height and
+    along the thighs."""
+    thigh, shin = _seated(wearer, points)
+    tried, found = _mixtures(), legs.copy()
+    for row in np.flatnonzero(~np.isnan(wanted).any(axis=1)):
+        place = points[row] + tried @ np.stack([thigh[row] - points[row], shin[row] - points[row]])
+        off = (place[:, 1:] - wanted[row]) * [1.0, ALONG]
+        change = KEPT_M * (tried - legs[row])
+        found[row] = tried[np.argmin((off**2).sum(axis=1) + (change**2).sum(axis=1))]
     return found
+
+
+def _smoothed(shares: np.ndarray, columns: int) -> np.ndarray:
+    """Shares (N, 2) of a grid whose last column lies on the first one, smoothed across pleats."""
+    grid = shares.reshape(-1, columns, shares.shape[1])[:, :-1]
+    soft = gaussian_filter(grid, (1.0, 3.0, 0.0), mode=("nearest", "wrap", "nearest"))
+    return np.concatenate([soft, soft[:, :1]], axis=1).reshape(shares.shape)
 
 
 def seated_weights(
     wearer: Wearer, points: np.ndarray, weights: np.ndarray, columns: int, left: np.ndarray
 ) -> np.ndarray:
-    """Weights (N, J) of a skirt's grid, in rows from the waist down, that also suit a seated pose; `left` (N,) is the
-    left leg's share."""
+    """Weights (N, J) of a cloth's grid about both legs, in rows from the waist down, that also suit a seated pose;
+    `left` (N,) is the left leg's share."""
     fit, suit = wearer.fit, wearer.tailoring.suit
-    hip, knee = (fit.positions_t[fit.index(f"left{part}Leg")] for part in ("Upper", "Lower"))
-    thighs, shins = (
-        suit.weights[:, [fit.index(f"{side}{part}Leg") for side in ("left", "right")]].sum(axis=1)
-        for part in ("Upper", "Lower")
-    )
-    legs, seat = thighs + shins > 0.5, (wearer.tailoring.arm < 0.3) & (shins < 0.4)
-    body = _blend(wearer, suit.points, suit.weights)
+    hip = fit.positions_t[fit.index("leftUpperLeg")]
+    own = _of_legs(wearer, suit.weights)
+    body = _blend(wearer, suit.points, own)
+    legs, seat = own.sum(axis=1) > 0.5, (wearer.tailoring.arm < 0.3) & (own[:, 1] < 0.4)
     ahead = points[:, 2] - hip[2]
-    front, back = smoothstep(ahead, 0.0, 0.06), smoothstep(-ahead, 0.0, 0.06)
-    low = 1.0 - smoothstep(points[:, 1], hip[1] - 0.16, hip[1] - 0.04)
-    high = smoothstep(points[:, 1], knee[1] + KNEE_M[0], knee[1] + KNEE_M[1])
-    found = weights
-    ways = (("hips", 1.0, front, high), ("shin", 1.0, front, 1.0 - high), ("shin", -1.0, back, np.ones_like(high)))
-    for bone, sign, side, there in ways:
+    low = 1.0 - smoothstep(points[:, 1], hip[1] - 0.12, hip[1] - 0.02)
+    before = _of_legs(wearer, weights)
+    along = _blend(wearer, points, before)[:, 2]
+    found = before
+    for _ in range(ROUNDS):
         placed = _blend(wearer, points, found)
-        given = points if bone == "hips" else _seated(wearer, points)[1]
-        wanted = _spanned(body[legs if sign > 0.0 else seat], placed, sign) + sign * LIES_M
-        fall = sign * (placed[:, 1] - wanted)
-        way = sign * (placed[:, 1] - given[:, 1])
-        share = (np.clip(fall / np.maximum(way, 0.05), 0.0, MOST) * (way > LEAST_M) * side * low).reshape(-1, columns)
-        for above, own in itertools.pairwise(share):
-            # Before the knees nothing is below: the cloth goes on as it lay.
-            own[:] = np.where(np.isnan(own), np.nan_to_num(above), own)
-        share = gaussian_filter(np.nan_to_num(share), (1.0, 3.0), mode=("nearest", "wrap")).reshape(-1, 1)
-        share *= there[:, None]
-        gift = np.zeros_like(found)
-        if bone == "hips":
-            gift[:, fit.index("hips")] = 1.0
-        else:
-            gift[:, fit.index("leftLowerLeg")], gift[:, fit.index("rightLowerLeg")] = left, 1.0 - left
-        found = found * (1.0 - share) + gift * share
-    return _of_four(wearer, found)
+        height = np.full(len(points), np.nan)
+        for sign, there in ((1.0, legs), (-1.0, seat)):
+            rows = np.flatnonzero(sign * ahead > 0.0)
+            height[rows] = _spanned(body[there], placed[rows], sign) + sign * LIES_M
+        # Towards the sides cloth goes from above the thighs to below them.
+        share = (low * smoothstep(np.abs(ahead), 0.0, 0.06))[:, None]
+        wanted = np.stack([height, along], axis=1)
+        found = before + share * (_smoothed(_laid(wearer, points, before, wanted), columns) - before)
+    return _with_legs(wearer, weights, found, left)
+
+
+def on_lap(wearer: Wearer, below: Cloth, points: np.ndarray, weights: np.ndarray, columns: int) -> np.ndarray:
+    """Weights (N, J) of the grid of a coat below its waist, the front of which lies on the lap of a seated player in
+    the trousers `below` it: it bends forwards where it meets them."""
+    fit = wearer.fit
+    before, own = _of_legs(wearer, weights), _of_legs(wearer, below.weights)
+    body = _blend(wearer, below.points, own)[own.sum(axis=1) > 0.5]
+    ahead = points[:, 2] - fit.positions_t[fit.index("leftUpperLeg")][2]
+    lap = _spanned(body, points, 1.0) + LIES_M
+    under = np.nan_to_num(np.maximum(lap - points[:, 1], 0.0))
+    lies = points + under[:, None] * [0.0, 0.0, 1.0]
+    wanted = np.stack([_spanned(body, lies, 1.0) + LIES_M, lies[:, 2]], axis=1)
+    wanted[(under == 0.0) | (ahead < 0.0)] = np.nan
+    share = smoothstep(ahead, 0.0, 0.06)[:, None]
+    found = before + share * (_smoothed(_laid(wearer, points, before, wanted), columns) - before)
+    return _with_legs(wearer, weights, found, smoothstep(points[:, 0], -BETWEEN_M, BETWEEN_M))
+
+
+def _with_legs(wearer: Wearer, weights: np.ndarray, legs: np.ndarray, left: np.ndarray) -> np.ndarray:
+    """Weights (N, J) with other shares (N, 2) of thighs and shins, `left` (N,) of them the left leg's; all others have
+    the rest in the proportions that they had."""
+    fit, moved, others = wearer.fit, weights.copy(), np.ones(weights.shape[1], dtype=bool)
+    for column, part in enumerate(("Upper", "Lower")):
+        for side, share in (("left", left), ("right", 1.0 - left)):
+            moved[:, fit.index(f"{side}{part}Leg")] = share * legs[:, column]
+            others[fit.index(f"{side}{part}Leg")] = False
+    rest = moved[:, others].sum(axis=1)
+    moved[:, fit.index("hips")] += rest < 1e-6
+    moved[:, others] *= ((1.0 - legs.sum(axis=1)) / np.where(rest < 1e-6, 1.0, rest))[:, None]
+    return moved

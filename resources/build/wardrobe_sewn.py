@@ -10,20 +10,23 @@ from character_garments import above_collar, move_out
 from character_surface import Surface, modelled, smooth_normals
 from scipy.spatial import cKDTree
 from wardrobe_atlas import CHECK, GOLD, plain_uvs, spot_uvs
-from wardrobe_pieces import Wearer, four_bones
+from wardrobe_pieces import Wearer, few_bones
 from wardrobe_seated import seated_weights
 
 PLEATS, PER_PLEAT = 24, 4
+SKIRT_BONES = 5
+"""Bones that a skirt goes with between the legs: hips, thighs and shins."""
 FARTHEST_M = 0.030
 """Greatest distance in metres by which a garment is widened to cover another one."""
 
 
 @dataclass(frozen=True)
 class Sewn:
-    """A piece in the T-pose with its texture coordinates (N, 2)."""
+    """A piece in the T-pose with its texture coordinates (N, 2); `folded` over, it faces outwards as it was made."""
 
     cloth: Cloth
     uvs: np.ndarray
+    folded: bool = False
 
 
 def plain(cloth: Cloth) -> Sewn:
@@ -39,22 +42,25 @@ def gold(cloth: Cloth) -> Sewn:
 
 def facing_out(sewn: Sewn) -> Sewn:
     """A piece whose faces are turned away from its middle."""
+    if sewn.folded:
+        return sewn
     cloth = sewn.cloth
     corners = cloth.points[cloth.faces] - cloth.points.mean(axis=0)
     volume = np.einsum("na,na->", np.cross(corners[:, 0], corners[:, 1]), corners[:, 2])
     return sewn if volume > 0.0 else replace(sewn, cloth=replace(cloth, faces=cloth.faces[:, ::-1]))
 
 
-def garment(name: str, parts: dict[str, list[Sewn]], wearer: Wearer) -> Surface:
+def garment(name: str, parts: dict[str, list[Sewn]], wearer: Wearer, bones: int = 4) -> Surface:
     """Pieces by material as one surface of an outfit's file, all facing out."""
-    return sewn_surface(name, {material: [facing_out(one) for one in own] for material, own in parts.items()}, wearer)
+    outwards = {material: [facing_out(one) for one in own] for material, own in parts.items()}
+    return sewn_surface(name, outwards, wearer, bones)
 
 
-def sewn_surface(name: str, parts: dict[str, list[Sewn]], wearer: Wearer) -> Surface:
+def sewn_surface(name: str, parts: dict[str, list[Sewn]], wearer: Wearer, bones: int = 4) -> Surface:
     """Pieces by material as one surface of the file."""
     pieces = [piece for own in parts.values() for piece in own]
     whole = join(*(piece.cloth for piece in pieces))
-    weights = four_bones(whole.weights)
+    weights = few_bones(whole.weights, bones)
     triangles, start = {}, 0
     for material, own in parts.items():
         count = sum(len(piece.cloth.faces) for piece in own)

@@ -152,6 +152,36 @@ def test_the_hem_of_a_seated_skirt_spans_from_thigh_to_thigh(outfit: str, id: st
     assert np.ptp(hem[:, 2]) < 0.03, "as far ahead between the knees as over them"
 
 
+@pytest.mark.parametrize(
+    ("outfit", "upper", "lower"),
+    [
+        ("school_uniform", "tunic", "trousers"),
+        ("marching", "tunic", "trousers"),
+        ("school_blazer", "jacket", "trousers"),
+        ("polo", "shirt", "trousers"),
+        ("school_uniform", "skirt", "skin_legs"),
+    ],
+)
+@pytest.mark.parametrize("build", ["adult", "child", "heavy"])
+def test_the_front_of_a_seated_garment_lies_on_the_lap(outfit: str, upper: str, lower: str, build: str) -> None:
+    """Between the thighs its hem is about as high as their tops."""
+    people = {"adult": "man_adult", "child": "child_sota", "heavy": "cast_daichi"}
+    if upper == "skirt":
+        people = {"adult": "woman_adult", "child": "child_nia", "heavy": "cast_elena"}
+    character = character_in(people[build], OutfitChoice(outfit))
+    garment, below = mesh_named(character, upper), mesh_named(character, lower)
+    x, y, z = garment.positions_m.T
+    front = (z > 0.03) & (np.abs(x) < 0.05)
+    hem = front & (y < y[front].min() + 0.03)
+    cloth, legs = (posed(character, mesh, np.deg2rad(86.0), 0.0) for mesh in (garment, below))
+    over_m = []
+    for place in cloth[hem]:
+        near = legs[np.abs(legs[:, 2] - place[2]) < 0.02]
+        over_m += [place[1] - near[:, 1].max()] if len(near) else []
+    assert len(over_m) >= 4
+    assert -0.025 < np.median(over_m) < 0.05, np.round(over_m, 3)
+
+
 def test_a_child_s_long_dress_does_not_fold_through_its_middle() -> None:
     character = character_in("child_nia", OutfitChoice("evening"))
     dress = mesh_named(character, "dress")
