@@ -15,7 +15,9 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import FloatArray
 from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.body_on_floor import needed_lifts
 from app.choreography.clip import BodyShape, MotionClip
+from app.choreography.soles_on_floor import HEEL_PART, over_the_floor
 from app.choreography.standing_feet import SINK_S
 from app.motion.model import Motion
 from app.rig import quaternion
@@ -38,10 +40,8 @@ FINGER_BEND_RAD: Final = {"Proximal": 0.30, "Intermediate": 0.40, "Distal": 0.20
 """
 FINGER_GROWS: Final = {"Index": 0.8, "Middle": 1.0, "Ring": 1.15, "Little": 1.3}
 THUMB_BEND_RAD: Final = {"ThumbMetacarpal": 0.10, "ThumbProximal": 0.15, "ThumbDistal": 0.20}
-HEEL_PART: Final = 0.3
-"""Distance of the heel behind the ankle relative to that from ankle to toes."""
-FLOOR_SOFT_M: Final = 0.002
-"""Height in metres within which the floor stops a foot softly."""
+LIFTS: Final = 3
+"""Greatest number of lifts of a body from the floor; a knee rises less than the hips."""
 REACH_SHARE: Final = 0.992
 """Largest reach of a foot on the floor, as a share of the leg's length."""
 LOW_M: Final = 0.08
@@ -75,21 +75,21 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
     ankles_m = {side: _ankle_path(skeleton, side, clip.shape, segments, places_m, scale) for side in SIDES}
     floor_m = _floor_m(skeleton, segments, ankles_m, float(clip.fps))
     hips_m -= floor_m
+    feet = dict[Side, FloatArray]()
     for side in SIDES:
-        ankles_m[side] -= floor_m
+        ankle_m = ankles_m[side] - floor_m
+        ankles_m[side], feet[side] = over_the_floor(character, side, segments[f"{side}Foot"], ankle_m, float(clip.fps))
     hips_m[:, 1] -= _sink_m(skeleton, clip, world, hips_m, ankles_m)
-    sockets_m = _socket_paths(skeleton, world, hips_m)
-    legs = {side: _leg(skeleton, side, segments, places_m, world, sockets_m[side], ankles_m[side]) for side in SIDES}
-    local = np.tile(quaternion.IDENTITY, (frames, len(skeleton.names), 1))
-    for joint, parent in enumerate(skeleton.parents):
-        if joint in world:
-            above = world.get(parent)
-            local[:, joint] = (
-                world[joint] if above is None else quaternion.multiply(quaternion.conjugate(above), world[joint])
-            )
-    for side in SIDES:
-        for joint, turned in legs[side].items():
-            local[:, joint] = turned
+    targets = {side: (ankles_m[side], feet[side]) for side in SIDES}
+    local = _local(skeleton, segments, places_m, world, hips_m, targets)
+    for _ in range(LIFTS):
+        lifts = needed_lifts(character, local, hips_m, float(clip.fps))
+        if lifts is None:
+            break
+        hips_m[:, 1] += lifts.hips_m
+        for side in SIDES:
+            targets[side][0][:, 1] += lifts.ankles_m[side]
+        local = _local(skeleton, segments, places_m, world, hips_m, targets)
     _bend_fingers(skeleton, local)
     return Motion(
         fps=clip.fps,
@@ -101,6 +101,32 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
         instrument_position_m=np.zeros((frames, 3), np.float32),
         instrument_rotation=np.tile(quaternion.IDENTITY, (frames, 1)).astype(np.float32),
     )
+
+
+def _local(
+    skeleton: Skeleton,
+    segments: dict[str, FloatArray],
+    places_m: dict[str, FloatArray],
+    world: dict[int, FloatArray],
+    hips_m: FloatArray,
+    targets: dict[Side, tuple[FloatArray, FloatArray]],
+) -> FloatArray:
+    """Return the local rotations (F, J, 4) of all joints, with fingers at rest: those above the legs have their world
+    rotations ``world`` (F, 4) by joint index, and the feet are at their targets, see `_leg`.
+    """
+    sockets_m = _socket_paths(skeleton, world, hips_m)
+    legs = {side: _leg(skeleton, side, segments, places_m, world, sockets_m[side], targets[side]) for side in SIDES}
+    local = np.tile(quaternion.IDENTITY, (len(hips_m), len(skeleton.names), 1))
+    for joint, parent in enumerate(skeleton.parents):
+        if joint in world:
+            above = world.get(parent)
+            local[:, joint] = (
+                world[joint] if above is None else quaternion.multiply(quaternion.conjugate(above), world[joint])
+            )
+    for side in SIDES:
+        for joint, turned in legs[side].items():
+            local[:, joint] = turned
+    return local
 
 
 def _socket_height_m(skeleton: Skeleton) -> float:
@@ -235,43 +261,20 @@ def _leg(
     places_m: dict[str, FloatArray],
     world: dict[int, FloatArray],
     socket_m: FloatArray,
-    ankle_m: FloatArray,
+    target: tuple[FloatArray, FloatArray],
 ) -> dict[int, FloatArray]:
-    """Return rotations (F, 4) of a leg's joints, by joint index, that put the ankle at ``ankle_m`` (F, 3) with the sole
-    on or above the floor; ``segments`` and ``places_m`` are the captured rotations and positions by bone name."""
+    """Return rotations (F, 4) of a leg's joints, by joint index, that bring the ankle to ``target``: positions (F, 3)
+    and world rotations (F, 4) of the foot. ``segments`` and ``places_m`` are the captured rotations and positions by
+    bone name.
+    """
     limb = leg(skeleton, side)
-    target, foot = _over_the_floor(skeleton, side, segments[f"{side}Foot"], ankle_m)
     hip, knee, ankle = (places_m[f"{side}{name}"] for name in ("UpperLeg", "LowerLeg", "Foot"))
     length_m = float(np.linalg.norm(knee[0] - hip[0]) + np.linalg.norm(ankle[0] - knee[0]))
     # The direction of a straight leg's knee follows from its thigh.
     ahead = quaternion.rotate(segments[f"{side}UpperLeg"], np.array([0.0, 0.0, 1.0]))
     pole = knee - 0.5 * (hip + ankle) + KNEE_AHEAD * length_m * ahead
-    pose = solve_limb(limb, socket_m, world[skeleton.index("hips")], target, foot, pole)
+    pose = solve_limb(limb, socket_m, world[skeleton.index("hips")], *target, pole)
     return {limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
-
-
-def _over_the_floor(
-    skeleton: Skeleton, side: Side, foot: FloatArray, ankle_m: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Keep a foot above the floor: returns the ankle's position (F, 3) with the tip lifted to the floor, and the foot's
-    rotation (F, 4) with a heel below the floor raised about the tip.
-    """
-    tip, (way, height_m) = foot_tip_m(skeleton, side), sole_way_m(skeleton, side)
-    heel = np.array([-HEEL_PART * way[0], -height_m, -HEEL_PART * way[2]])
-    tip_m = ankle_m + quaternion.rotate(foot, tip)
-    tip_m[:, 1] += _lift_m(tip_m[:, 1])
-    along = quaternion.rotate(foot, heel - tip)[:, 1]
-    length_m = float(np.linalg.norm(heel - tip))
-    raised = np.minimum(along + _lift_m(tip_m[:, 1] + along), 0.999 * length_m)
-    tilt = np.arcsin(raised / length_m) - np.arcsin(np.clip(along / length_m, -0.999, 0.999))
-    foot = quaternion.multiply(foot, quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), np.maximum(tilt, 0.0)))
-    return tip_m - quaternion.rotate(foot, tip), foot
-
-
-def _lift_m(height_m: FloatArray) -> FloatArray:
-    """Distance (F,) by which a point at a height must be lifted so that it stays above the floor, with a soft stop."""
-    soft = FLOOR_SOFT_M * np.logaddexp(0.0, -height_m / FLOOR_SOFT_M)
-    return np.asarray(np.where(height_m < 4.0 * FLOOR_SOFT_M, soft, 0.0))
 
 
 def _clip_ankle_height_m(shape: BodyShape, side: Side) -> float:

@@ -173,3 +173,53 @@ def test_one_frame_is_a_motion() -> None:
     motion = retarget(still(1), character_named("woman_adult"), first_frame_s=-2.0)
     assert motion.frames == 1
     assert motion.first_frame_s == -2.0
+
+
+def skin_heights_m(character: Character, motion: Motion, frame: int, part: str) -> FloatArray:
+    """Heights of all vertices that the joints of a part of the body have most weight for, calculated one by one."""
+    found, heights = joints(character, motion, frame), []
+    for mesh in character.meshes:
+        most = mesh.joints[np.arange(len(mesh.joints)), mesh.weights.argmax(axis=1)]
+        for row in np.flatnonzero([part in character.skeleton.names[joint] for joint in most])[::7]:
+            height = 0.0
+            for joint, weight in zip(mesh.joints[row], mesh.weights[row], strict=True):
+                bind = character.joint_from_mesh[joint]
+                place, turn = found[character.skeleton.names[joint]]
+                height += weight * (place + turn.apply(bind[:3, :3] @ mesh.positions_m[row] + bind[:3, 3]))[1]
+            heights.append(height)
+    return np.array(heights)
+
+
+@pytest.mark.parametrize("roll_deg", [-35.0, 0.0, 35.0])
+def test_no_edge_of_a_standing_foot_is_below_the_floor_and_one_in_the_air_stays_rolled(roll_deg: float) -> None:
+    character, clip = character_named("woman_adult"), still()
+    rotations = clip.rotations.copy()
+    rotations[:, SEGMENTS.index("leftFoot")] = Rotation.from_euler("z", roll_deg, degrees=True).as_quat()
+    # The same foot is in the air from the middle on.
+    for name, bend in (("UpperLeg", -70.0), ("LowerLeg", 70.0)):
+        turn = Rotation.from_euler("x", bend, degrees=True)
+        rotations[FRAMES // 2 :, SEGMENTS.index(f"left{name}")] = turn.as_quat()
+    motion = retarget(replace(clip, rotations=rotations), character)
+    standing, raised = FRAMES // 4, FRAMES - 1
+    assert -1e-3 < skin_heights_m(character, motion, standing, "leftFoot").min() < 8e-3
+    turned = {frame: joints(character, motion, frame)["leftFoot"][1] for frame in (standing, raised)}
+    # Its middle is a little over the floor, as that of a foot that was captured on its edge.
+    assert turned[standing].magnitude() < np.radians(0.4 * abs(roll_deg) + 1.0)
+    assert np.degrees(turned[raised].as_rotvec()[2]) == pytest.approx(roll_deg, abs=2.0)
+
+
+def test_a_kneeling_knee_is_on_the_floor_and_a_standing_body_is_not_lifted() -> None:
+    character, clip = character_named("man_adult"), still()
+    rotations, hips_m = clip.rotations.copy(), clip.hips_m.copy()
+    kneeling = slice(FRAMES // 2, None)
+    for side in ("left", "right"):
+        for name, bend in (("LowerLeg", 90.0), ("Foot", 70.0)):
+            turn = Rotation.from_euler("x", bend, degrees=True)
+            rotations[kneeling, SEGMENTS.index(side + name)] = turn.as_quat()
+    # The captured knees, joints without flesh, are on the floor.
+    hips_m[kneeling, 1] = 0.04 + 0.43
+    motion = retarget(replace(clip, rotations=rotations, hips_m=hips_m), character)
+    lowest = [skin_heights_m(character, motion, FRAMES - 1, part).min() for part in ("LowerLeg", "UpperLeg")]
+    assert -0.01 < min(lowest) < 0.03
+    lifted = retarget(still(), character).hips_m[FRAMES // 4, 1]
+    assert motion.hips_m[FRAMES // 4, 1] == pytest.approx(lifted, abs=5e-3)
