@@ -55,8 +55,12 @@ LEGS_M: Final = (0.6, 1.2)
 NEAR_FACTOR: Final = 4.0
 """Ratio of two units (inches and centimetres) below which the height of the hips alone does not show which one it
 is."""
+NEAR_ZERO: Final = 0.3
+"""Height above zero of the lower ankle, as a part of the legs' length, up to which the floor is at zero."""
 SLIDES_LESS: Final = 0.8
 """Greatest step of the slower foot with such a unit, relative to its step with the unit of the bones."""
+SLIDES_AT_ZERO: Final = 1.4
+"""The same if the floor is at zero with that unit only: 0.1 to 1.23 in files with two units, 1.5 and more in others."""
 HAND_PART: Final = 0.108
 CROWN_PART: Final = 0.13
 FOOT_PART: Final = 0.12
@@ -252,6 +256,10 @@ def _place_units(positions: FloatArray, bones: Mapping[str, int]) -> tuple[str, 
     def height_varies(factor: float) -> float:
         return float(np.ptp(np.percentile(factor * hips[:, 1] + away[..., 1].min(axis=1), (5, 95))))
 
+    def is_at_zero(factor: float) -> bool:
+        lowest = factor * hips[:, 1] + away[..., 1].min(axis=1)
+        return abs(float(np.percentile(lowest, 5))) < NEAR_ZERO * length
+
     def steps(factor: float) -> float:
         ways = np.diff(factor * hips[:, None] + away, axis=0)
         return float(np.linalg.norm(ways, axis=-1).min(axis=1).sum())
@@ -264,7 +272,11 @@ def _place_units(positions: FloatArray, bones: Mapping[str, int]) -> tuple[str, 
         if not HIPS_OVER_LEGS[0] < factor * usual < HIPS_OVER_LEGS[1]:
             continue
         if max(factor, 1.0 / factor) < NEAR_FACTOR:
-            fits = not HIPS_OVER_LEGS[0] < usual < HIPS_OVER_LEGS[1] and steps(factor) < SLIDES_LESS * steps(1.0)
+            wrong = not HIPS_OVER_LEGS[0] < usual < HIPS_OVER_LEGS[1]
+            slides = steps(factor) / max(steps(1.0), 1e-9 * length)
+            fits = (wrong and slides < SLIDES_LESS) or (
+                is_at_zero(factor) and not is_at_zero(1.0) and slides < SLIDES_AT_ZERO
+            )
         else:
             fits = height_varies(factor) <= height_varies(1.0) + FLAT_PART * length
         if fits:

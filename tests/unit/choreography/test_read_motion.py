@@ -247,6 +247,26 @@ def test_positions_in_another_unit_than_the_bones_are_understood(bones: str, pla
         assert read.clip.hips_m == pytest.approx(way_m - way_m[0] * (1.0, 0.0, 1.0), abs=0.01)
 
 
+@pytest.mark.parametrize("rise_m", [0.0, 0.28])
+def test_positions_in_inches_and_bones_in_centimetres_are_understood_however_high_the_hips_are(rise_m: float) -> None:
+    """Hips far over the hip joints are at a plausible height even where their positions are 2.54 times too small."""
+    clip = stepping(8)
+    offsets_m = clip.shape.offsets_m.copy()
+    legs = [SEGMENTS.index(f"{side}UpperLeg") for side in ("left", "right")]
+    offsets_m[legs, 1] -= rise_m
+    offsets_m[0, 1] += rise_m
+    parents = tuple(SEGMENTS.index(parent) if parent in SEGMENTS else -1 for parent in PARENT_OF.values())
+    ends = {SEGMENTS.index(name): end_m / 0.01 for name, end_m in zip(ENDS, clip.shape.ends_m, strict=True)}
+    hips_m = clip.hips_m + np.array((0.0, rise_m, 0.0))
+    found = []
+    for unit_m in (0.0254, 0.01):
+        bvh_clip = BvhClip(SEGMENTS, parents, offsets_m / 0.01, ends, clip.fps, hips_m / unit_m, clip.rotations)
+        read = motion_of(bvh_clip, "steps.bvh")
+        found.append([message.arguments for message in guesses(read) if message.id == "motion.place_unit"])
+        assert read.clip.hips_m[:, 1] == pytest.approx(hips_m[:, 1], abs=0.05)
+    assert found == [[{"unit": "inch", "bones": "cm"}], []]
+
+
 def test_a_body_that_is_captured_about_its_hips_keeps_its_unit(tmp_path: Path) -> None:
     path = tmp_path / "centred.bvh"
     head, _, motion = bvh(np.eye(3), 0.01).partition("MOTION\n")
