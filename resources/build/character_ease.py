@@ -12,8 +12,12 @@ import numpy as np
 from character_cloth import smoothstep
 from character_source import Source
 
-AT_EASE: Final = {"mouthSmileLeft": 0.21, "mouthSmileRight": 0.21, "browInnerUp": 0.30}
-"""Weights of the shapes at rest: corners of the mouth 1.8 mm higher, inner ends of the brows 0.8 mm."""
+AT_EASE: Final = {"mouthSmileLeft": 0.21, "mouthSmileRight": 0.21, "browInnerUp": 0.38} | {
+    f"browOuterUp{side}": -0.14 for side in ("Left", "Right")
+}
+"""Weights of the shapes at rest: corners of the mouth 2.9 mm higher, inner ends of the brows 0.9 mm higher and outer
+ones 0.3 to 0.6 mm lower.
+"""
 MIDDLE_M: Final = (0.014, 0.025)
 """Distances from the face's middle up to which the mouth stays and from which it moves wholly."""
 BROWS: Final = "brow"

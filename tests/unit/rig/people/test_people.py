@@ -63,8 +63,8 @@ def test_a_finished_body_is_made_of_its_own_phenotype_again(id: str) -> None:
     original = original_of(before, shapes, originals()[id])
     skin = mesh_named(before, "body")
     nearest = original.base_m[original.bindings["body"].corners[:, 0]]
-    # Hands, lids and the face at rest were changed after the phenotype; skull, neck and ears were not.
-    assert np.mean(np.linalg.norm(nearest - skin.positions_m, axis=1) < 1e-4) > 0.3
+    # Hands, lids and the face at rest with its forehead were changed after the phenotype; skull, neck, ears were not.
+    assert np.mean(np.linalg.norm(nearest - skin.positions_m, axis=1) < 1e-4) > 0.25
     after = person_character("again", original, shapes, originals()[id])
     for old, new in zip(before.meshes, after.meshes, strict=True):
         np.testing.assert_allclose(new.positions_m, old.positions_m, atol=1e-6)
