@@ -8,7 +8,8 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from app.arrays import AnyFloatArray, AnyIntArray, FloatArray, IndexArray
+from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, FloatArray, IndexArray
+from app.identity_cache import IdentityCache
 from app.rig import quaternion
 from app.rig.mesh import Mesh
 from app.rig.model import Character
@@ -145,11 +146,27 @@ def skin_of(
     return Skin(place_m, used, summed.reshape(len(vertices), len(used)), joint_from_mesh[used, :3], moved)
 
 
+def _moved(*touched: AnyIntArray) -> BoolArray:
+    """Return a mask of the vertices that any of several morphs moves; its last entry is for all vertices beyond."""
+    found = np.zeros(max(int(one.max(initial=-1)) for one in touched) + 2, dtype=np.bool_)
+    for one in touched:
+        found[one] = True
+    return found
+
+
+# People made from one body share the vertices of their morphs.
+_MOVED: IdentityCache[BoolArray] = IdentityCache(32)
+
+
 def patch(character: Character, mesh: Mesh, vertices: AnyIntArray) -> Patch:
     """Prepare vertices of a character's mesh for `Patch.deformed`, with their normals."""
     vertices = np.asarray(vertices, dtype=np.intp)
     weights = mesh.weights[vertices].astype(np.float64)
-    morphs = ((morph.name, morph.vertices, morph.deltas_m) for morph in mesh.morphs)
+    morphs = [(morph.name, morph.vertices, morph.deltas_m) for morph in mesh.morphs]
+    if morphs:
+        # Of hands and legs the face moves nothing.
+        moved = _MOVED.step(_moved, *(touched for _, touched, _ in morphs))
+        morphs = morphs if moved[np.minimum(vertices, len(moved) - 1)].any() else []
     skin = skin_of(vertices, mesh.positions_m, mesh.joints[vertices], weights, character.joint_from_mesh, morphs)
     return Patch(**vars(skin), normals=mesh.normals[vertices].astype(np.float64))
 

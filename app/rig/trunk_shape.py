@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Final
 
 import numpy as np
@@ -105,7 +105,9 @@ def dressed_shape(character: Character) -> TrunkShape | None:
 
 def _in_own_clothes(character: Character) -> TrunkShape | None:
     surfaces = [
-        surface for mesh in character.meshes for surface in _surfaces(character, mesh, [mesh.triangles.reshape(-1)])
+        surface
+        for mesh in character.meshes
+        for surface in _surfaces(character, mesh, [_USED.step(_used, mesh.triangles)])
     ]
     radii_m: dict[Side, FloatArray] = {side: _radii_m(character, side) for side in ("left", "right")}
     return _made(character, surfaces, radii_m, _OUTFIT_M)
@@ -117,13 +119,13 @@ def _as_worn(character: Character) -> TrunkShape | None:
     surfaces = [
         replace(surface, more_m=more_m)
         for mesh in own.meshes
-        for surface in _surfaces(own, mesh, [mesh.triangles.reshape(-1)])
+        for surface in _surfaces(own, mesh, [_USED.step(_used, mesh.triangles)])
     ]
     for mesh in character.meshes:
         if not any(mesh is other for other in own.meshes):
             # Garments lie over each other: each material is a surface of its own.
             numbers = np.unique(mesh.triangle_materials)
-            parts = [mesh.triangles[mesh.triangle_materials == number].reshape(-1) for number in numbers]
+            parts = [_used(mesh.triangles[mesh.triangle_materials == number]) for number in numbers]
             surfaces += _surfaces(character, mesh, parts)
     radii_m: dict[Side, FloatArray] = {
         side: np.maximum(_radii_m(own, side) + more_m, _radii_m(character, side)) for side in ("left", "right")
@@ -170,14 +172,13 @@ class _Surface:
     more_m: float = 0.0
 
 
-def _surfaces(character: Character, mesh: Mesh, parts: Sequence[AnyIntArray]) -> list[_Surface]:
-    """Return the surfaces on the trunk of parts of a mesh, each given by the vertices of its triangles."""
+def _surfaces(character: Character, mesh: Mesh, parts: Sequence[IndexArray]) -> list[_Surface]:
+    """Return the surfaces on the trunk of parts of a mesh, each given by its vertices."""
     names = _names(character)
     shares = np.stack([_share(mesh, _holders(character, (name,), TRUNK)) for name in names], axis=1)
     held = shares.sum(axis=1) >= _HELD
     found = []
-    for part in parts:
-        rows = np.unique(part)
+    for rows in parts:
         surface = _surface(character, names, mesh, shares, rows[held[rows]])
         if len(surface.places_m) >= _FEWEST:
             found.append(surface)
@@ -214,16 +215,37 @@ def _surface(character: Character, names: Sequence[str], mesh: Mesh, shares: Flo
 
 def _holders(character: Character, names: Collection[str], others: Collection[str] = ()) -> BoolArray:
     """Mask (J,) of the joints that are named, or are descendants of one without being joints of the human skeleton."""
+    return _holders_in(character.skeleton.names, character.skeleton.parents, tuple(names), tuple(others))
+
+
+@lru_cache(maxsize=64)
+def _holders_in(
+    all_names: tuple[str, ...], parents: tuple[int, ...], names: tuple[str, ...], others: tuple[str, ...]
+) -> BoolArray:
     human = {joint.name for joint in load_skeleton().joints} | set(others)
     found: list[bool] = []
-    for name, parent in zip(character.skeleton.names, character.skeleton.parents, strict=True):
+    for name, parent in zip(all_names, parents, strict=True):
         found.append(name in names or (name not in human and parent >= 0 and found[parent]))
     return np.array(found)
 
 
 def _share(mesh: Mesh, holders: BoolArray) -> FloatArray:
     """Sum (V,) of the weights of each vertex for the joints in a mask (J,)."""
-    return np.asarray(np.where(holders[mesh.joints], mesh.weights, 0.0).sum(axis=1), np.float64)
+    return _SHARES.step(_summed, mesh.joints, mesh.weights, holders)
+
+
+def _summed(joints: AnyIntArray, weights: SingleArray, holders: BoolArray) -> FloatArray:
+    return np.asarray(np.where(holders[joints], weights, 0.0).sum(axis=1), np.float64)
+
+
+# People made from one body share joints, weights and triangles.
+_SHARES: IdentityCache[FloatArray] = IdentityCache(512)
+_USED: IdentityCache[IndexArray] = IdentityCache(64)
+
+
+def _used(triangles: AnyIntArray) -> IndexArray:
+    """Return the vertices of some triangles, each once."""
+    return np.unique(triangles).astype(np.intp)
 
 
 def _depths_m(surfaces: Sequence[_Surface], corner_m: FloatArray, count: IndexArray) -> FloatArray:

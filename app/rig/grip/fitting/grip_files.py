@@ -62,7 +62,7 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
     digest.update(f"{FIT_VERSION}\n".encode())
     texts, arrays = _of_body(character, instrument)
     digest.update("\n".join(texts).encode())
-    arrays.append(model.node_positions_m)
+    arrays = (*arrays, model.node_positions_m)
     if any(place is not None for place in only_at(instrument)):
         digest.update(f"{PLACES_VERSION}\n{asked_together(instrument)}\n".encode())
     for array in arrays:
@@ -88,7 +88,7 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
     return digest.hexdigest()
 
 
-def _of_body(character: Character, instrument: InstrumentMap) -> tuple[list[str], list[npt.NDArray[Any]]]:
+def _of_body(character: Character, instrument: InstrumentMap) -> tuple[list[str], tuple[npt.NDArray[Any], ...]]:
     """Return the properties of a body on which a fit of hands depends, as texts and arrays to be hashed: joints of the
     hands and the head, and skin of hands and lips.
 
@@ -97,6 +97,14 @@ def _of_body(character: Character, instrument: InstrumentMap) -> tuple[list[str]
     if character.made_from is not None:
         texts, arrays = _of_body(character.made_from, instrument)
         return [*texts, character.made_of], arrays
+    fixed, arrays = _of_original(character)
+    has_lips = needed_landmarks(instrument) <= character.landmarks.keys()
+    return [*fixed, *([] if has_lips else [f"face {face_size(character):.6f}"])], arrays
+
+
+@lru_cache(maxsize=16)
+def _of_original(character: Character) -> tuple[tuple[str, ...], tuple[npt.NDArray[Any], ...]]:
+    """Return the properties of a body that is not made from another one, for all instruments."""
     skeleton = character.skeleton
     marks = {
         name: mark
@@ -104,7 +112,7 @@ def _of_body(character: Character, instrument: InstrumentMap) -> tuple[list[str]
         if name.startswith(("left.", "right.", "lips.")) and ".foot." not in name
     }
     ends = [skeleton.index("head")]
-    texts, arrays = [], list[npt.NDArray[Any]]()
+    texts, arrays = list[str](), list[npt.NDArray[Any]]()
     for name, mark in marks.items():
         mesh = mesh_named(character, mark.mesh)
         rows = mark.vertices
@@ -124,9 +132,7 @@ def _of_body(character: Character, instrument: InstrumentMap) -> tuple[list[str]
     chain = closure(skeleton, ends)
     texts += [f"{skeleton.names[joint]} of {skeleton.names[skeleton.parents[joint]]}" for joint in chain[1:]]
     arrays.append(skeleton.offsets_m[list(chain)])
-    if not needed_landmarks(instrument) <= marks.keys():
-        texts.append(f"face {face_size(character):.6f}")
-    return texts, arrays
+    return tuple(texts), tuple(arrays)
 
 
 def _untimed(control: Control) -> Control:
