@@ -60,7 +60,7 @@ class Crowd:
     one_sided: int
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=16)
 def character_levels(character: Character) -> LevelsOfDetail:
     """Return all levels of detail of a character, finest first; the coarsest has no morphs."""
     return _levels(character.meshes, BODY_CELLS_M, PLAIN_FACTOR)
