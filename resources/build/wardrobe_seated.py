@@ -27,6 +27,8 @@ STEP = 0.02
 ALONG, KEPT_M = 0.3, 0.01
 """Error along the thighs as a share of one across them, and the error that a wholly different mixture outweighs."""
 ROUNDS = 3
+BELOW_M = 0.08
+"""Depth under the knees down to which cloth is laid."""
 BETWEEN_M = 0.09
 """Distance off the middle beyond which a coat goes with one leg alone."""
 
@@ -108,12 +110,15 @@ def seated_weights(
     """Weights (N, J) of a cloth's grid about both legs, in rows from the waist down, that also suit a seated pose;
     `left` (N,) is the left leg's share."""
     fit, suit = wearer.fit, wearer.tailoring.suit
-    hip = fit.positions_t[fit.index("leftUpperLeg")]
+    hip, knee = (fit.positions_t[fit.index(f"left{part}Leg")] for part in ("Upper", "Lower"))
     own = _of_legs(wearer, suit.weights)
     body = _blend(wearer, suit.points, own)
-    legs, seat = own.sum(axis=1) > 0.5, (wearer.tailoring.arm < 0.3) & (own[:, 1] < 0.4)
+    high = suit.points[:, 1] > knee[1] - BELOW_M
+    legs, seat = high & (own.sum(axis=1) > 0.5), high & (wearer.tailoring.arm < 0.3) & (own[:, 1] < 0.4)
     ahead = points[:, 2] - hip[2]
     low = 1.0 - smoothstep(points[:, 1], hip[1] - 0.12, hip[1] - 0.02)
+    # Below the knees long cloth hangs from them.
+    low *= smoothstep(points[:, 1], knee[1] - BELOW_M, knee[1])
     before = _of_legs(wearer, weights)
     along = _blend(wearer, points, before)[:, 2]
     found = before

@@ -182,6 +182,17 @@ def test_the_front_of_a_seated_garment_lies_on_the_lap(outfit: str, upper: str, 
     assert -0.025 < np.median(over_m) < 0.05, np.round(over_m, 3)
 
 
+@pytest.mark.parametrize("id", ["woman_adult", "child_nia"])
+def test_a_seated_long_dress_hangs_from_the_knees(id: str) -> None:
+    character = character_in(id, OutfitChoice("evening"))
+    dress = mesh_named(character, "dress")
+    low = dress.positions_m[:, 1] < dress.positions_m[:, 1].min() + 0.05
+    _, y, z = posed(character, dress, np.deg2rad(86.0), 0.0)[low].T
+    shoes = posed(character, mesh_named(character, "shoes"), np.deg2rad(86.0), 0.0)
+    assert np.ptp(y) < 0.15, "level above the floor"
+    assert z.max() < shoes[:, 2].max() + 0.12, "not before the feet"
+
+
 def test_a_child_s_long_dress_does_not_fold_through_its_middle() -> None:
     character = character_in("child_nia", OutfitChoice("evening"))
     dress = mesh_named(character, "dress")
