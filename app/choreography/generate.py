@@ -216,7 +216,7 @@ class Choreographer:
             clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
         clip = out_of_body(without_haste(clip, self._spins.fastest_rad_s))
         clip, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
-        clip = within_limits(clip, falls.standing, self._usual_accelerations(fps))
+        clip = within_limits(clip, falls.standing, self._usual_accelerations(fps), self.usual_change_rad_s(fps))
         return Dance(clip, first_s, plan.steps, speeds, seams, falls.standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:

@@ -16,12 +16,14 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray
+from app.choreography.bent_paths import bent
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.body_speeds import runs
 from app.choreography.clip import MotionClip
 from app.choreography.features import height_m
 from app.choreography.feet_on_floor import AHEAD, LEG, grounded
 from app.choreography.hands_out_of_body import ELBOW
+from app.choreography.joint_changes import feet_within_changes, within_changes
 from app.choreography.joint_speeds import within_speeds
 from app.choreography.limbs import bend
 from app.choreography.resample import resampled
@@ -41,11 +43,6 @@ ALTERNATIONS: Final = 4
 """Greatest number of alternations between limits of acceleration and of joints' speeds."""
 PASSES: Final = 12
 """Greatest number of alternations between two points, since bending one path moves the other slightly."""
-ROUNDS: Final = 400
-STEP: Final = 1.0 / 16.0
-"""Share of an excess removed at a time: the inverse of the largest eigenvalue of the second difference times its
-transpose, stable with momentum.
-"""
 _ROOM: Final = 0.93
 """Share of the bound to which paths are corrected, leaving a margin for later steps."""
 _ARM: Final = ("UpperArm", "LowerArm", "Hand")
@@ -79,19 +76,31 @@ def usual_accelerations(clips: Sequence[MotionClip], fps: Fraction) -> UsualAcce
     return UsualAccelerations(*found)
 
 
-def within_limits(clip: MotionClip, standing: Sequence[FootPlant], usual: UsualAccelerations) -> MotionClip:
-    """Return the motion with joints no faster than `app.choreography.joint_speeds.within_speeds` allows, hands and feet
-    accelerated as `without_twitches` allows, and soles on or above the floor.
+def within_limits(
+    clip: MotionClip, standing: Sequence[FootPlant], usual: UsualAccelerations, usual_change_rad_s: float
+) -> MotionClip:
+    """Return the motion with joints no faster than `app.choreography.joint_speeds.within_speeds` allows and changing
+    their speeds no more than usual, hands and feet accelerated as `without_twitches` allows, and soles on or above the
+    floor.
 
     Alternating is necessary, since a joint that is slowed down accelerates its hand or foot, and the other way round.
+
+    Parameters
+    ----------
+    usual_change_rad_s : float
+        See `app.choreography.dance_flaws.usual_change_rad_s`.
     """
     on_floor = planted_frames(standing, len(clip))
-    # Joints first: a hand that a slower shoulder carries along has to be calmed, too.
-    clip = within_speeds(clip, on_floor)
+    clip = within_speeds(feet_within_changes(clip, on_floor, usual_change_rad_s), on_floor)
+    clip = within_changes(clip, on_floor, usual_change_rad_s)
+    calm = grounded(without_twitches(clip, standing, usual), on_floor)
+    # The limits of hands, feet and speeds come last and are kept exactly; they leave few changes over their own limit.
+    clip = within_speeds(within_changes(calm, on_floor, usual_change_rad_s), on_floor)
     for number in range(ALTERNATIONS):
         calm = without_twitches(clip, standing, usual)
         if number and calm is clip:
             break
+        # A hand that a slower shoulder carries along has to be calmed again.
         clip = within_speeds(grounded(calm, on_floor), on_floor)
         if clip is calm:
             break
@@ -179,37 +188,15 @@ def _calm_points(
     """
     length, free = np.linalg.norm(tip - joint, axis=-1, keepdims=True), ~planted[:, None]
     for _ in range(PASSES):
-        calm = _bent(tip, float(most[1]), held | planted)
+        calm = bent(tip, float(most[1]), held | planted)
         joint, tip = joint + calm - tip, calm
-        calm, along = _bent(joint, float(most[0]), held), _unit(tip - joint)
+        calm, along = bent(joint, float(most[0]), held), _unit(tip - joint)
         # The distance between joint and tip is constant, so along the hand or foot both move together.
         tip = tip + free * along * np.sum((calm - joint) * along, axis=-1, keepdims=True)
         joint = tip - length * _unit(tip - calm)
         if _suddenness(np.stack([joint, tip], axis=1), most) <= 1.01:
             break
     return joint, tip
-
-
-def _bent(path: FloatArray, most: float, held: BoolArray) -> FloatArray:
-    """Limit the second differences of a path (N, 3) to ``most`` by iterative projections; positions marked in ``held``
-    stay.
-    """
-    moved, before = np.zeros_like(path), np.zeros_like(path)
-    free = ~held[:, None]
-    for number in range(ROUNDS):
-        # Nesterov's momentum needs far fewer rounds for long stretches.
-        ahead = moved + number / (number + 3.0) * (moved - before)
-        change = np.diff(path + ahead, 2, axis=0)
-        size = np.linalg.norm(change, axis=-1, keepdims=True)
-        excess = change * np.maximum(0.0, 1.0 - most / np.maximum(size, 1e-12))
-        if not number % 20 and size.max(initial=0.0) <= most * 1.001:
-            break
-        back = np.zeros_like(path)
-        back[:-2] += excess
-        back[1:-1] -= 2.0 * excess
-        back[2:] += excess
-        before, moved = moved, free * (ahead - STEP * back)
-    return path + moved
 
 
 def _points_m(clip: MotionClip, world: JointTransforms, name: str) -> FloatArray:

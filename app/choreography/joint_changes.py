@@ -1,0 +1,136 @@
+"""Limits sudden changes of the rotation speeds of joints in a dance to those of captures.
+
+Joints between a moving body and a foot that lands earlier or later than captured may start and stop rotating within a
+frame, most of all the knee of an almost straight leg. Where a joint's angular velocity changes by more from one frame
+to the next than usual in the captures, its rotations are bent minimally in the adjacent frames. Standing feet stay in
+place.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+from scipy.ndimage import maximum_filter1d
+
+from app.arrays import BoolArray, FloatArray
+from app.choreography.bent_paths import bent
+from app.choreography.body import FEET, SEGMENTS
+from app.choreography.body_speeds import runs
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import tips_m
+from app.choreography.feet_on_floor import legs_to
+from app.rig import quaternion
+
+ROOM: Final = 0.85
+"""Share of the limit that is used, since placing the feet again changes the legs slightly."""
+AROUND_S: Final = 0.1
+"""Time in seconds before and after a sudden change within which rotations are bent."""
+EDGE: Final = 2
+"""Number of unchanged frames at either end of such a span, between which its first and last speed are kept."""
+TRIES: Final = 2
+"""Greatest number of passes, since rotations about different axes add up only approximately."""
+ROUNDS: Final = 60
+LANDS_S: Final = 0.05
+"""Time in seconds before a landing in which a leg is unchanged, so that its foot descends steeply and does not skid."""
+EXACT_M: Final = 1e-4
+"""Distance in metres within which the tip of a standing foot stays."""
+
+
+def within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float) -> MotionClip:
+    """Return the motion with the angular velocity of each joint except the hips changing by at most ``most_rad_s`` from
+    frame to frame, as far as standing feet allow; the same object if no change is greater.
+
+    Parameters
+    ----------
+    planted : (F, 2) bool
+        Frames in which the left and the right foot stand; their legs stay as they are.
+    """
+    rotations, held = clip.rotations, _held(planted, float(clip.fps))
+    for _ in range(TRIES):
+        calmer = _calm(rotations, held, most_rad_s, float(clip.fps))
+        if calmer is rotations:
+            break
+        rotations = calmer
+    return clip if rotations is clip.rotations else replace(clip, rotations=quaternion.continuous(rotations))
+
+
+def feet_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float) -> MotionClip:
+    """Return the motion with the angular velocity of each foot in the world changing by at most ``most_rad_s`` from
+    frame to frame; its tip stays, also while the foot stands and rolls about it. The same object is returned if no
+    change is greater.
+
+    Parameters
+    ----------
+    planted : (F, 2) bool
+        Frames in which the left and the right foot stand.
+    """
+    world, at = clip.world(), [1 + SEGMENTS.index(name) for name in FEET]
+    turns, tips = world.rotations[:, at], tips_m(clip, world)
+    held = np.zeros(planted.shape, bool)
+    for _ in range(TRIES):
+        calm = _calm(turns, held, most_rad_s, float(clip.fps))
+        if calm is turns:
+            break
+        rotations = world.rotations.copy()
+        rotations[:, at] = calm
+        found = legs_to(clip, replace(world, rotations=rotations), tips, planted)
+        # A leg that does not reach as far keeps its foot as it was.
+        off = planted & (np.linalg.norm(tips_m(found) - tips, axis=-1) > EXACT_M)
+        if not off.any():
+            return found
+        held |= maximum_filter1d(off, 4 * round(AROUND_S * float(clip.fps)) + 1, axis=0)
+    return clip
+
+
+def _calm(rotations: FloatArray, held: BoolArray, most_rad_s: float, fps: float) -> FloatArray:
+    """Bend rotations (F, P, 4) of P parts where the angular velocity changes by more than ``most_rad_s`` from frame to
+    frame; those marked in ``held`` (F, P) stay. The same object is returned if no change is greater.
+    """
+    most_rad = ROOM * most_rad_s / fps
+    if len(rotations) < 3:
+        return rotations
+    turns = quaternion.to_rotation_vector(quaternion.multiply(rotations[1:], quaternion.conjugate(rotations[:-1])))
+    sudden = np.zeros(held.shape, bool)
+    sudden[1:-1] = np.linalg.norm(np.diff(turns, axis=0), axis=-1) > most_rad
+    # A change amid frames that all stay cannot be avoided.
+    sudden[1:-1] &= ~(held[:-2] & held[1:-1] & held[2:])
+    if not sudden.any():
+        return rotations
+    around = 2 * (round(AROUND_S * fps) + EDGE) + 1
+    spans = [
+        (slice(start, stop), part)
+        for part in range(held.shape[1])
+        for start, stop in runs(maximum_filter1d(sudden[:, part], around))
+    ]
+    # All spans are bent as one path: the frames at which they meet stay.
+    paths, stay = [], []
+    for here, part in spans:
+        turned = np.cumsum(turns[here.start : here.stop - 1, part], axis=0)
+        paths.append(np.concatenate([np.zeros((1, 3)), turned]))
+        own = held[here, part].copy()
+        own[:EDGE] = own[-EDGE:] = True
+        stay.append(own)
+    path = np.concatenate(paths)
+    change = quaternion.from_rotation_vector(bent(path, most_rad, np.concatenate(stay), ROUNDS) - path)
+    result, first = rotations.copy(), 0
+    for here, part in spans:
+        stop = first + here.stop - here.start
+        result[here, part] = quaternion.multiply(change[first:stop], result[here, part])
+        first = stop
+    return result
+
+
+def _held(planted: BoolArray, fps: float) -> BoolArray:
+    """Mark the joints (F, 16) that stay: the hips always, and the legs of feet that stand or are about to land."""
+    lands = planted.copy()
+    for ahead in range(1, min(round(LANDS_S * fps), len(planted) - 1) + 1):
+        lands[:-ahead] |= planted[ahead:]
+    held = np.zeros((len(planted), len(SEGMENTS)), bool)
+    for part, name in enumerate(SEGMENTS):
+        if not part:
+            held[:, part] = True
+        elif name.endswith(("Leg", "Foot")):
+            held[:, part] = lands[:, int(name.startswith("right"))]
+    return held

@@ -1,0 +1,92 @@
+"""Joints of dances start and stop rotating no more suddenly than captured ones."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from app.choreography.body import FEET, SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import tips_m
+from app.choreography.dance import Manner
+from app.choreography.feet_on_floor import legs_to
+from app.choreography.generate import Choreographer
+from app.choreography.joint_changes import feet_within_changes, within_changes
+from app.rig import quaternion
+from tests.support.dance_measures import angular_jumps
+from tests.support.dances import beaten, model, moving, still
+
+MOST_RAD_S = 3.0
+FREE = np.zeros((60, 2), bool)
+
+
+def snapping(name: str, rad_s: float = 8.0) -> MotionClip:
+    """A joint that starts to rotate within a frame, and stops half a second later as suddenly."""
+    clip = still(60)
+    bent_rad = np.clip((np.arange(60) - 15) / 60.0, 0.0, 0.5) * rad_s
+    turns = quaternion.from_rotation_vector(bent_rad[:, None] * (0.3, 0.0, 0.0))
+    clip.rotations[:, SEGMENTS.index(name)] = turns
+    return clip
+
+
+@pytest.mark.parametrize("name", ["leftLowerLeg", "rightUpperArm", "chest"])
+def test_a_joint_that_snaps_starts_gradually_and_all_else_stays(name: str) -> None:
+    clip, part = snapping(name, 24.0), SEGMENTS.index(name)
+    assert angular_jumps(clip).max() > 2.0 * MOST_RAD_S
+    found = within_changes(clip, FREE, MOST_RAD_S)
+    assert angular_jumps(found).max() <= MOST_RAD_S
+    others = np.arange(len(SEGMENTS)) != part
+    assert found.rotations[:, others] == pytest.approx(clip.rotations[:, others])
+    away = [0, 6, 24, 30, 36, 54, 59]
+    assert found.rotations[away, part] == pytest.approx(clip.rotations[away, part], abs=1e-9)
+    assert np.degrees(np.abs(found.rotations - clip.rotations)).max() < 3.0
+
+
+def test_the_leg_of_a_standing_foot_stays() -> None:
+    clip, planted = snapping("rightUpperLeg", 24.0), FREE.copy()
+    planted[10:20, 1] = True
+    found = within_changes(clip, planted, MOST_RAD_S)
+    assert found.rotations[10:20] == pytest.approx(clip.rotations[10:20])
+    assert angular_jumps(found)[40:].max() <= MOST_RAD_S
+
+
+def world_jumps_rad_s(clip: MotionClip, name: str) -> np.ndarray:
+    """Changes (F - 2,) of a segment's angular velocity in the world."""
+    turned = clip.world().rotations[:, 1 + SEGMENTS.index(name)]
+    steps = quaternion.multiply(turned[1:], quaternion.conjugate(turned[:-1]))
+    return np.linalg.norm(np.diff(quaternion.to_rotation_vector(steps), axis=0), axis=-1) * float(clip.fps)
+
+
+@pytest.mark.parametrize("foot", [0, 1])
+def test_a_standing_foot_rolls_about_its_tip_without_a_jerk(foot: int) -> None:
+    upright, planted = still(60), FREE.copy()
+    planted[:, foot] = True
+    clip = replace(upright, hips_m=upright.hips_m - (0.0, 0.15, 0.0))
+    world = clip.world()
+    # The heel starts to rise within a frame.
+    risen_rad = np.clip((np.arange(60) - 28) / 60.0, 0.0, 0.07) * 8.0
+    world.rotations[:, 1 + SEGMENTS.index(FEET[foot])] = quaternion.from_rotation_vector(
+        risen_rad[:, None] * (1.0, 0.0, 0.0)
+    )
+    clip = legs_to(clip, world, tips_m(upright), planted)
+    assert world_jumps_rad_s(clip, FEET[foot]).max() > 2.0 * MOST_RAD_S
+    found = feet_within_changes(clip, planted, MOST_RAD_S)
+    assert world_jumps_rad_s(found, FEET[foot]).max() <= MOST_RAD_S
+    assert np.abs(tips_m(found) - tips_m(upright)).max() < 1e-3
+
+
+def test_what_is_calm_enough_is_left_as_it_is() -> None:
+    clip = moving(60)
+    most = 2.0 * angular_jumps(clip).max()
+    assert within_changes(clip, FREE, most) is clip
+    assert feet_within_changes(clip, FREE, 3.0 * most) is clip
+
+
+def test_a_dance_is_no_more_sudden_than_its_captures() -> None:
+    """Feet that land on the beat instead of as captured would jerk their legs."""
+    choreographer = Choreographer(model())
+    dance = choreographer.dance(beaten(40, 0.43), Manner(seed=0), Fraction(60))
+    assert angular_jumps(dance.clip).max() <= choreographer.usual_change_rad_s(Fraction(60))
