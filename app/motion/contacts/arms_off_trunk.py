@@ -176,10 +176,13 @@ class Remaining:
         Greatest depth of a forearm or hand in trunk and thighs; negative: room.
     bent_rad : array
         Greatest excess of a wrist over its range.
+    hands_m : array
+        Greatest depth of a wrist or palm alone, which no elbow moves.
     """
 
     depth_m: FloatArray
     bent_rad: FloatArray
+    hands_m: FloatArray
 
 
 def remaining(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> Remaining | None:
@@ -189,16 +192,19 @@ def remaining(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> R
         return None
     posed, frames = _posed(player, player.shape, curves, upper), np.arange(len(curves))
     depth_m, bent_rad = np.full(len(curves), -BEYOND_M), np.zeros(len(curves))
+    hands_m = depth_m
     for side, solved in solved_arms(player, curves, upper, None, player.away(curves.body, upper.carried)).items():
         forearm = _Forearm.of(side, solved, posed)
         turn_rad = np.minimum(*_outward_rad(forearm, side, solved, player.wrists[side], 0))
         turn_rad = turn_rad if side == "left" else -turn_rad
-        depth_m = np.maximum(depth_m, forearm.inside_m(frames, turn_rad).max(axis=1))
+        inside_m = forearm.inside_m(frames, turn_rad)
+        depth_m = np.maximum(depth_m, inside_m.max(axis=1))
         hand_m = player.skeleton.offsets_m[player.skeleton.index(f"{side}MiddleProximal")]
         palm_m = forearm.wrist_m[:, None] + quaternion.rotate(solved.hand[:, None], hand_m * PALM[:, None])
-        depth_m = np.maximum(depth_m, (posed.depths_m(palm_m) + PALM_M + player.shape.room_m).max(axis=1))
+        in_palm_m = (posed.depths_m(palm_m) + PALM_M + player.shape.room_m).max(axis=1)
+        hands_m = np.maximum(hands_m, np.maximum(inside_m[:, -1], in_palm_m))
         bent_rad = np.maximum(bent_rad, player.wrists[side].outside_rad(_hand_at(solved, frames, turn_rad)))
-    return Remaining(depth_m, bent_rad)
+    return Remaining(np.maximum(depth_m, hands_m), bent_rad, hands_m)
 
 
 @dataclass(frozen=True, eq=False)

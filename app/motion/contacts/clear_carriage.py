@@ -58,13 +58,18 @@ def played_clear(player: PlayerBody) -> PlayerBody:
     return replace(player, carriage=moved)
 
 
-def lacking_m(player: PlayerBody) -> float:
-    """Return the room in metres that forearms and hands lack with the instrument at the lips, 0 or more; a wrist beyond
-    its range counts too. It is 0 for a body of unknown shape."""
+def lacking_m(player: PlayerBody, room_m: float) -> float:
+    """Return what forearms and hands lack of their room with the instrument at the lips, in metres, 0 or more.
+
+    The instrument is held as usual, and as far down as its range goes. A wrist beyond its range counts too. It is 0 for
+    a body of unknown shape. ``room_m`` is the room of the hands, which no turn of an elbow gives them.
+    """
     carriage = player.carriage
     ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
-    left = _left(player, np.zeros((1, 3)), ranges)
-    return 0.0 if left is None else float(_cost_m(left, ROOM_M)[0])
+    left = _left(player, np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]), ranges)
+    if left is None:
+        return 0.0
+    return float(np.maximum(_cost_m(left, ROOM_M), left.hands_m + room_m).max(initial=0.0))
 
 
 def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> PlayerBody:
@@ -163,7 +168,7 @@ def _left(player: PlayerBody, shares: FloatArray, ranges: tuple[Vector, Vector, 
     left = _remaining(player, ContactCurves(still, far, {}, np.zeros(count)))
     if left is None or not moving:
         return left
-    return Remaining(*(np.maximum(*values.reshape(2, -1)) for values in (left.depth_m, left.bent_rad)))
+    return Remaining(*(np.maximum(*values.reshape(2, -1)) for values in (left.depth_m, left.bent_rad, left.hands_m)))
 
 
 def _remaining(player: PlayerBody, curves: ContactCurves, upper: UpperBody | None = None) -> Remaining | None:

@@ -1,12 +1,12 @@
-"""Seats players of instruments that stand on the floor high enough: on a higher seat the thighs descend to the knees.
+"""Seats players of large instruments high enough: on a higher seat the thighs descend to the knees.
 
-Such an instrument is before the lap, and as tall for everyone. On the usual seat the hands of a small player would be
-in the lap, and the instrument would end below the floor.
+An instrument on its endpin or on straps is before the lap, and as tall for everyone. On the usual seat the hands of a
+small player would be in the lap, and the instrument on its pin would end below the floor.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import msgspec
@@ -17,6 +17,7 @@ from app.motion.contacts.solve import PlayerBody
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import Stance, hips_path, stance, trunk
 from app.motion.contacts.upper_body import upper_body
+from instrument_maps.hold import Support
 from instrument_maps.model import Endpin
 from metadata.model import Posture
 
@@ -24,15 +25,19 @@ LOWER_DEG = np.linspace(0.0, 24.0, 7)
 """Tried angles by which the thighs descend more than in the posture."""
 LOWER_M_PER_DEG = 0.0006
 """Room that counts as much as a degree of that."""
-ACCEPTED_M = 0.008
+ROOM_M = 0.03
+"""Room that a still body leaves between hands and lap for the motion, in which trunk and head go down."""
+ACCEPTED_M = 0.01
 """Lacking room for which the usual seat is kept."""
 
 
-def seated_clear(player: PlayerBody, posture: Posture, endpin: Endpin | None) -> PlayerBody:
+def seated_clear(
+    player: PlayerBody, posture: Posture, endpin: Endpin | None, supports: Sequence[Support] = ()
+) -> PlayerBody:
     """Return the player on a seat that leaves room between arms and body and above the floor.
 
-    Unchanged where there is room, for a standing player, and for an instrument without an endpin, which has room to be
-    held elsewhere.
+    Unchanged where there is room, for a standing player, and for an instrument in the hands alone, which has room to be
+    held elsewhere, or on the lap.
 
     Parameters
     ----------
@@ -40,8 +45,10 @@ def seated_clear(player: PlayerBody, posture: Posture, endpin: Endpin | None) ->
         Posture of the player on the usual seat.
     endpin : Endpin or None
         Pin of the instrument, which stays on the floor if it is there on the usual seat.
+    supports : sequence of Support
+        Straps on which the instrument hangs.
     """
-    if endpin is None or player.shape is None or not player.place.seated:
+    if (endpin is None and not supports) or player.shape is None or not player.place.seated:
         return player
     best, least_m = player, _lacking_m(player)
     if least_m <= ACCEPTED_M:
@@ -82,6 +89,6 @@ def _lower(posture: Posture, lower_deg: float) -> Posture:
 def _lacking_m(player: PlayerBody) -> float:
     """Return the room in metres that arms lack, and the length of an instrument's pin that would be below the floor."""
     if player.stand is None:
-        return lacking_m(player)
+        return lacking_m(player, ROOM_M)
     carried = upper_body(player, ContactCurves(player.still, {}, {}, np.zeros(1))).carried
-    return lacking_m(player) + max(0.0, -player.stand.pin_m(carried))
+    return lacking_m(player, ROOM_M) + max(0.0, -player.stand.pin_m(carried))

@@ -81,8 +81,8 @@ def _dressed(
 ) -> PlayerBody:
     named = instrument_map.hold.possible(cast(PostureName, posture_name))
     posture = carrying(body, named, instrument_map.hold.carriage(named))
-    worn = seated_clear(replace(player, shape=dressed_shape(character)), posture, instrument_map.endpin)
-    return lowered_clear(worn, instrument_map.hold.worn(named))
+    supports, dressed = instrument_map.hold.worn(named), replace(player, shape=dressed_shape(character))
+    return lowered_clear(seated_clear(dressed, posture, instrument_map.endpin, supports), supports)
 
 
 def _made(
@@ -112,9 +112,10 @@ def _made(
         shape=shape,
         wrists=wrists_of(body, load_skeleton()),
     )
+    supports = instrument_map.hold.worn(instrument_map.hold.possible(named))
     played = played_clear(made.standing_on(instrument_map.endpin))
-    seated = seated_clear(played, posture, instrument_map.endpin)
-    return with_bell_room(lowered_clear(seated, instrument_map.hold.worn(instrument_map.hold.possible(named))))
+    seated = seated_clear(played, posture, instrument_map.endpin, supports)
+    return with_bell_room(lowered_clear(seated, supports))
 
 
 def _grip_of_lips(lips: Lips, embouchure: EmbouchureWeights) -> FloatArray:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import logging
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -35,9 +36,11 @@ from app.rig.grip.lips import fit_lips, needed_landmarks
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import ancestors, closure
 from app.rig.skinning import mesh_named
+from instrument_maps.load import bundled_maps
 from instrument_maps.model import Control, InstrumentMap
 from metadata.model import Body
 
+_LOG = logging.getLogger(__name__)
 MOST_BYTES = 2**22
 """Largest size of a file in bytes; bundled files have a twentieth of it."""
 DIGITS = 6
@@ -215,7 +218,8 @@ def hold_for(
 ) -> GripPose:
     """Return a body's grip on an instrument: the stored one, or a new fit that is then cached.
 
-    ``progress`` is called during the fit, and may stop it (`fit_hold`).
+    A bundled grip that is out of date is logged, since everyone would wait for its fit. ``progress`` is called during
+    the fit, and may stop it (`fit_hold`).
     """
     require_landmarks(character, instrument)
     digest = digest_of(character, model, instrument, body)
@@ -225,6 +229,9 @@ def hold_for(
         grip = read_hold(path, digest, lips)
         if grip is not None:
             return grip
+    if bundled_maps().get(instrument.id) is instrument and is_file(bundled_path(character.id, instrument.id)):
+        name = bundled_path(character.id, instrument.id).name
+        _LOG.warning("%s is out of date and fitted anew: run python -m resources.build.build_holds", name)
     from app.rig.grip.fitting.fit import fit_hold  # slow to import; holds are rarely fitted
 
     grip = stored(fit_hold(character, model, instrument, body, progress))

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from app.export.arm_depths import ARM_MM
-from app.motion.contacts.clear_seat import highest_seat, on_seat
+from app.motion.contacts.clear_carriage import lacking_m
+from app.motion.contacts.clear_seat import ROOM_M, highest_seat, on_seat
 from app.motion.contacts.ready_player import player_body
 from app.motion.contacts.solve import PlayerBody
 from app.motion.contacts.still_player import ContactCurves
@@ -65,6 +66,14 @@ def test_a_small_player_sits_higher_with_an_instrument_on_the_floor(instrument_i
     assert pin_m(made) >= 0.0
     assert depth_mm(character, frames_of(made, out=True)) <= ARM_MM
     assert 0.05 < made.place.hips_m[1] - usual.place.hips_m[1] < 0.2
+
+
+def test_a_small_player_sits_higher_with_an_instrument_on_straps() -> None:
+    """A hand has room for the motion over the lap; the elbows alone cannot give it."""
+    made, usual, _ = seated("sax_baritone_Eb", SMALL, "concert_black")
+    assert lacking_m(usual, ROOM_M) > 0.02
+    assert lacking_m(made, ROOM_M) < 0.01
+    assert 0.02 < made.place.hips_m[1] - usual.place.hips_m[1] < 0.1
 
 
 def test_players_with_room_keep_the_usual_seat() -> None:

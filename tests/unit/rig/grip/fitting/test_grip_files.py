@@ -82,6 +82,29 @@ def test_the_shipped_hold_is_up_to_date(pair: tuple[str, str]) -> None:
     )
 
 
+def test_a_shipped_hold_that_is_out_of_date_is_logged(
+    tmp_path: Path, shipped: tuple[str, GripPose], monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    """It is fitted anew, which takes everyone a minute."""
+    digest, hold = shipped
+    fits: list[str] = []
+
+    def fitted(*given: Any) -> GripPose:
+        fits.append(given[2].id)
+        return hold
+
+    monkeypatch.setattr(grip_files, "bundled_path", lambda character, instrument: tmp_path / "shipped.json")
+    monkeypatch.setattr(grip_files, "cache_folder", lambda kind: tmp_path / "cache")
+    monkeypatch.setattr("app.rig.grip.fitting.fit.fit_hold", fitted)
+    write_hold(tmp_path / "shipped.json", "older", hold)
+    hold_for(*inputs(*PAIRS[0]))
+    assert fits == [PAIRS[0][1]]
+    assert ["shipped.json" in record.getMessage() for record in caplog.records] == [True]
+    write_hold(tmp_path / "shipped.json", digest, hold)
+    hold_for(*inputs(*PAIRS[0]))
+    assert (len(fits), len(caplog.records)) == (1, 1)
+
+
 def test_a_hold_comes_back_to_the_bit(tmp_path: Path, shipped: tuple[str, GripPose]) -> None:
     digest, hold = shipped
     write_hold(tmp_path / "hold.json", digest, hold)
