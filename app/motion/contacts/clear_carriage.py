@@ -59,7 +59,7 @@ def played_clear(player: PlayerBody) -> PlayerBody:
 
 
 def lacking_m(player: PlayerBody, room_m: float) -> float:
-    """Return what forearms and hands lack of their room with the instrument at the lips, in metres, 0 or more.
+    """Return the room in metres, 0 or more, that forearms and hands lack with the instrument at the lips.
 
     The instrument is held as usual, and as far down as its range goes. A wrist beyond its range counts too. It is 0 for
     a body of unknown shape. ``room_m`` is the room of the hands, which no turn of an elbow gives them.
