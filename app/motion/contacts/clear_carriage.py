@@ -28,6 +28,8 @@ RAISED_M = np.linspace(0.0, 0.20, 5)
 """Heights above its usual place at which a lowered instrument without straps is tried, as by the thighs of who sits."""
 ROOM_M, LOW_ROOM_M = 0.008, 0.004
 """Room that a still body leaves for the motion: with the instrument at the lips, and lowered."""
+LAP_ROOM_M = 0.025
+"""Room that hands leave over the lap of a seated player, who leans forward in rests."""
 BENT_M_PER_RAD = float(0.010 / np.deg2rad(1.0))
 """A wrist beyond its range is as bad as so deep an arm."""
 OFF_M = 0.006
@@ -88,7 +90,8 @@ def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> Playe
     low = ContactCurves(replace(player.still, lowered=np.ones(1)), {}, {}, np.zeros(1))
     usual = upper_body(player, low)
     left = _remaining(player, low, usual)
-    if left is None or left.depth_m[0] <= -LOW_ROOM_M:
+    lap_m = LAP_ROOM_M if player.place.seated else LOW_ROOM_M
+    if left is None or (left.depth_m[0] <= -LOW_ROOM_M and left.hands_m[0] <= -lap_m):
         return player
     straps_m = _straps_m(player, usual.carried, supports)
     places, costs_m = list[LoweredPlace](), list[float]()
@@ -104,7 +107,7 @@ def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> Playe
     ways_m = np.array([place.offset_m for place in places]) - np.array(player.lowered.offset_m)
     left = _remaining(player, *_lowered_by(player, low, usual, ways_m))
     assert left is not None
-    best = int(np.argmin(_cost_m(left, LOW_ROOM_M) + costs_m))
+    best = int(np.argmin(np.maximum(_cost_m(left, LOW_ROOM_M), left.hands_m + lap_m) + costs_m))
     return replace(player, lowered=places[best]) if best else player
 
 
