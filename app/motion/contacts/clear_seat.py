@@ -54,15 +54,14 @@ def seated_clear(
     if least_m <= ACCEPTED_M:
         return player
     for lower_deg in LOWER_DEG[1:].tolist():
-        cost_m = LOWER_M_PER_DEG * lower_deg
-        if cost_m >= least_m:
-            break
         tried = on_seat(player, stance(player.skeleton, _lower(posture, lower_deg)), endpin)
         if (tried.stand is None) is not (player.stand is None):
-            continue
-        cost_m += _lacking_m(tried)
-        if cost_m < least_m:
-            best, least_m = tried, cost_m
+            break
+        cost_m = _lacking_m(tried) + LOWER_M_PER_DEG * lower_deg
+        # A lap that is not in the way does not get out of it.
+        if cost_m >= least_m:
+            break
+        best, least_m = tried, cost_m
     return best
 
 
