@@ -50,14 +50,18 @@ def seated_clear(
     """
     if (endpin is None and not supports) or player.shape is None or not player.place.seated:
         return player
-    best, least_m = player, _lacking_m(player)
+    best, least_m, from_deg = player, _lacking_m(player), 0.0
     if least_m <= ACCEPTED_M:
         return player
     for lower_deg in LOWER_DEG[1:].tolist():
-        tried = on_seat(player, stance(player.skeleton, _lower(posture, lower_deg)), endpin)
+        place = stance(player.skeleton, _lower(posture, lower_deg))
+        if place.hips_m[1] <= player.place.hips_m[1]:
+            from_deg = lower_deg
+            continue
+        tried = on_seat(player, place, endpin)
         if (tried.stand is None) is not (player.stand is None):
             break
-        cost_m = _lacking_m(tried) + LOWER_M_PER_DEG * lower_deg
+        cost_m = _lacking_m(tried) + LOWER_M_PER_DEG * (lower_deg - from_deg)
         # A lap that is not in the way does not get out of it.
         if cost_m >= least_m:
             break
