@@ -31,6 +31,7 @@ from app.choreography.accent_grid import AccentGrid
 from app.choreography.drums_of_dancers import TakeShares
 from app.choreography.hit_log_odds import HeardHits
 from app.choreography.phrases import ReturningPlaces
+from app.choreography.take_turns import TakeTurns
 from app.choreography.transition_scores import NEVER, SHARES, MoveCosts, SegmentMeets, SegmentMoves, no_meets
 
 MOST_BEATS: Final = 4
@@ -83,12 +84,6 @@ FEW: Final = 24.0
 """Number of segments in which each counts half as danced recently, since few segments must repeat."""
 ANEW: Final = 0.05
 """Share of the bars of a recurring section that are danced anew."""
-LEFT_OVER: Final = 0.85
-"""Share of a take's deficit that remains a phrase later."""
-LEAST_SHARE: Final = 0.25
-"""Share of the greatest take below which a take gets no turn."""
-SAME_TAKE: Final = 80.0
-"""Number of beats by which a take may exceed its share if music recurs to which it was danced."""
 PHRASE_BEATS: Final = 8
 """Number of beats searched at a time, whose motions then count as danced recently."""
 
@@ -189,7 +184,7 @@ def choose(
         returns = _varied(returns, random)
     weights = replace(weights, lately=weights.lately * segments / (segments + FEW))
     search = _Search(grid, candidates, heard, weights, constraints, usual, initial)
-    turns = None if takes is None else _Turns(takes, random)
+    turns = None if takes is None else TakeTurns(takes, random, PHRASE_BEATS)
     chosen: list[tuple[int, int]] = []
     phrases = np.flatnonzero(grid.on_beat)[::PHRASE_BEATS].tolist()
     for first, stop in pairwise((*phrases, count)):
@@ -243,36 +238,6 @@ def _danced_again(
     np.maximum.at(again, (row, own[row, bar]), worths)
     np.minimum.at(least, (row, own[row, bar]), worths)
     return np.where(again > 0.0, again, least)
-
-
-class _Turns:
-    """Choice of the take (captured dancer) that is favoured in each phrase, so that takes alternate in proportion to
-    their shares.
-    """
-
-    def __init__(self, takes: TakeShares, random: np.random.Generator) -> None:
-        self._takes = takes
-        self._owed = takes.shares[:1].sum(axis=0) * random.random(takes.shares.shape[1]) * PHRASE_BEATS
-        self._counted = 0
-
-    def favoured(
-        self, grid: AccentGrid, chosen: Sequence[tuple[int, int]], first: int, again: FloatArray
-    ) -> FloatArray:
-        """Mark (S,) with 1 the segments of the take that is favoured from the accent ``first`` on. Recurring music
-        (``again``, from `_danced_again`) favours the take that was danced to it before.
-        """
-        beats, takes = grid.beats, self._takes.takes
-        # The beats danced since the last phrase are subtracted from what each take is owed.
-        for (place, segment), (following, _) in pairwise((*chosen[self._counted :], (first, -1))):
-            self._owed[takes[segment]] -= max(0.0, beats[following] - beats[place])
-        self._counted = len(chosen)
-        share = self._takes.shares[first : first + len(again)].mean(axis=0)
-        self._owed = LEFT_OVER * self._owed + share * PHRASE_BEATS
-        turn = np.where(share > LEAST_SHARE * share.max(), self._owed, -np.inf)
-        for take in np.unique(takes).tolist():
-            own = again[:, takes == take]
-            turn[take] += SAME_TAKE * float((own.max(axis=1) + own.min(axis=1)).mean())
-        return np.asarray(takes == int(turn.argmax()), np.float64)
 
 
 class _Search:
