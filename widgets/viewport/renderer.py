@@ -89,7 +89,8 @@ class Renderer:
         """Sources of the programs' uniforms: most pictures have the camera and look of the one before."""
         self._software: bool | None = None
         self.missing: tuple[LevelsOfDetail, ...] = ()
-        """Performers' levels of detail that the last picture would have needed, had they been made."""
+        """Performers' levels of detail that the last picture would have needed, had they been made, the nearest
+        first."""
 
     def set_stage(self, stage: Stage, shapes: Shapes, everyone: Crowd | None) -> None:
         """Set the stage to draw.
@@ -201,11 +202,14 @@ class Renderer:
         # While the camera moves, drawing waits for no texture; a still picture uses all of them.
         self._maps.left = 1 if emphasis.in_motion else _ALL
         level = self._levels(stage, camera, matrix, height / HASTY_FACTOR if hasty else height)
-        coarse = unmade(stage, shapes, np.flatnonzero((level >= 0) & (level < LEVELS - 1)))
-        if coarse and emphasis.is_final:
-            for levels in chain(*coarse.values()):
-                levels.complete()
-        elif coarse:
+        near = np.flatnonzero((level >= 0) & (level < LEVELS - 1))
+        away_m = np.linalg.norm(self._middles_m[near] - camera.eye_m, axis=1)
+        coarse = unmade(stage, shapes, near[np.argsort(away_m, kind="stable")])
+        # The one in close-up is worth a short wait.
+        awaited = [row for row in coarse if emphasis.is_final or (row == near[np.argmin(away_m)] and level[row] == 0)]
+        for levels in chain(*(coarse.pop(row) for row in awaited)):
+            levels.complete()
+        if coarse:
             level[[*coarse]] = LEVELS - 1
             self.missing = tuple(dict.fromkeys(chain(*coarse.values())))
         self._upload(stage, limbs, level, emphasis)

@@ -36,6 +36,10 @@ FEW = 12
 """Number of performers up to which figures are loaded at once; with more, the active one is loaded first."""
 FRONT_MS = 3000
 """Milliseconds after which the other figures are loaded even if the active player does not move yet."""
+REFINED_TOGETHER = 4
+"""Number of missing levels of detail made before the next picture: body and instrument of two performers."""
+REST_MS = 1500
+"""Milliseconds after which missing levels of detail are made once everyone is drawn."""
 CONDUCTORS_NAME = "stage.conductor"
 PODIUM_NAME_M = 0.5
 """Height of the podium's name above the conductor's place."""
@@ -79,6 +83,9 @@ class ViewportScene(QObject):
         self._others = QTimer(self, interval=FRONT_MS, singleShot=True)
         self._others.timeout.connect(self.load)
         self.shown.connect(lambda: self.load() if self._others.isActive() else None)
+        self._rest = QTimer(self, interval=REST_MS, singleShot=True)
+        self._rest.timeout.connect(self._refine_rest)
+        self.shown.connect(lambda: self._rest.start() if self.stage is not None and self.stage.shown.all() else None)
 
     @property
     def loaded(self) -> DrawableFigures | None:
@@ -124,16 +131,19 @@ class ViewportScene(QObject):
         )
 
     def refine(self, coarse: Sequence[LevelsOfDetail]) -> None:
-        """Make missing levels of detail in the background, after the present picture."""
+        """Make missing levels of detail in the background, after the present picture: the first ones of ``coarse``,
+        since the next picture asks for those that are missing then.
+        """
         if self._refining:
             return
         self._refining = True
 
         def make(progress: Progress, stop_requested: StopRequested) -> None:
-            for number, levels in enumerate(coarse):
+            nearest = coarse[:REFINED_TOGETHER]
+            for number, levels in enumerate(nearest):
                 raise_if_stopped(stop_requested)
                 levels.complete()
-                progress((number + 1) / len(coarse))
+                progress((number + 1) / len(nearest))
 
         def ended() -> None:
             self._refining = False
@@ -145,6 +155,27 @@ class ViewportScene(QObject):
 
         # Deferred until the picture is painted.
         QTimer.singleShot(0, self, begin)
+
+    def _refine_rest(self) -> None:
+        """Make all missing levels of detail in the background, so that the camera finds none missing."""
+        loaded = self._loaded
+        if loaded is None:
+            return
+        figures = (*loaded.shapes.characters.values(), *loaded.shapes.instruments.values())
+        missing = [levels for levels in figures if not levels.is_complete]
+
+        def make(progress: Progress, stop_requested: StopRequested) -> None:
+            for number, levels in enumerate(missing):
+                raise_if_stopped(stop_requested)
+                if self._loaded is None or self._loaded.shapes is not loaded.shapes:
+                    return
+                levels.complete()
+                progress((number + 1) / len(missing))
+
+        if missing:
+            self._session.tasks.run(
+                Message("work.load_figures"), make, lambda _: self.refined.emit(), key="viewport.refine_rest"
+            )
 
     def sent(self, shapes: Shapes) -> None:
         """Drop the vertices of the crowd of ``shapes``, which the graphics card has received."""
