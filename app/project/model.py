@@ -380,13 +380,14 @@ def _require_posture(player: Player, instrument: InstrumentMap) -> None:
 
 def characters_for(instruments: Sequence[InstrumentMap], students: bool = False) -> tuple[str, ...]:
     """Choose a character for each instrument, by the reach it requires; only people of `STUDENT_YEARS` if
-    ``students``.
+    ``students``, otherwise children when there are no others left.
     """
     travels_m = [_hand_travel_m(instrument) for instrument in instruments]
     # Measuring arms takes a moment, and few instruments need it.
     asked = any(travel_m > FAR_REACH_M for travel_m in travels_m)
     youngest, oldest = STUDENT_YEARS
-    people = [id for id in our_characters() if not students or youngest <= our_years(id) <= oldest]
+    everyone = sorted(our_characters(), key=lambda id: our_years(id) < youngest)
+    people = [id for id in everyone if not students or youngest <= our_years(id) <= oldest]
     arms_m = {id: our_arm_m(id) if asked else 0.0 for id in people}
     small = {id: not_cast_for(id) for id in arms_m}
     left_out = [{id for id, names in small.items() if instrument.id in names} for instrument in instruments]
