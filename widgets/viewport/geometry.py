@@ -63,7 +63,12 @@ class Crowd:
 @lru_cache(maxsize=16)
 def character_levels(character: Character) -> LevelsOfDetail:
     """Return all levels of detail of a character, finest first; the coarsest has no morphs."""
-    return _levels(character.meshes, BODY_CELLS_M, PLAIN_FACTOR)
+    skeleton = character.skeleton
+    head = [skeleton.index("head")]
+    for bone, parent in enumerate(skeleton.parents):
+        if parent in head:
+            head.append(bone)
+    return _levels(character.meshes, BODY_CELLS_M, PLAIN_FACTOR, tuple(head))
 
 
 @lru_cache(maxsize=128)
@@ -185,9 +190,11 @@ def _turned(
     return Geometry(shape, surface, whole, len(whole))
 
 
-def _levels(meshes: Sequence[Mesh], cells_m: Sequence[float], plain_factor: float) -> LevelsOfDetail:
+def _levels(
+    meshes: Sequence[Mesh], cells_m: Sequence[float], plain_factor: float, head_bones: tuple[int, ...] = ()
+) -> LevelsOfDetail:
     def made(numbers: Sequence[int]) -> tuple[Geometry, ...]:
-        whole = WholeFigure(meshes, plain_factor)
+        whole = WholeFigure(meshes, plain_factor, head_bones)
         return tuple(whole.level(cells_m[number], THIN_SHARES[number], number == LEVELS - 1) for number in numbers)
 
     def finer() -> tuple[Geometry, ...]:
@@ -197,6 +204,6 @@ def _levels(meshes: Sequence[Mesh], cells_m: Sequence[float], plain_factor: floa
     looks = textured_looks(meshes)
     # Morphs do not matter to the coarsest level, only that there are any.
     plain = [replace(mesh, morphs=()) for mesh in meshes]
-    made_with = ("coarsest", *cells_m, plain_factor, *(bool(mesh.morphs) for mesh in meshes))
+    made_with = ("coarsest", *cells_m, plain_factor, head_bones, *(bool(mesh.morphs) for mesh in meshes))
     (coarsest,) = kept(plain, made_with, lambda: made([LEVELS - 1]))
     return LevelsOfDetail(replace(coarsest, looks=looks), LEVELS, finer)

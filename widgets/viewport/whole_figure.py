@@ -5,16 +5,16 @@ What depends only on arrays that all people made from one body share is computed
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
 import numpy.typing as npt
 
-from app.arrays import BoolArray, FloatArray, IntArray, SingleArray
+from app.arrays import AnyFloatArray, BoolArray, FloatArray, IntArray, SingleArray
 from app.formats.scene import Material
-from app.formats.texture_colors import linear, sampled
+from app.formats.texture_colors import OPAQUE, linear, sampled
 from app.formats.textures import TextureUse
 from app.identity_cache import IdentityCache
 from app.rig.mesh import Mesh, plain_materials
@@ -26,6 +26,15 @@ PLAIN_LEAST_M = 0.08
 """Thickness in metres below which a mesh without morphs (eyes) is not simplified more than skin."""
 LEAST_CELL_M = 1e-5
 """Finest cell in metres for flat meshes."""
+FAR_HEAD_SHARE = 0.4
+"""Size of the cells of heads relative to that of others at the coarsest level: a face is known by its small parts."""
+_INSIDE = np.array(
+    [
+        *((1 / 3, 1 / 3, 1 / 3), (0.6, 0.2, 0.2), (0.2, 0.6, 0.2), (0.2, 0.2, 0.6)),
+        *((0.45, 0.45, 0.1), (0.1, 0.45, 0.45), (0.45, 0.1, 0.45)),
+    ]
+)
+"""Points in a triangle, as shares of its corners, where its texture is sampled."""
 _MOST_SHORT = 2**16 - 1
 """Greatest number of vertices with 16-bit indices."""
 
@@ -39,9 +48,11 @@ class WholeFigure:
         The meshes.
     plain_factor : float
         Factor by which cloth and hair are coarser than skin.
+    head_bones : collection of int, optional
+        Bones of the head, which is less coarse than the rest.
     """
 
-    def __init__(self, meshes: Sequence[Mesh], plain_factor: float) -> None:
+    def __init__(self, meshes: Sequence[Mesh], plain_factor: float, head_bones: Collection[int] = ()) -> None:
         splits = [split_mesh(mesh) for mesh in meshes]
         counts = [len(split.vertices) for split in splits]
         self._starts = np.cumsum([0, *counts])
@@ -84,6 +95,7 @@ class WholeFigure:
         self._looks = numbered(row_keys(self._part, islands, *colors.T))[1]
         """The same number for vertices of one mesh and colour and, where they have textures, of one part of these."""
         self._surface["a_color"][:, :3] *= self._shades
+        self._head_bones = np.array(sorted(head_bones), np.float32)
 
     def _texture(self, own: slice, split: SplitMesh, looks: tuple[Material, ...], plains: tuple[Material, ...]) -> None:
         """Store texture coordinates, textured materials and colours of a mesh's vertices, which are in the range
@@ -104,7 +116,8 @@ class WholeFigure:
 
     def level(self, cell_m: float, thin_share: float, far: bool) -> Geometry:
         """Return one level of detail; the ``far`` one has no morphs, and mean colours instead of textures."""
-        kept, triangles = self._clustered(cell_m, thin_share)
+        clusters = self._clusters(cell_m, thin_share, far)
+        kept, triangles = self._joined(clusters, far)
         names = () if far else tuple(self._morphs)
         moved = np.zeros(len(self._shape), dtype=bool)
         for name in names:
@@ -125,7 +138,10 @@ class WholeFigure:
             sorted_triangles = triangles[ranked]
         else:
             sorted_triangles = np.concatenate([triangles[~last], triangles[last]])
-        surfaces, surface_of = self._surfaces(order)
+        surface = self._surface
+        if far and clusters is not None:
+            shape["a_normal"], surface = self._means(clusters, order)
+        surfaces, surface_of = self._surfaces(surface, order)
         numbered = place[sorted_triangles]
         corners = numbered.astype(np.uint16) if len(order) <= _MOST_SHORT else numbered.astype(np.uint32)
         if not textured:
@@ -133,18 +149,21 @@ class WholeFigure:
         groups = texture_groups(look[ranked], last[ranked])
         return Geometry(shape, surfaces, corners, int((~last).sum()), face, surface_of, self._uvs[order], groups)
 
-    def _surfaces(self, order: IntArray) -> tuple[npt.NDArray[np.void], npt.NDArray[np.uint16] | None]:
-        """Return the surfaces of the vertices in ``order`` for `Geometry.surfaces` and `Geometry.surface_of`: each
-        distinct surface once with the index for every vertex, or one surface for each vertex and None.
+    def _surfaces(
+        self, surface: npt.NDArray[np.void], order: IntArray
+    ) -> tuple[npt.NDArray[np.void], npt.NDArray[np.uint16] | None]:
+        """Return the surfaces of the vertices in ``order``, out of those of all, for `Geometry.surfaces` and
+        `Geometry.surface_of`: each distinct surface once with the index for every vertex, or one surface for each
+        vertex and None.
         """
         if self._bends:
-            return self._surface.take(order), None
-        rows = numbers(self._surface).take(order, axis=0)
+            return surface.take(order), None
+        rows = numbers(surface).take(order, axis=0)
         keys = row_keys(*np.ascontiguousarray(rows.T[np.ptp(rows, axis=0) > 0.0]).view(np.int32), size=len(order))
         first, surface_of = numbered(keys)
         if len(first) > np.iinfo(np.uint16).max:
-            return self._surface.take(order), None
-        return self._surface.take(order[first]), surface_of.astype(np.uint16)
+            return surface.take(order), None
+        return surface.take(order[first]), surface_of.astype(np.uint16)
 
     def _face(self, names: tuple[str, ...], shape: npt.NDArray[np.void], place: IntArray, count: int) -> MorphTargets:
         targets = []
@@ -156,25 +175,84 @@ class WholeFigure:
         rest = np.ascontiguousarray(shape[:count]).view(np.float32).reshape(count, -1).copy()
         return MorphTargets(count, names, tuple(targets), rest)
 
-    def _clustered(self, cell_m: float, thin_share: float) -> tuple[IntArray, IntArray]:
-        """Return the kept vertices (K,) and the triangles between them (T, 3) of a coarser mesh: the first vertex in
-        each cell and surface is kept. ``cell_m`` 0 keeps all."""
+    def _clusters(self, cell_m: float, thin_share: float, far: bool) -> tuple[IntArray, IntArray] | None:
+        """Return the vertices (C,) that stand for the clusters of those in one cell and surface, and the cluster (V,)
+        of each vertex; None if ``cell_m`` is 0, which keeps all.
+        """
         if cell_m <= 0.0:
-            return np.arange(len(self._shape)), self._triangles
-        wide = np.maximum(np.minimum(cell_m * self._coarser, thin_share * self._thickness), LEAST_CELL_M)[:, None]
-        cells = np.floor(self._shape["a_position"].astype(np.float64) / wide).astype(np.int64)
+            return None
+        places_m = self._shape["a_position"].astype(np.float64)
+        wide = np.minimum(cell_m * self._coarser, thin_share * self._thickness)
+        head = self._is_head() if far else np.zeros(len(wide), np.bool_)
+        wide = np.maximum(np.where(head, FAR_HEAD_SHARE, 1.0) * wide, LEAST_CELL_M)[:, None]
+        cells = np.floor(places_m / wide).astype(np.int64)
         # Surfaces that face in different directions are not merged through a thin wall.
         facing = np.argmax(np.abs(self._shape["a_normal"]), axis=1)
         sign = np.take_along_axis(self._shape["a_normal"], facing[:, None], axis=1)[:, 0] > 0.0
-        keys = row_keys(*cells.T, facing * 2 + sign, self._looks)
-        first, cluster = numbered(keys)
-        triangles = first[cluster][self._triangles]
+        first, cluster = numbered(row_keys(*cells.T, (facing * 2 + sign) * 2 + head, self._looks))
+        if far:
+            # Triangles between the middles of cells are more regular.
+            middles_m = _mean(places_m, cluster, np.ones(len(cluster)))
+            off_m = np.linalg.norm(places_m - middles_m[cluster], axis=1)
+            order = np.lexsort((off_m, cluster))
+            first = order[np.searchsorted(cluster[order], np.arange(len(first)))]
+        return first, cluster
+
+    def _joined(self, clusters: tuple[IntArray, IntArray] | None, far: bool) -> tuple[IntArray, IntArray]:
+        """Return the kept vertices (K,) and the triangles between them (T, 3) of a mesh of clusters."""
+        if clusters is None:
+            return np.arange(len(self._shape)), self._triangles
+        first, cluster = clusters
+        triangles = first[cluster][self._triangles[self._filled] if far else self._triangles]
         a, b, c = triangles.T
         triangles = triangles[(a != b) & (b != c) & (c != a)]
         triangles = triangles[numbered(row_keys(*np.sort(triangles, axis=1).T))[0]]
         used = np.zeros(len(self._shape), np.bool_)
         used[triangles] = True
         return np.flatnonzero(used), triangles
+
+    def _means(self, clusters: tuple[IntArray, IntArray], order: IntArray) -> tuple[SingleArray, npt.NDArray[np.void]]:
+        """Return the normals (K, 3) of the vertices in ``order``, and the surfaces of all in which these have other
+        colours: both are means over the clusters, weighted by area.
+        """
+        cluster = clusters[1]
+        triangles = self._triangles[self._filled]
+        a, b, c = (self._shape["a_position"].take(corner, axis=0) for corner in triangles.T)
+        area = np.linalg.norm(np.cross(b - a, c - a), axis=1).astype(np.float64)
+        shares = np.full(len(self._shape), 1e-12)
+        shares += np.bincount(triangles.ravel(), np.repeat(area, 3), len(shares))
+        own = cluster[order]
+        normals = _mean(self._shape["a_normal"], cluster, shares)[own]
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
+        surface = self._surface.copy()
+        surface["a_color"][order, :3] = _mean(self._surface["a_color"][:, :3], cluster, shares)[own]
+        return normals.astype(np.float32), surface
+
+    def _is_head(self) -> BoolArray:
+        """Return an array (V,), True for vertices that belong mostly to the head."""
+        if not len(self._head_bones):
+            return np.zeros(len(self._surface), np.bool_)
+        of_head = np.isin(self._surface["a_bones"], self._head_bones)
+        mostly: BoolArray = (self._surface["a_weights"] * of_head).sum(axis=1) > 0.5
+        return mostly
+
+    @cached_property
+    def _filled(self) -> BoolArray:
+        """Array (T,), False for triangles that are mostly cut out, such as single hairs: without their textures, they
+        would be drawn whole.
+        """
+        found = [np.ones(len(split.triangles), np.bool_) for split in self._splits]
+        for filled, split in zip(found, self._splits, strict=True):
+            for number, material in enumerate(split.mesh.materials):
+                if material.textures.color is None or material.alpha_mode != "mask":
+                    continue
+                own = np.flatnonzero(split.materials[split.triangles[:, 0]] == number)
+                corners = split.mesh.uvs[split.vertices[split.triangles[own]]]
+                places = np.einsum("pc,tcd->tpd", _INSIDE, corners.astype(np.float64))
+                pictured = sampled(material.textures.color, places.reshape(-1, 2))
+                if pictured is not None:
+                    filled[own] = pictured[:, 3].reshape(len(own), -1).mean(axis=1) >= OPAQUE
+        return np.concatenate(found)
 
     @cached_property
     def _morphs(self) -> dict[str, tuple[IntArray, SingleArray, SingleArray]]:
@@ -196,6 +274,12 @@ class WholeFigure:
             for name, parts in found.items()
             if parts
         }
+
+
+def _mean(values: AnyFloatArray, cluster: IntArray, shares: FloatArray) -> FloatArray:
+    """Return the means (C, 3) of values (V, 3) over clusters, weighted by shares (V,)."""
+    total = np.bincount(cluster, shares)
+    return np.stack([np.bincount(cluster, shares * column) / total for column in values.T], axis=1)
 
 
 def _thickness_m(mesh: Mesh) -> float:

@@ -77,6 +77,52 @@ def test_a_far_figure_has_the_colours_of_its_texture() -> None:
     assert np.allclose(colors[~left & (far.shape["a_position"][:, 0] > 0.55)][:, :3], (0.0, 0.0, 1.0), atol=0.02)
 
 
+def test_a_far_figure_has_the_mean_colours_of_what_it_merges() -> None:
+    pixels = np.zeros((20, 20, 3), np.uint8)
+    pixels[:, ::2] = 255
+    use = TextureUse(texture_of("stripes", encoded(pixels)))
+    stripes = Material("stripes", (1.0, 1.0, 1.0, 1.0), textures=MaterialTextures(color=use))
+    mesh = sheet((stripes,))
+    # Slanting upwards, it has vertices of four stripes in each cell.
+    upwards = np.float32([[1.0, 0.0, 0.0], [0.0, 1.0, 0.6], [0.0, 0.0, 0.0]])
+    mesh = replace(mesh, positions_m=mesh.positions_m @ upwards + np.float32(0.01))
+    fine, _, far = levels([mesh], (0.0, 0.05, 0.2), 1.0)
+    assert np.ptp(fine.surface["a_color"][:, 0]) > 0.9
+    inside = np.abs(far.shape["a_position"][:, :2] - 0.5).max(axis=1) < 0.35
+    assert inside.sum() >= 4
+    assert np.abs(far.surface["a_color"][inside][:, :3] - 0.5).max() < 0.3
+
+
+def test_a_far_figure_lacks_what_is_mostly_cut_out() -> None:
+    pixels = np.full((8, 8, 4), 255, np.uint8)
+    pixels[:, :4, 3] = 40
+    use = TextureUse(texture_of("hair", encoded(pixels)))
+    hair = Material("hair", (1.0, 1.0, 1.0, 1.0), textures=MaterialTextures(color=use), alpha="mask")
+    near, middle, far = levels([sheet((hair,))], (0.0, 0.05, 0.1), 1.0)
+    for level in (near, middle):
+        assert level.shape["a_position"][:, 0].min() < 0.05
+    assert far.shape["a_position"][:, 0].min() > 0.4
+    assert far.shape["a_position"][:, 0].max() > 0.9
+
+
+def test_a_far_head_is_finer_than_the_rest_and_whole_with_it() -> None:
+    plain = Material("plain", (0.2, 0.3, 0.4, 1.0))
+    mesh = sheet((plain,))
+    joints = np.zeros_like(mesh.joints)
+    joints[:, 0] = mesh.positions_m[:, 0] > 0.5
+    mesh = replace(mesh, joints=joints)
+    *_, even = levels([mesh], (0.0, 0.05, 0.2), 1.0)
+    *_, far = levels([mesh], (0.0, 0.05, 0.2), 1.0, (1,))
+    head = far.shape["a_position"][:, 0] > 0.5
+    assert head.sum() > 2 * (even.shape["a_position"][:, 0] > 0.5).sum()
+    assert abs((~head).sum() - (even.shape["a_position"][:, 0] <= 0.5).sum()) < 5
+    # Every edge inside the sheet belongs to two triangles: there is no gap between the two.
+    corners = np.sort(far.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2).astype(int), axis=1)
+    pairs, counts = np.unique(corners, axis=0, return_counts=True)
+    middles = far.shape["a_position"][pairs].mean(axis=1)[counts == 1]
+    assert (np.abs(middles[:, :2] - 0.5).max(axis=1) > 0.35).all()
+
+
 def test_vertices_of_different_parts_of_a_texture_stay_apart() -> None:
     apart = sheet((card_material(),), apart=True)
     parts = uv_islands(apart.triangles, np.ones(len(apart.positions_m), bool))
