@@ -162,8 +162,31 @@ def frame(camera: Camera, low_m: npt.ArrayLike, high_m: npt.ArrayLike, aspect: f
     picture.
     """
     low, high = np.asarray(low_m, np.float64), np.asarray(high_m, np.float64)
-    corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    return frame_around(camera, (low + high) / 2.0, corners, aspect, margin)
+    return frame_around(camera, (low + high) / 2.0, box_corners(low, high), aspect, margin)
+
+
+def box_corners(low_m: FloatArray, high_m: FloatArray) -> FloatArray:
+    """Return the corners (8, 3) of a box from its least and greatest one (3,)."""
+    ends = np.stack([low_m, high_m], axis=1)
+    return np.array([[x, y, z] for x in ends[0] for y in ends[1] for z in ends[2]])
+
+
+def frame_points(camera: Camera, points_m: FloatArray, aspect: float, margin: float = 1.1) -> Camera:
+    """Return the camera, in its direction, as near to points (N, 3) as all of them can be in the picture, with equal
+    room on opposite sides; they fill at most 1 / ``margin`` of a side.
+    """
+    across, over, before = points_m @ camera.right, points_m @ camera.up, points_m @ camera.backward
+    tangent = math.tan(math.radians(camera.fov_deg) / 2.0) / margin
+    middles, needed = list[float](), list[float]()
+    for places, slope in ((across, tangent * aspect), (over, tangent)):
+        # A camera at (c, d) sees a point at (p, b) if |p - c| <= slope (d - b).
+        most, least = float((places + slope * before).max()), float((places - slope * before).min())
+        middles.append((most + least) / 2.0)
+        needed.append((most - least) / (2.0 * slope))
+    depth = (float(before.max()) + float(before.min())) / 2.0
+    target = middles[0] * camera.right + middles[1] * camera.up + depth * camera.backward
+    distance = min(max(max(needed) - depth, NEAREST_M), FARTHEST_M)
+    return replace(camera, target_m=triple(target), distance_m=distance)
 
 
 def frame_around(camera: Camera, middle_m: npt.ArrayLike, points_m: FloatArray, aspect: float, margin: float) -> Camera:

@@ -13,7 +13,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.project.camera_bookmarks import View
 from app.rig.grip.body_size import face_size
-from widgets.viewport.camera import Camera, frame, frame_around
+from widgets.viewport.camera import Camera, box_corners, frame, frame_around, frame_points
 from widgets.viewport.cast import Stage
 from widgets.viewport.finger_visibility import clearest, directions, fingers_seen
 from widgets.viewport.limb_capsules import model_bounds
@@ -34,6 +34,8 @@ _STEPPING_HALF_M: Final = 0.14
 """Half size in metres of a box around a dancing foot, from heel to toe."""
 _HANDS_MARGIN = 1.25
 """Height of the picture relative to that of the hands' bones, so that hands and part of the instrument are visible."""
+_ENSEMBLE_MARGIN: Final = 1.06
+"""Width or height of the picture relative to that of all performers in it."""
 _FINGERS = tuple(
     f"{side}{name}"
     for side in ("left", "right")
@@ -91,6 +93,7 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
         The same stage, in another pose at each iteration.
     """
     clear, around, boxes = list[FloatArray](), list[FloatArray](), list[tuple[FloatArray, FloatArray]]()
+    everything = list[FloatArray]()
     turn, middle, usual = 0.0, None, _DIRECTIONS_DEG[view]
     for stage in posed:
         everyone = [row for row in range(len(stage.members)) if stage.shown[row]]
@@ -101,11 +104,13 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
         if view == "hands":
             clear.append(fingers_seen(stage, chosen[0], directions(usual), turn))
         middle = tracked(view, stage, chosen[0])
-        if middle is None:
+        if view == "ensemble":
+            everything.append(corners(stage, chosen))
+        elif middle is None:
             boxes.append(_bust(stage, chosen) if view == "front" else bounds(stage, chosen))
         else:
             around.append(_around(view, stage, chosen[0], middle))
-    if not boxes and not around:
+    if not boxes and not around and not everything:
         return camera
     side_deg, pitch_deg = clearest(np.mean(clear, axis=0), usual) if clear else usual
     yaw = math.radians(side_deg) + turn
@@ -113,9 +118,11 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
     if middle is not None:
         margin = _HANDS_MARGIN if view == "hands" else 1.0
         return frame_around(camera, middle, middle + np.concatenate(around), aspect, margin)
+    if everything:
+        return frame_points(camera, np.concatenate(everything), aspect, _ENSEMBLE_MARGIN)
     low = np.min([box[0] for box in boxes], axis=0)
     high = np.max([box[1] for box in boxes], axis=0)
-    return frame(camera, low, high, aspect, 1.04 if view == "ensemble" else 1.08)
+    return frame(camera, low, high, aspect, 1.08)
 
 
 def tracked(view: View, stage: Stage, row: int) -> FloatArray | None:
@@ -177,6 +184,14 @@ def in_the_way(view: View, stage: Stage, rows: Sequence[int], camera: Camera) ->
             row = others[index]
             found[row] = max(found.get(row, 0.0), float(omitted[index]))
     return found
+
+
+def corners(stage: Stage, rows: Sequence[int]) -> FloatArray:
+    """Return the corners (8 per row, 3), in the world in metres, of a box around each of some players with instrument.
+
+    One box around all would have corners where no one is, and leave room for them.
+    """
+    return np.concatenate([box_corners(*bounds(stage, [row])) for row in rows])
 
 
 def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:

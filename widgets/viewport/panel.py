@@ -24,7 +24,7 @@ from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import in_column
 from widgets.common.menus import offer_actions
 from widgets.common.plain import Label
-from widgets.viewport.camera import Camera, dolly, frame, from_other_side
+from widgets.viewport.camera import Camera, dolly, frame_points, from_other_side
 from widgets.viewport.camera_bookmarks import BookmarkedCamera, shot_of
 from widgets.viewport.camera_moves import Eye
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
@@ -33,7 +33,7 @@ from widgets.viewport.colours_and_lights import Emphasis, look_of
 from widgets.viewport.figures import DrawableFigures, cast_key
 from widgets.viewport.film_camera import Shot, times_looked_at
 from widgets.viewport.framing import (
-    bounds,
+    corners,
     in_the_way,
     needed_distance_m,
     steady_camera,
@@ -99,6 +99,8 @@ class ViewportPanel(Retranslated, QWidget):
         self.scene = ViewportScene(session, poses, self._tool, self)
         self._settle_until_s = 0.0
         self._elsewhere: tuple[Camera, Shot] | None = None
+        self._framed: tuple[Camera | None, Sequence[int]] = None, ()
+        """Camera that framed performers, and their rows; it holds until the camera is moved."""
         """Camera and shot of a picture that is not the window's, while it is drawn."""
 
         self.header = ViewportHeader(session, self)
@@ -587,7 +589,23 @@ class ViewportPanel(Retranslated, QWidget):
             return
         self._eye.choose("ensemble")
         self._eye.touched = True
-        self._go(frame(self._eye.destination, *bounds(stage, rows), widget.width() / max(widget.height(), 1)))
+        camera = self._framing(stage, widget, rows)
+        self._framed = camera, rows
+        self._go(camera)
+
+    def _framing(self, stage: Stage, widget: QWidget, rows: Sequence[int]) -> Camera:
+        return frame_points(self._eye.destination, corners(stage, rows), widget.width() / max(widget.height(), 1))
+
+    def _resized(self) -> None:
+        """Place the camera for the new size by the view, or again around the performers that were framed."""
+        stage, widget = self.scene.stage, self.canvas_widget()
+        framed, rows = self._framed
+        if framed != self._eye.destination or stage is None or widget is None or max(rows) >= len(stage.members):
+            self._place_camera()
+            return
+        camera = self._framing(stage, widget, rows)
+        self._framed = camera, rows
+        self._eye.jump(camera)
 
     # Appearance and language
 
@@ -609,7 +627,7 @@ class ViewportPanel(Retranslated, QWidget):
         self._update()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Place the camera again when the canvas is resized, unless the user has moved it."""
+        """Place the camera again when the canvas is resized, unless the user has moved it since."""
         if event.type() == QEvent.Type.Resize:
-            self._place_camera()
+            self._resized()
         return super().eventFilter(watched, event)

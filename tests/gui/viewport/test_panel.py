@@ -43,6 +43,7 @@ from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
 from tests.support.dances import model
 from tests.support.windows import child, show
 from widgets.viewport.canvas import Canvas, pixels
+from widgets.viewport.framing import corners
 from widgets.viewport.panel import ViewportPanel
 from widgets.viewport.texture_maps import texture_of_pixels
 
@@ -397,6 +398,28 @@ def test_framing_keeps_the_direction_and_brings_the_player_in(viewport: Viewport
     assert abs(place.x() - size.width() / 2) < 0.2 * size.width()
     session.viewport.frame(False)
     assert viewport.camera.distance_m > after.distance_m
+
+
+def test_framed_players_stay_in_a_picture_of_another_shape(viewport: ViewportPanel, session: Session) -> None:
+    def shown() -> npt.NDArray[np.float64]:
+        stage, size = viewport.scene.stage, canvas(viewport).size()
+        assert stage is not None
+        points = corners(stage, range(len(stage.members)))
+        places, depths = viewport.camera.project(points, size.width(), size.height())
+        assert (depths > 0.0).all()
+        return 2.0 * places / (size.width(), size.height()) - 1.0
+
+    drag(canvas(viewport), QPointF(10, 10), QPointF(50, 0))
+    for act in (lambda: session.viewport.frame(False), lambda: viewport.resize(480, 640)):
+        act()
+        QApplication.processEvents()
+        assert 0.85 < np.abs(shown()).max() < 1.0
+    # As moved by the user since, it stays.
+    drag(canvas(viewport), QPointF(10, 10), QPointF(50, 0))
+    moved = viewport.camera
+    viewport.resize(900, 300)
+    QApplication.processEvents()
+    assert viewport.camera == moved
 
 
 def test_a_close_up_follows_the_hands_while_playing(qtbot: QtBot, viewport: ViewportPanel, session: Session) -> None:

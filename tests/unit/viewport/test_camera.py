@@ -20,6 +20,7 @@ from widgets.viewport.camera import (
     dolly,
     followed,
     frame,
+    frame_points,
     orbit,
     pan,
 )
@@ -116,6 +117,23 @@ def test_a_framed_box_is_wholly_in_the_picture_and_fills_it(
     assert shown.max() <= 1.0 + 1e-6
     if framed.distance_m > NEAREST_M:
         assert shown.max() > 0.999
+    assert (framed.yaw_rad, framed.pitch_rad) == (camera.yaw_rad, camera.pitch_rad)
+
+
+@given(CAMERAS, st.integers(0, 1000), st.floats(0.5, 4.0))
+def test_framed_points_are_in_the_picture_with_equal_room_on_both_sides(
+    camera: Camera, seed: int, aspect: float
+) -> None:
+    points = np.random.default_rng(seed).normal(size=(12, 3)) * [3.0, 0.6, 2.0] + [1.0, 0.8, -2.0]
+    framed = frame_points(camera, points, aspect, 1.0)
+    clipped = np.column_stack([points, np.ones(len(points))]) @ framed.clip_from_world(aspect).T
+    shown = clipped[:, :2] / clipped[:, 3:]
+    assert np.abs(shown).max() <= 1.0 + 1e-6
+    assert np.abs(shown).max() > 0.999
+    # In the direction that needs the distance, the points fill the picture from end to end.
+    tight = int(np.abs(shown).max(axis=0).argmax())
+    assert shown[:, tight].min() == pytest.approx(-1.0, abs=1e-6)
+    assert shown[:, tight].max() == pytest.approx(1.0, abs=1e-6)
     assert (framed.yaw_rad, framed.pitch_rad) == (camera.yaw_rad, camera.pitch_rad)
 
 
