@@ -108,6 +108,7 @@ class ViewportScene(QObject):
         loaded = self._loaded
         if loaded is not None and not same_figures(loaded.key, cast_key(self._session.project)):
             self._loaded, self._shapes = None, loaded.shapes
+            self._rest.stop()
             self.staged.emit()
 
     def load(self) -> None:
