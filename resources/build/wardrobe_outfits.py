@@ -160,12 +160,12 @@ def _blazer(wearer: Wearer) -> Pieces:
 def _school_legs(wearer: Wearer, material: str, checked: bool, socks: str) -> Pieces:
     """A pleated skirt to the knee, bare knees, socks below them."""
     tailoring = wearer.tailoring
-    hem, sock = tailoring.knee_m + 0.015, tailoring.knee_m - 0.10
-    pleated = skirt(wearer, Skirt(tailoring.belt_m - 0.015, hem, 0.05, 0.012, 16), checked=checked)
+    hem, sock = tailoring.knee_m - 0.025, tailoring.knee_m - 0.10
+    pleated = skirt(wearer, Skirt(tailoring.belt_m - 0.015, hem, 0.035, 0.012, 16), checked=checked)
     return [
         (garment("skirt", {material: [pleated]}, wearer, SKIRT_BONES), "bottom"),
         (garment("socks", {socks: [shell(wearer, tailoring.foot_m + 0.045, sock, 0.002)]}, wearer), "bottom"),
-        (bare_legs(wearer, sock - 0.05, hem + 0.16), "skin"),
+        (bare_legs(wearer, sock - 0.05, hem + 0.20), "skin"),
     ]
 
 

@@ -29,6 +29,14 @@ ALONG, KEPT_M = 0.3, 0.01
 ROUNDS = 3
 BELOW_M = 0.08
 """Depth under the knees down to which cloth is laid."""
+SAG_M = 0.015
+"""Depth in the middle to which a short skirt sags between the legs."""
+OVER_KNEES_M = 0.09
+"""Length of a short skirt that hangs before the knees."""
+DROP = 0.18
+"""Share of the hips in the hem of a short skirt, by which it hangs down at the sides."""
+SHORTER = 0.78
+"""Length of a short skirt under the thighs as a share of its length over them."""
 BETWEEN_M = 0.09
 """Distance off the middle beyond which a coat goes with one leg alone."""
 
@@ -77,6 +85,21 @@ def _spanned(body: np.ndarray, places: np.ndarray, sign: float) -> np.ndarray:
     return found
 
 
+def _over_knees(wearer: Wearer, body: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Places (N, 2) in height and along the thighs at which the front of a skirt that ends at the knees lies on them,
+    spans the gap between them and falls before them."""
+    hip = wearer.fit.positions_t[wearer.fit.index("leftUpperLeg")]
+    down = np.maximum(hip[1] - points[:, 1], 0.0)
+    edge = body[:, 2].max() + LIES_M
+    length = down * (edge - hip[2] + OVER_KNEES_M) / down.max()
+    along = np.minimum(hip[2] + length, edge)
+    places = np.column_stack([points[:, :2], along])
+    height = _spanned(body, places, 1.0) + LIES_M
+    knee = np.abs(wearer.fit.positions_t[wearer.fit.index("leftLowerLeg")][0])
+    sag = SAG_M * np.maximum(1.0 - (points[:, 0] / knee) ** 2, 0.0) * smoothstep(down, 0.15, 0.35)
+    return np.column_stack([height - sag - np.maximum(hip[2] + length - edge, 0.0), along])
+
+
 def _mixtures() -> np.ndarray:
     """Shares (K, 2) of thighs and shins that are tried."""
     steps = np.arange(0.0, 1.0 + STEP / 2, STEP)
@@ -121,6 +144,11 @@ def seated_weights(
     low *= smoothstep(points[:, 1], knee[1] - BELOW_M, knee[1])
     before = _of_legs(wearer, weights)
     along = _blend(wearer, points, before)[:, 2]
+    short = points[:, 1].min() > knee[1] - BELOW_M
+    if short:
+        low = 1.0 - smoothstep(points[:, 1], hip[1] - 0.12, hip[1] - 0.02)
+        before = before * (1.0 - DROP * smoothstep(hip[1] - points[:, 1], 0.08, 0.35))[:, None]
+        along = hip[2] + SHORTER * (along - hip[2])
     found = before
     for _ in range(ROUNDS):
         placed = _blend(wearer, points, found)
@@ -128,9 +156,11 @@ def seated_weights(
         for sign, there in ((1.0, legs), (-1.0, seat)):
             rows = np.flatnonzero(sign * ahead > 0.0)
             height[rows] = _spanned(body[there], placed[rows], sign) + sign * LIES_M
+        wanted = np.stack([height, along], axis=1)
+        if short:
+            wanted[ahead > 0.0] = _over_knees(wearer, body[legs], points)[ahead > 0.0]
         # Towards the sides cloth goes from above the thighs to below them.
         share = (low * smoothstep(np.abs(ahead), 0.0, 0.06))[:, None]
-        wanted = np.stack([height, along], axis=1)
         found = before + share * (_smoothed(_laid(wearer, points, before, wanted), columns) - before)
     return _with_legs(wearer, weights, found, left)
 
