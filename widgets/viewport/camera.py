@@ -171,22 +171,30 @@ def box_corners(low_m: FloatArray, high_m: FloatArray) -> FloatArray:
     return np.array([[x, y, z] for x in ends[0] for y in ends[1] for z in ends[2]])
 
 
-def frame_points(camera: Camera, points_m: FloatArray, aspect: float, margin: float = 1.1) -> Camera:
+def frame_points(camera: Camera, points_m: FloatArray, aspect: float, margin: float = 1.06) -> Camera:
     """Return the camera, in its direction, as near to points (N, 3) as all of them can be in the picture, with equal
     room on opposite sides; they fill at most 1 / ``margin`` of a side.
     """
-    across, over, before = points_m @ camera.right, points_m @ camera.up, points_m @ camera.backward
+    before = points_m @ camera.backward
     tangent = math.tan(math.radians(camera.fov_deg) / 2.0) / margin
-    middles, needed = list[float](), list[float]()
-    for places, slope in ((across, tangent * aspect), (over, tangent)):
-        # A camera at (c, d) sees a point at (p, b) if |p - c| <= slope (d - b).
-        most, least = float((places + slope * before).max()), float((places - slope * before).min())
-        middles.append((most + least) / 2.0)
-        needed.append((most - least) / (2.0 * slope))
+    sides = ((points_m @ camera.right, tangent * aspect), (points_m @ camera.up, tangent))
+    # A camera at (c, d) sees a point at (p, b) if |p - c| <= slope (d - b).
+    needed = [((at + slope * before).max() - (at - slope * before).min()) / (2.0 * slope) for at, slope in sides]
     depth = (float(before.max()) + float(before.min())) / 2.0
-    target = middles[0] * camera.right + middles[1] * camera.up + depth * camera.backward
-    distance = min(max(max(needed) - depth, NEAREST_M), FARTHEST_M)
-    return replace(camera, target_m=triple(target), distance_m=distance)
+    eye = depth + min(max(float(max(needed)) - depth, NEAREST_M), FARTHEST_M)
+    across, over = (_centre(at, np.maximum(eye - before, 1e-6)) for at, _ in sides)
+    target = across * camera.right + over * camera.up + depth * camera.backward
+    return replace(camera, target_m=triple(target), distance_m=eye - depth)
+
+
+def _centre(places_m: FloatArray, away_m: FloatArray) -> float:
+    """Return the place from which places (N,) at distances (N,) are seen equally far to both sides, by bisection."""
+    low, high = float(places_m.min()), float(places_m.max())
+    for _ in range(50):
+        middle = (low + high) / 2.0
+        seen = (places_m - middle) / away_m
+        low, high = (middle, high) if seen.max() > -seen.min() else (low, middle)
+    return (low + high) / 2.0
 
 
 def frame_around(camera: Camera, middle_m: npt.ArrayLike, points_m: FloatArray, aspect: float, margin: float) -> Camera:

@@ -34,8 +34,6 @@ _STEPPING_HALF_M: Final = 0.14
 """Half size in metres of a box around a dancing foot, from heel to toe."""
 _HANDS_MARGIN = 1.25
 """Height of the picture relative to that of the hands' bones, so that hands and part of the instrument are visible."""
-_ENSEMBLE_MARGIN: Final = 1.06
-"""Width or height of the picture relative to that of all performers in it."""
 _FINGERS = tuple(
     f"{side}{name}"
     for side in ("left", "right")
@@ -119,7 +117,7 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
         margin = _HANDS_MARGIN if view == "hands" else 1.0
         return frame_around(camera, middle, middle + np.concatenate(around), aspect, margin)
     if everything:
-        return frame_points(camera, np.concatenate(everything), aspect, _ENSEMBLE_MARGIN)
+        return frame_points(camera, np.concatenate(everything), aspect)
     low = np.min([box[0] for box in boxes], axis=0)
     high = np.max([box[1] for box in boxes], axis=0)
     return frame(camera, low, high, aspect, 1.08)

@@ -285,13 +285,14 @@ class Renderer:
         away = np.linalg.norm(middles - camera.eye_m, axis=1)
         scale = camera.pixels_per_metre(height_px, 1.0) / np.maximum(away - 0.35, 0.2)
         level = np.where(scale > FINE_PX_PER_M, 0, np.where(scale > COARSE_PX_PER_M, 1, LEVELS - 1))
-        order = np.argsort(away, kind="stable")
-        level[order[MOST_NEAR:]] = LEVELS - 1
         # A sphere wholly outside one side of the frustum is invisible.
         planes = matrix[3] + np.array([sign * matrix[axis] for axis in (0, 1) for sign in (1.0, -1.0)])
         planes /= np.linalg.norm(planes[:, :3], axis=1, keepdims=True)
         outside = (middles @ planes[:, :3].T + planes[:, 3] < -SPREAD_M).any(axis=1)
-        level[outside | ~stage.shown] = -1
+        unseen = outside | ~stage.shown
+        nearest = np.argsort(np.where(unseen, np.inf, away), kind="stable")
+        level[nearest[MOST_NEAR:]] = LEVELS - 1
+        level[unseen] = -1
         return level
 
     def _upload(self, stage: Stage, limbs: LimbCapsules, level: IndexArray, emphasis: Emphasis) -> None:

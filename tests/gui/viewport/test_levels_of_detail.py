@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
@@ -10,7 +13,8 @@ from pytestqt.qtbot import QtBot
 from app.editor.session import Session
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
 from tests.support.windows import show
-from widgets.viewport import geometry, shapes
+from widgets.viewport import geometry, renderer, shapes
+from widgets.viewport.camera import Camera
 from widgets.viewport.panel import ViewportPanel
 from widgets.viewport.shape_model import LevelsOfDetail
 
@@ -42,6 +46,16 @@ def test_a_still_picture_has_all_details_at_once(panel: ViewportPanel) -> None:
     for levels in people(panel):
         levels.complete()
     assert (panel.render_image(320, 180, AT_S, "mouth") == first).all()
+
+
+def test_performers_outside_the_picture_take_no_place_of_near_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(renderer, "MOST_NEAR", 2)
+    drawn: Any = object.__new__(renderer.Renderer)
+    drawn._middles_m = np.array([[-5.0, 1.0, 6.0], [5.0, 1.0, 6.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [2.0, 1.0, 0.0]])
+    camera = Camera(distance_m=8.0)
+    stage = SimpleNamespace(shown=np.ones(5, bool))
+    level = drawn._levels(stage, camera, camera.clip_from_world(1.6), 800.0)
+    assert level.tolist() == [-1, -1, 1, 1, 2]
 
 
 def test_the_window_draws_coarse_figures_until_finer_ones_are_made(
