@@ -64,7 +64,8 @@ class Crowd:
 def character_levels(character: Character) -> LevelsOfDetail:
     """Return all levels of detail of a character, finest first; the coarsest has no morphs."""
     skeleton = character.skeleton
-    head = [skeleton.index("head")]
+    # A collar lies close to the neck.
+    head = [skeleton.index("neck" if "neck" in skeleton.names else "head")]
     for bone, parent in enumerate(skeleton.parents):
         if parent in head:
             head.append(bone)

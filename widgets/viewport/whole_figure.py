@@ -35,6 +35,9 @@ _INSIDE = np.array(
     ]
 )
 """Points in a triangle, as shares of its corners, where its texture is sampled."""
+_LEAST_FILLED = 0.4
+"""Mean opacity below which a cut-out triangle is left out at the coarsest level: fringes are above, single hairs along
+hairlines below."""
 _MOST_SHORT = 2**16 - 1
 """Greatest number of vertices with 16-bit indices."""
 
@@ -109,10 +112,13 @@ class WholeFigure:
             here = np.flatnonzero(split.materials == number)
             self._look[own][here] = looks.index(material)
             found = None
-            if material.textures.color is not None and material.alpha_mode == "opaque":
-                found = _pictured(material.textures.color, places, number)
+            if material.textures.color is not None and material.alpha_mode != "blend":
+                found = _pictured(material.textures.color, places, number, material.alpha_mode == "mask")
             if found is not None:
-                self._shades[own][here] = found * material.base_color[:3] / np.maximum(plain.base_color[:3], 1e-4)
+                filled, colors = found
+                self._shades[own][here[filled]] = (
+                    colors * material.base_color[:3] / np.maximum(plain.base_color[:3], 1e-4)
+                )
 
     def level(self, cell_m: float, thin_share: float, far: bool) -> Geometry:
         """Return one level of detail; the ``far`` one has no morphs, and mean colours instead of textures."""
@@ -251,7 +257,7 @@ class WholeFigure:
                 places = np.einsum("pc,tcd->tpd", _INSIDE, corners.astype(np.float64))
                 pictured = sampled(material.textures.color, places.reshape(-1, 2))
                 if pictured is not None:
-                    filled[own] = pictured[:, 3].reshape(len(own), -1).mean(axis=1) >= OPAQUE
+                    filled[own] = pictured[:, 3].reshape(len(own), -1).mean(axis=1) >= _LEAST_FILLED
         return np.concatenate(found)
 
     @cached_property
@@ -334,10 +340,15 @@ _PLACES: IdentityCache[_Places] = IdentityCache(128)
 
 
 @lru_cache(maxsize=32)
-def _pictured(use: TextureUse, places: _Places, number: int) -> FloatArray | None:
-    """Return the linear colours (N, 3) of a texture at the vertices with one material; None if it cannot be read."""
+def _pictured(use: TextureUse, places: _Places, number: int, cut_out: bool) -> tuple[BoolArray, FloatArray] | None:
+    """Return the linear colours (N, 3) of a texture at vertices with one material, those cut out excepted, and an array
+    that is True for these vertices among all with the material; None if the texture cannot be read.
+    """
     found = sampled(use, places.uvs[places.materials == number])
-    return None if found is None else linear(found[:, :3])
+    if found is None:
+        return None
+    filled: BoolArray = found[:, 3] > (OPAQUE if cut_out else -1.0)
+    return filled, linear(found[filled, :3])
 
 
 def _islands(split: SplitMesh) -> IntArray:

@@ -96,6 +96,7 @@ def test_a_far_figure_has_the_mean_colours_of_what_it_merges() -> None:
 def test_a_far_figure_lacks_what_is_mostly_cut_out() -> None:
     pixels = np.full((8, 8, 4), 255, np.uint8)
     pixels[:, :4, 3] = 40
+    pixels[4:, :, 1:3] = 0
     use = TextureUse(texture_of("hair", encoded(pixels)))
     hair = Material("hair", (1.0, 1.0, 1.0, 1.0), textures=MaterialTextures(color=use), alpha="mask")
     near, middle, far = levels([sheet((hair,))], (0.0, 0.05, 0.1), 1.0)
@@ -103,6 +104,11 @@ def test_a_far_figure_lacks_what_is_mostly_cut_out() -> None:
         assert level.shape["a_position"][:, 0].min() < 0.05
     assert far.shape["a_position"][:, 0].min() > 0.4
     assert far.shape["a_position"][:, 0].max() > 0.9
+    # The picture is white above and red below.
+    inside = far.shape["a_position"][:, 0] > 0.6
+    above, below = (inside & (np.sign(far.shape["a_position"][:, 1] - 0.5) == side) for side in (1.0, -1.0))
+    assert far.surface["a_color"][above][:, 1].mean() > 0.8
+    assert far.surface["a_color"][below][:, 1].mean() < 0.2
 
 
 def test_a_far_head_is_finer_than_the_rest_and_whole_with_it() -> None:
