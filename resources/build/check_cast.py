@@ -28,10 +28,12 @@ import msgspec
 import numpy as np
 
 from app.arrays import FloatArray
+from app.contacts.bounds import contact_name
 from app.contacts.breaks import contact_problems
 from app.contacts.judge import ContactJudge
+from app.contacts.missed_contacts import missed_contacts
 from app.export.joints import anatomical_angles
-from app.performance.bodies import character_of, model_of
+from app.performance.bodies import character_of, hold_of, model_of
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
 from app.performance.motion import performance_curves
@@ -39,6 +41,7 @@ from app.performance.span import whole_span
 from app.project.edit.players import assign
 from app.project.model import Project, map_choices, project_from_score
 from app.rig.characters.character_library import bundled_characters
+from app.rig.grip.fitting.fit_terms import GRIP_M, TOUCH_M
 from app.rig.grip.fitting.grip_files import bundled_path
 from app.rig.model import Character
 from app.rig.people.bundled_people import bundled_people, bundled_person, not_cast_for
@@ -78,7 +81,8 @@ def compass_project(instrument: InstrumentMap, path: Path, step: int = 1) -> Pro
 
 def faults(project: Project, character_id: str) -> dict[str, float]:
     """Let a character play a piece of one player and return unreachable touches, broken contacts and exceeded human
-    ranges, in millimetres or degrees, by names that are equal for all characters.
+    ranges, in millimetres or degrees, by names that are equal for all characters. Touches that the hold itself misses
+    count by the distance beyond their bound.
     """
     player = msgspec.structs.replace(project.players[0], character_id=character_id)
     performance = Performance(replace(project, players=(player,)))
@@ -87,6 +91,9 @@ def faults(project: Project, character_id: str) -> dict[str, float]:
     judge = ContactJudge(curves, character_of(player), model_of(performance.instrument(player)))
     known = tuple(one for one in performance.problems(player.id) if one.message.id.startswith("contact."))
     found = beyond_deg(character_of(player), motion.rotations.astype(np.float64))
+    for touch in missed_contacts(hold_of(player, performance.instrument(player))):
+        bound_m = GRIP_M if touch.control is None else TOUCH_M
+        found[f"hold {contact_name(touch)}"] = 1000.0 * (touch.distance_m - bound_m)
     for problem in known + contact_problems(judge.breaks(motion), performance.plan(player).grips, known):
         given = problem.message.arguments
         named = [str(given[name]) for name in ("label", "side", "touch", "control") if name in given]

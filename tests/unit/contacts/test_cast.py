@@ -39,5 +39,14 @@ def test_a_body_that_is_too_small_misses_something(tmp_path: Path) -> None:
 
 def test_children_are_cast_for_what_school_bands_begin_with() -> None:
     children = [id for id in bundled_people() if bundled_person(id).original == "child"]
-    for name in ("trumpet_Bb", "flute", "clarinet_Bb", "horn_F_single", "euphonium_Bb_bassclef"):
+    for name in ("trumpet_Bb", "clarinet_Bb", "oboe", "horn_F_single", "euphonium_Bb_bassclef", "recorder_soprano_C"):
         assert any(name in CAST[id] for id in children), name
+
+
+def test_a_hold_that_cannot_reach_a_key_counts(tmp_path: Path) -> None:
+    project = compass_project(bundled_maps()["clarinet_bass_Bb"], tmp_path / "compass.mid", step=5)
+    thumb = "hold right.thumb.side on root"
+    assert faults(project, "child_nia")[thumb] > 1.0
+    assert thumb not in faults(project, "woman_adult")
+    everyone = [one for one in bundled_people() if bundled_person(one).original == "child"]
+    assert {"clarinet_bass_Bb" in not_cast_for(one) for one in everyone} == {True}

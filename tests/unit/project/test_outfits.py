@@ -99,7 +99,7 @@ def test_a_schools_band_is_cast_with_young_people() -> None:
     everyone = characters_for([MAPS["flute"]] * 40, students=True)
     assert {14 <= our_years(id) < 28 for id in everyone} == {True}
     assert len({*everyone[:27]}) == 27
-    anyone = characters_for([MAPS["flute"]] * 40)
+    anyone = characters_for([MAPS["trumpet_Bb"]] * 40)
     assert max(our_years(id) for id in anyone) > 60
     assert min(our_years(id) for id in anyone[:30]) >= 14 > our_years(anyone[-1])
 
