@@ -17,6 +17,7 @@ from character_cloth import (
     to_triangles,
 )
 from character_surface import Surface
+from scipy.interpolate import LinearNDInterpolator
 from scipy.ndimage import gaussian_filter
 from wardrobe_pieces import Wearer, few_bones
 from wardrobe_seated import on_lap
@@ -30,6 +31,12 @@ TAPER = 0.075
 AROUND, FLARE = 73, 0.04
 LAP_M, LAP_OUT_M = 0.06, 0.012
 """Height over the belt from which jackets go with the lap, and their distance from the drape of the trunk."""
+
+THROAT_M, UNDER_M = (0.07, 0.20, 0.02), 0.05
+"""Extent of the throat from the point of the collar: to the sides, downwards, and least distance ahead; and depth of
+its upper edge under that point."""
+OVER_SKIN_M, AROUND_M = 0.005, 0.015
+"""Least distance of a shirt's front from the skin of the throat, and width about it of what is moved with it."""
 
 
 def drawn_to(points: np.ndarray, profile: Profile, out_m: np.ndarray, share: np.ndarray) -> np.ndarray:
@@ -143,3 +150,26 @@ def over_lap(wearer: Wearer, body: Cloth, below: Cloth) -> Cloth:
     drape = smoothed(hang(wearer.tailoring.trunk, 0.30), 2.0, 1.5)
     rows = int(np.ceil((waist - hem_m) / 0.02)) + 1
     return tail(wearer, body, below, np.linspace(waist, hem_m, rows), drape, LAP_OUT_M)
+
+
+def over_throat(wearer: Wearer, points: np.ndarray, linen: np.ndarray) -> np.ndarray:
+    """Points (N, 3) of a jacket of which the linen, triangles (T, 3), is moved ahead of the skin of the throat, and
+    all that lies before it by as much."""
+    collar = wearer.tailoring.collar_point
+
+    def at_throat(places: np.ndarray) -> np.ndarray:
+        off = places - collar
+        high = (off[:, 1] < -UNDER_M) & (off[:, 1] > -THROAT_M[1])
+        return high & (np.abs(off[:, 0]) < THROAT_M[0]) & (off[:, 2] > THROAT_M[2])
+
+    suit = wearer.tailoring.suit.points
+    skin = suit[at_throat(suit)]
+    rows = np.unique(linen)
+    rows = rows[at_throat(points[rows])]
+    depth = LinearNDInterpolator(skin[:, :2], skin[:, 2])(points[rows, :2])
+    lack = np.nan_to_num(np.maximum(depth + OVER_SKIN_M - points[rows, 2], 0.0))
+    rows, lack = rows[lack > 0.0], lack[lack > 0.0]
+    moved, near = points.copy(), np.flatnonzero(points[:, 2] > collar[2] + THROAT_M[2])
+    far = np.linalg.norm(points[near, None, :2] - points[None, rows, :2], axis=2)
+    moved[near, 2] += (lack * np.exp(-((far / AROUND_M) ** 2))).max(axis=1, initial=0.0)
+    return moved

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from character_cloth import Cloth, cut, join
 from character_surface import Surface, modelled
-from wardrobe_fitted import LAP_M, going_with, over_lap, straight_legs, tail
+from wardrobe_fitted import LAP_M, going_with, over_lap, over_throat, straight_legs, tail
 from wardrobe_marching import belt, cuffs, epaulettes, shako, stripes
 from wardrobe_pieces import ACCENT, MAIN, SECOND, Wearer, all_of, few_bones, linen_apart, piece, skin
 from wardrobe_polo import polo_shirt
@@ -58,8 +58,9 @@ def _skirt_part(uvs: np.ndarray) -> np.ndarray:
 
 
 def suit_jacket(wearer: Wearer, linen: str = SECOND, tie: str = ACCENT) -> Surface:
-    """A jacket over shirt and tie."""
-    return piece(wearer, "jacket", "suit", _jacket_part, linen_apart(MAIN, linen, tie))
+    """A jacket over shirt and tie, whose front covers the skin of the throat."""
+    jacket = piece(wearer, "jacket", "suit", _jacket_part, linen_apart(MAIN, linen, tie))
+    return moved_to(wearer, jacket, over_throat(wearer, cloth_of(wearer, jacket).points, jacket.triangles[linen]))
 
 
 def suit_trousers(wearer: Wearer, material: str = MAIN, patch: str = "suit") -> Surface:

@@ -124,6 +124,22 @@ def test_trimmings_face_out(outfit: str, mesh: str) -> None:
         assert volume > 0.0, own.materials[material].name
 
 
+@pytest.mark.parametrize(
+    ("outfit", "id"), [("jazz_suit", "woman_adult"), ("school_blazer", "cast_yumi"), ("concert_black", "child_sota")]
+)
+def test_no_skin_comes_through_the_shirt_beside_a_tie(outfit: str, id: str) -> None:
+    character = character_in(id, OutfitChoice(outfit))
+    jacket, skin = mesh_named(character, "jacket"), mesh_named(character, "body")
+    used = skin.positions_m[np.unique(skin.triangles)]
+    ahead = used[:, 2] > np.median(jacket.positions_m[:, 2])
+    trunk = used[ahead & (np.abs(used[:, 0]) < 0.05)]
+    low = np.sort(trunk[:, 1])[0]
+    throat = trunk[trunk[:, 1] < low + 0.025]
+    assert len(throat) >= 10
+    camera = np.array([0.0, low, 3.0])
+    assert not seen(camera, throat, jacket.positions_m[jacket.triangles].astype(np.float64)).any()
+
+
 def posed(character: Character, mesh: Mesh, thighs: float, aside: float) -> FloatArray:
     """Vertices (N, 3) with thighs raised by an angle, level shins, and knees turned outwards by another one."""
     rotations = np.tile([0.0, 0.0, 0.0, 1.0], (1, len(character.skeleton.names), 1))
