@@ -97,6 +97,8 @@ class WholeFigure:
         islands = np.concatenate([_islands(split) for split in splits])
         self._looks = numbered(row_keys(self._part, islands, *colors.T))[1]
         """The same number for vertices of one mesh and colour and, where they have textures, of one part of these."""
+        self._far_looks = numbered(row_keys(self._part, *colors.T))[1]
+        """The same without parts of textures: sheets of hair are joined along their edges, or the scalp would show."""
         self._surface["a_color"][:, :3] *= self._shades
         self._head_bones = np.array(sorted(head_bones), np.float32)
 
@@ -195,7 +197,8 @@ class WholeFigure:
         # Surfaces that face in different directions are not merged through a thin wall.
         facing = np.argmax(np.abs(self._shape["a_normal"]), axis=1)
         sign = np.take_along_axis(self._shape["a_normal"], facing[:, None], axis=1)[:, 0] > 0.0
-        first, cluster = numbered(row_keys(*cells.T, (facing * 2 + sign) * 2 + head, self._looks))
+        looks = self._far_looks if far else self._looks
+        first, cluster = numbered(row_keys(*cells.T, (facing * 2 + sign) * 2 + head, looks))
         if far:
             # Triangles between the middles of cells are more regular.
             middles_m = _mean(places_m, cluster, np.ones(len(cluster)))

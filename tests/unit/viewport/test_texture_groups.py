@@ -139,3 +139,11 @@ def test_vertices_of_different_parts_of_a_texture_stay_apart() -> None:
     )
     assert middle.uvs is not None
     assert np.ptp(middle.uvs[middle.triangles.astype(int)], axis=1).max() < 1.0
+
+
+def test_a_far_figure_has_no_gap_between_parts_of_a_texture() -> None:
+    use = TextureUse(texture_of("white", encoded(np.full((8, 8, 3), 255, np.uint8))))
+    white = Material("white", (1.0, 1.0, 1.0, 1.0), textures=MaterialTextures(color=use))
+    *_, middle, far = levels([sheet((white,), apart=True)], (0.0, 0.1, 0.2), 1.0)
+    for level, count in ((middle, 2), (far, 1)):
+        assert len(set(uv_islands(level.triangles, np.ones(len(level.shape), bool)).tolist())) == count
