@@ -262,7 +262,7 @@ class Choreographer:
             weights=weights,
             constraints=constraints,
             usual=preferred - self._idle,
-            returns=returning_places(rhythm, grid.times_s),
+            returns=returning_places(rhythm, grid.times_s, manner.melody),
             takes=self._take_shares(rhythm, grid) if manner.source is None else None,
             initial=initial + self._standing([one.start for one in segments]),
             final=self._standing([one.end for one in segments]),

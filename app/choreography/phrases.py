@@ -21,6 +21,8 @@ UNUSUAL: Final = 2.0
 """Similarity of bars above the mean of the piece, in standard deviations, for a full recurrence."""
 LEAST_MORE: Final = 0.1
 """Least difference in similarity (cosine) for a full recurrence, so that no bar recurs if all are alike."""
+USUAL_MELODY: Final = 0.5
+"""Weight of a melody that counts as much as percussion when bars are compared."""
 _NEAR_BEATS: Final = 1e-3
 
 
@@ -44,11 +46,12 @@ class ReturningPlaces:
     worths: FloatArray
 
 
-def returns_of_bars(rhythm: Rhythm) -> FloatArray:
+def returns_of_bars(rhythm: Rhythm, melody: float = USUAL_MELODY) -> FloatArray:
     """For all pairs of B bars, the similarity (B, B) of a bar to an earlier one relative to the mean of the piece,
-    -1..1; 0 for bars that are not earlier. A bar lasts from one downbeat to the next.
+    -1..1; 0 for bars that are not earlier. A bar lasts from one downbeat to the next. For ``melody`` see
+    `likeness_of_bars`.
     """
-    alike = _along_passages(likeness_of_bars(rhythm))
+    alike = _along_passages(likeness_of_bars(rhythm, melody))
     bars = len(alike)
     later = np.tril(np.ones((bars, bars), bool), -APART_BARS)
     pairs = alike[later]
@@ -58,12 +61,16 @@ def returns_of_bars(rhythm: Rhythm) -> FloatArray:
     return np.where(later, np.clip(more, -1.0, 1.0), 0.0)
 
 
-def likeness_of_bars(rhythm: Rhythm) -> FloatArray:
+def likeness_of_bars(rhythm: Rhythm, melody: float = USUAL_MELODY) -> FloatArray:
     """Cosine similarity (B, B) of the hits in all pairs of B bars, by sound, position and strength; averaged with that
-    of the melody if there is one.
+    of the melody if there is one. A melody of the usual weight 0..1 counts as much as percussion, one of weight 0 not
+    at all.
     """
     struck = _likeness(rhythm)
-    return struck if rhythm.melody is None else 0.5 * (struck + likeness_of_bars(rhythm.melody))
+    if rhythm.melody is None or not melody:
+        return struck
+    share = melody / (melody + USUAL_MELODY)
+    return (1.0 - share) * struck + share * _likeness(rhythm.melody)
 
 
 def _likeness(rhythm: Rhythm) -> FloatArray:
@@ -85,9 +92,11 @@ def _likeness(rhythm: Rhythm) -> FloatArray:
     return np.asarray((flat @ flat.T) * (beats[:, None] == beats[None, :]))
 
 
-def returning_places(rhythm: Rhythm, times_s: FloatArray) -> ReturningPlaces | None:
-    """Compare each of the ascending times with those at the same position in earlier bars; None if no bars recur."""
-    worths = returns_of_bars(rhythm)
+def returning_places(rhythm: Rhythm, times_s: FloatArray, melody: float = USUAL_MELODY) -> ReturningPlaces | None:
+    """Compare each of the ascending times with those at the same position in earlier bars; None if no bars recur. For
+    ``melody`` see `likeness_of_bars`.
+    """
+    worths = returns_of_bars(rhythm, melody)
     if not worths.any():
         return None
     downbeats = np.flatnonzero(rhythm.bar_beats == 0)

@@ -52,6 +52,17 @@ def test_likeness_does_not_depend_on_the_tempo_and_knows_each_bar_itself() -> No
     assert np.allclose(np.diag(one), 1.0)
 
 
+def test_the_more_a_melody_weighs_the_more_bars_differ_by_it() -> None:
+    # By the drums the third section is the first one, by the melody it is another.
+    drums, tune = played("ABA"), played("ABC")
+    rhythm = replace(drums, melody=tune)
+    alike = [likeness_of_bars(rhythm, weight)[9, 1] for weight in (0.0, 0.25, 0.5, 1.0)]
+    assert alike == sorted(alike, reverse=True)
+    assert alike[0] > alike[-1] + 0.2
+    assert np.array_equal(likeness_of_bars(rhythm, 0.0), likeness_of_bars(drums))
+    assert np.allclose(likeness_of_bars(rhythm), 0.5 * (likeness_of_bars(drums) + likeness_of_bars(tune)))
+
+
 def test_sections_return_by_their_melody_too() -> None:
     beaten = replace(played("AAAA"), symbols=np.zeros(0, int), hits_s=np.zeros(0), strengths=np.zeros(0))
     worths = returns_of_bars(replace(beaten, melody=played("ABAC")))
