@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 
-from app.arrays import BoolArray
+from app.arrays import BoolArray, IndexArray
 from app.formats.scene import Material
 from app.rig.characters.load_character import load_character
 from app.rig.mesh import Mesh
@@ -19,6 +20,9 @@ from app.rig.people.bundled_people import finished_body, whole_phenotype
 from app.rig.people.make_person import SKIN, SKIN_MATERIAL, Original, carried, original_of
 from app.rig.people.person import Person, originals
 from app.rig.people.wardrobe import OutfitChoice, OutfitFacts, linear_colour, tailored_for, wardrobe
+
+SAME_PLACE_M: Final = 1e-4
+"""Distance in metres up to which two vertices are at one place."""
 
 
 def dressed_id(id: str, person: Person, choice: OutfitChoice) -> str:
@@ -46,9 +50,11 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
     path, facts = outfit.files[tailored_for(person)]
     table = originals()[person.original]
     other = None if facts.body in (person.original, table.made_from) else character
-    worn = carried(_garments(path, facts.body), body_shapes(), whole_phenotype(person), table.hands, other)
-    skin = next(mesh for mesh in character.meshes if mesh.name == SKIN)
-    finished = character if character.hands_of is None else character.hands_of
+    file = _garments(path, facts.body)
+    finished, skin = _finished(character), next(mesh for mesh in character.meshes if mesh.name == SKIN)
+    worn = carried(file, body_shapes(), whole_phenotype(person), table.hands, other)
+    if facts.body == finished.id:
+        worn = tuple(_joined(mesh, file, finished, skin) for mesh in worn)
     own = [_uncovered(mesh, facts, finished) for mesh in character.meshes if mesh.name not in facts.hides]
     own, garments = ([_coloured(mesh, facts, choice, skin) for mesh in meshes] for meshes in (own, worn))
     landmarks = {
@@ -57,6 +63,39 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
     }
     id, meshes = dressed_id(character.id, person, choice), (*own, *garments)
     return replace(character, id=id, meshes=meshes, landmarks=landmarks, undressed=character)
+
+
+def _finished(character: Character) -> Character:
+    """Return the finished body that a person was made from, directly or by way of another body."""
+    while character.made_from is not None:
+        character = character.made_from
+    return character
+
+
+def _joined(mesh: Mesh, file: Original, finished: Character, skin: Mesh) -> Mesh:
+    """Return a mesh of an outfit; where it is bare skin that continues the person's own, such as a forearm the hand,
+    both get the same vertices.
+    """
+    if any(material.name != SKIN_MATERIAL for material in mesh.materials):
+        return mesh
+    rows, body_rows = _common_vertices(file, mesh.name, finished)
+    positions_m, normals = mesh.positions_m.copy(), mesh.normals.copy()
+    positions_m[rows], normals[rows] = skin.positions_m[body_rows], skin.normals[body_rows]
+    return replace(mesh, positions_m=positions_m, normals=normals)
+
+
+@lru_cache(maxsize=64)
+def _common_vertices(file: Original, name: str, finished: Character) -> tuple[IndexArray, IndexArray]:
+    """Return the vertices of a mesh of an outfit that are at those of the skin of the finished body it was fitted to,
+    and these.
+    """
+    from scipy.spatial import cKDTree  # slow to import; needed for few outfits
+
+    mesh = next(mesh for mesh in file.character.meshes if mesh.name == name)
+    skin = next(mesh for mesh in finished.meshes if mesh.name == SKIN)
+    far_m, nearest = cKDTree(skin.positions_m).query(mesh.positions_m)
+    rows = np.flatnonzero(np.asarray(far_m) < SAME_PLACE_M)
+    return rows, np.asarray(nearest, np.intp)[rows]
 
 
 def _on(garments: Sequence[Mesh], character: Character, mark: Landmark) -> Landmark:

@@ -11,7 +11,9 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pytest
+from scipy.spatial import cKDTree
 
 from app.arrays import FloatArray
 from app.rig import quaternion
@@ -109,6 +111,34 @@ def test_bare_skin_continues_the_bodys_own() -> None:
             if frozenset(map(tuple, np.round(mesh.positions_m[row] / 1e-5).astype(int))) in faces
         ]
         assert not double, (path.stem, mesh.name)
+
+
+@pytest.mark.parametrize("id", ["child_hina", "cast_lucia", "cast_thomas"])
+def test_no_gap_between_a_hand_and_its_bare_forearm(id: str) -> None:
+    character = character_in(id, OutfitChoice("polo"))
+    forearms = next(mesh for mesh in character.meshes if mesh.name == "skin_arms")
+    hands = next(mesh for mesh in character.meshes if mesh.name == "body")
+    for side in ("left", "right"):
+        hand = np.isin(np.arange(len(hands.positions_m)), open_edges(hands)) & near_wrist(character, hands, side)
+        arm = np.isin(np.arange(len(forearms.positions_m)), open_edges(forearms)) & near_wrist(
+            character, forearms, side
+        )
+        assert hand.sum() > 8
+        far_m = cKDTree(forearms.positions_m[arm]).query(hands.positions_m[hand])[0]
+        assert far_m.max() < 1e-5
+
+
+def open_edges(mesh: Mesh) -> npt.NDArray[np.intp]:
+    """Vertices at edges of a single triangle, where vertices at one place count as one."""
+    place = np.unique(np.round(mesh.positions_m / 1e-6).astype(np.int64), axis=0, return_inverse=True)[1].reshape(-1)
+    edges = np.sort(place[mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)], axis=1)
+    single, uses = np.unique(edges, axis=0, return_counts=True)
+    return np.flatnonzero(np.isin(place, single[uses == 1]))
+
+
+def near_wrist(character: Character, mesh: Mesh, side: str) -> npt.NDArray[np.bool_]:
+    wrist_m = np.linalg.inv(character.joint_from_mesh[character.skeleton.index(f"{side}Hand")])[:3, 3]
+    return np.asarray(np.linalg.norm(mesh.positions_m - wrist_m, axis=1) < 0.07)
 
 
 @pytest.mark.parametrize(
