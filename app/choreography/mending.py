@@ -29,6 +29,8 @@ JUMP_RAD: Final = 0.5
 """Angle in radians from its extrapolated motion beyond which a segment has jumped."""
 HIPS_JUMP_RAD: Final = 0.1
 JUMP_M: Final = 0.03
+RETURNS: Final = 0.5
+"""Share of the greatest error within a damaged span below which the hips behind it have returned by themselves."""
 MOST_LEAN_RAD: Final = 0.5
 """Greatest tilt of the hips in radians in a jump that can be removed."""
 APART_S: Final = 0.75
@@ -166,9 +168,21 @@ class _Body:
                 off, most = float(angle(_led(turns, one), turns[one.stop])), JUMP_RAD
                 if part == "hips":
                     most = HIPS_JUMP_RAD
-            if off > most:
+            if off > most and not (part in ("hips", "place") and off < RETURNS * self._error(one, part)):
                 found.append(part)
         return tuple(found)
+
+    def _error(self, one: Damage, part: str) -> float:
+        """Return the greatest distance in metres or angle in radians of the damaged frames of the hips from those that
+        would replace them; 0 if only the change between two frames is damaged."""
+        values = self._hips if part == "place" else self._turns[:, 0]
+        around = slice(max(0, one.start - 1), one.stop + 2)
+        here = slice(one.start - around.start + 1, one.stop - around.start)
+        bridged = values[around].copy()
+        _bridge(bridged, Damage(one.start - around.start, one.stop - around.start, one.parts), self._clip)
+        was, now = values[around][here], bridged[here]
+        apart = np.linalg.norm(was - now, axis=1) if part == "place" else angle(was, now)
+        return float(apart.max(initial=0.0))
 
     def goes_on(self, one: Damage, jumped: Sequence[str]) -> bool:
         """Return whether only the hips jump, with little tilt, so that the motion can continue from the new place."""

@@ -162,6 +162,22 @@ def test_a_trunk_that_goes_far_and_back_in_six_frames_is_damage(part: str, fps: 
         assert one.start <= 3 * fps + 1 < 3 * fps + 5 < one.stop
 
 
+@pytest.mark.parametrize("first", [130, 150, 170, 190])
+def test_nothing_changes_after_damage_that_returns_by_itself(first: int) -> None:
+    """For six frames the hips of a body that turns to and fro quickly are turned by 40 degrees."""
+    clip = dancing(60)
+    clip = turning(clip, "hips", 0.5 * np.sin(2.0 * np.pi * 2.2 * np.arange(len(clip)) / 60.0), (0.0, 1.0, 0.0))
+    extra = np.zeros(len(clip))
+    extra[first : first + 6] = np.radians(40.0)
+    spoilt = turning(clip, "hips", extra, (0.0, 1.0, 0.0))
+    found = mended(spoilt)
+    assert found.left_out == ()
+    assert found.mended
+    sound = np.r_[0 : first - 2, first + 8 : len(clip)]
+    assert angle(found.clip.rotations[sound, 0], clip.rotations[sound, 0]).max() < 1e-6
+    assert np.array_equal(found.clip.hips_m[sound], clip.hips_m[sound])
+
+
 def test_long_damage_is_left_out_with_both_its_ends() -> None:
     """A flip of a second, exchanged arms for two, and a lost marker for three are excluded from start to end."""
     clip = dancing(60, 16)
