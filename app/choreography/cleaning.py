@@ -13,11 +13,10 @@ from app.choreography.body_speeds import PARTS, part_speeds
 from app.choreography.clip import MotionClip
 from app.choreography.clip_ends import idle, proper
 from app.choreography.damage import Damage
+from app.choreography.held_frames import held_frames
 from app.choreography.mending import mended
 from app.errors import Message
 
-HELD_PART: Final = 0.95
-"""Share of all changes that occur only at every n-th frame if frames are repeated."""
 NAMED: Final = 6
 """Greatest number of places listed in a message, which adds the number of others."""
 
@@ -30,8 +29,8 @@ class CleanedClip:
     ----------
     clip : MotionClip
         The actual motion, with damage repaired.
-    held : int
-        Number of file frames for which each frame was repeated; only one of them remains.
+    held : Fraction
+        Mean number of file frames for which each frame was repeated; only one of them remains.
     lead_in, trail : int
         Frames of rest poses removed at the start and at the end.
     idle : tuple of int
@@ -41,7 +40,7 @@ class CleanedClip:
     """
 
     clip: MotionClip
-    held: int = 1
+    held: Fraction = Fraction(1)
     lead_in: int = 0
     trail: int = 0
     idle: tuple[int, int] = (0, 0)
@@ -67,37 +66,21 @@ def cleaned(clip: MotionClip) -> CleanedClip:
     """Clean a clip: remove repeated frames and rest poses, and repair damage; a clip that needs none of this is
     unchanged.
     """
-    count = held(clip)
-    clip = without_held(clip, count)
+    count, kept = held_frames(np.any(part_speeds(clip) > 0.0, axis=1))
+    if count > 1:
+        clip = replace(clip, fps=clip.fps / count, hips_m=clip.hips_m[kept], rotations=clip.rotations[kept])
     start, stop = proper(clip)
     done = mended(clip.span(start, stop))
     return CleanedClip(done.clip, count, start, len(clip) - stop, idle(done.clip), done.mended, done.left_out)
-
-
-def held(clip: MotionClip) -> int:
-    """Return the number of frames for which each is repeated, as by a converter to a higher rate; usually 1."""
-    changed = np.flatnonzero((part_speeds(clip) > 0.0).any(axis=1))
-    if len(changed) < 3:
-        return 1
-    count = int(np.median(np.diff(changed)))
-    return count if count > 1 and (np.diff(changed) % count == 0).mean() >= HELD_PART else 1
-
-
-def without_held(clip: MotionClip, count: int) -> MotionClip:
-    """Keep the first of every ``count`` equal frames, at the accordingly lower frame rate."""
-    if count == 1:
-        return clip
-    changed = np.flatnonzero((part_speeds(clip) > 0.0).any(axis=1)) + 1
-    phase = int(np.bincount(changed % count).argmax())
-    kept = np.maximum(np.arange(phase - count if phase else 0, len(clip), count), 0)
-    return replace(clip, fps=clip.fps / count, hips_m=clip.hips_m[kept], rotations=clip.rotations[kept])
 
 
 def remarks(done: CleanedClip) -> tuple[Message, ...]:
     """Return notes for the user about what was removed from a clip and changed in it; times are those of the file."""
     found = []
     if done.held > 1:
-        found.append(Message("motion.held", {"n": done.held, "rate": str(done.clip.fps)}))
+        even = done.held.denominator == 1
+        kind, number = ("motion.held", {"n": int(done.held)}) if even else ("motion.held_unevenly", {})
+        found.append(Message(kind, {**number, "rate": str(done.clip.fps)}))
     if done.lead_in:
         found.append(Message("motion.lead_in", {"n": done.lead_in}))
     if done.trail:

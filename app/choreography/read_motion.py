@@ -25,6 +25,7 @@ from app.choreography.captured_body import captured_body
 from app.choreography.captured_floor import floor_of_all, floor_of_danced
 from app.choreography.cleaning import CleanedClip, cleaned, remarks
 from app.choreography.clip import BodyShape, MotionClip
+from app.choreography.held_frames import held_frames
 from app.choreography.raw_skeleton import BodyError, RawSkeleton, raw_skeleton
 from app.errors import FileError, Message, shortened
 from app.formats.bvh.clip import BvhClip
@@ -203,6 +204,8 @@ def motion_of(
     lengths = (bvh.offsets_cm, bvh.root_translation_cm, *bvh.end_sites_cm.values(), *bvh.translations_cm.values())
     if any((np.abs(one) > FARTHEST_CM).any() for one in lengths):
         raise FileError("motion.far", file=file)
+    file_fps, repeats, bvh = bvh.fps, *_without_held(bvh)
+    fps = fps / repeats if fps else bvh.fps
     found = captured_body(bvh, file, joints)
     units = _place_units(found.body.positions, found.body.joints)
     if units is not None:
@@ -222,19 +225,34 @@ def motion_of(
     offsets[0, 1] = -_lowest(offsets, ends)
     floor_m = floor_of_all(positions, rotations, ends)
     hips = positions[:, 0] - (0.0, floor_m, 0.0)
-    whole = MotionClip(BodyShape.of(offsets, ends), fps or bvh.fps, hips, _local(rotations))
+    whole = MotionClip(BodyShape.of(offsets, ends), fps, hips, _local(rotations))
     done = cleaned(whole)
-    before, after = (done.held * frames for frames in (done.lead_in, done.trail))
+    before, after = (round(done.held * frames) for frames in (done.lead_in, done.trail))
     proper = slice(before, len(whole) - after)
     apart_m = _apart(whole.span(proper.start, proper.stop), (positions - positions[:, :1])[proper])
     start_m = done.clip.hips_m[0] * (1.0, 0.0, 1.0) + (0.0, floor_of_danced(done), 0.0)
     clip = replace(done.clip, hips_m=done.clip.hips_m - start_m)
     first = found.body.positions[before], found.body.rotations[before]
     return ReadMotion(
-        replace(done, clip=clip), found.profile, unit, unit_m, found.up, bvh.fps, found.doubtful, apart_m,
+        replace(done, clip=clip, held=done.held * repeats), found.profile, unit, unit_m, found.up, file_fps,
+        found.doubtful, apart_m,
         report(found.checked), raw_skeleton(bvh, file, found.found, *first), bvh.rate_guess,
         (*bvh.guesses, *found.guesses),
     )  # fmt: skip
+
+
+def _without_held(bvh: BvhClip) -> tuple[Fraction, BvhClip]:
+    """Return the mean number of frames for which each is repeated, and the clip with the first of them only."""
+    tracks = (bvh.rotations_xyzw, bvh.root_translation_cm, *bvh.translations_cm.values())
+    changes = [np.any(track[1:] != track[:-1], axis=tuple(range(1, track.ndim))) for track in tracks]
+    count, kept = held_frames(np.any(changes, axis=0))
+    if count == 1:
+        return count, bvh
+    rotations, root, *others = (track[kept] for track in tracks)
+    moved = dict(zip(bvh.translations_cm, others, strict=True))
+    return count, replace(
+        bvh, fps=bvh.fps / count, rotations_xyzw=rotations, root_translation_cm=root, translations_cm=moved
+    )
 
 
 def _place_units(positions: FloatArray, bones: Mapping[str, int]) -> tuple[str, str] | None:

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from app.choreography.cleaning import cleaned, remarks
 from app.choreography.clip import MotionClip
+from app.choreography.held_frames import held_frames
 from app.choreography.learn import Pair, analyse
 from app.messages import text
 from app.rig import quaternion
@@ -130,6 +131,28 @@ def test_held_frames_are_one(count: int, phase: int) -> None:
     assert len(done.clip) == len(clip)
     assert np.array_equal(done.clip.rotations, clip.rotations)
     assert "60 frames/s" in text(remarks(done)[0])
+
+
+@pytest.mark.parametrize(("rate", "file_rate"), [(60, 100), (24, 30), (25, 60), (48, 120)])
+@pytest.mark.parametrize("phase", [0, 1, 3])
+def test_unevenly_held_frames_are_one(rate: int, file_rate: int, phase: int) -> None:
+    """A converter repeats every frame as often as another rate needs."""
+    clip = dancing(rate)
+    every = (np.arange(len(clip) * file_rate // rate) * rate // file_rate)[phase:]
+    every -= every[0]
+    done = cleaned(MotionClip(clip.shape, Fraction(file_rate), clip.hips_m[every], clip.rotations[every]))
+    assert (done.held, done.clip.fps) == (Fraction(file_rate, rate), rate)
+    assert np.array_equal(done.clip.rotations, clip.rotations[: every[-1] + 1])
+    assert done.mended == done.left_out == ()
+    assert f"{rate} frames/s" in text(remarks(done)[0])
+
+
+def test_a_motion_with_pauses_or_irregular_repetitions_is_not_held() -> None:
+    """Pauses in one place, or frames lost by chance, are no pattern."""
+    for seed in range(20):
+        random = np.random.default_rng(seed)
+        for changes in (random.random(400) < 0.7, random.random(400) < 0.95, np.arange(400) % 100 < 90):
+            assert held_frames(changes).length == 1
 
 
 def test_idle_ends_are_kept_and_not_danced() -> None:

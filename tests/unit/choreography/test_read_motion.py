@@ -332,3 +332,24 @@ def test_frames_of_seconds_are_counted_as_they_are_learned_from(tmp_path: Path) 
             with pytest.raises(FileError) as caught:
                 read_motion(path)
             assert caught.value.message.id == "motion.too_long"
+
+
+@pytest.mark.parametrize(("times", "count"), [((4,), Fraction(4)), ((2, 2, 1), Fraction(5, 3))])
+def test_repeated_frames_are_read_as_the_distinct_ones(tmp_path: Path, times: tuple[int, ...], count: Fraction) -> None:
+    """The number of times a converter wrote each frame changes neither the body nor its motion."""
+    head, _, rows = bvh(np.eye(3), 0.01).partition("Frames: ")
+    place, zeros = rows.splitlines()[2].split()[:3], len(rows.splitlines()[2].split()) - 3
+    angles = 25.0 * np.sin(np.outer(np.arange(90) / 9.0, 0.5 + 0.1 * np.arange(zeros)))
+    lines = [" ".join([*place, *(f"{value:.5f}" for value in angle)]) for angle in angles]
+    held = [line for at, line in enumerate(lines) for _ in range(times[at % len(times)])]
+    clips = []
+    for name, some, rate in (("distinct", lines, Fraction(60)), ("held", held, 60 * count)):
+        path = tmp_path / f"{name}.bvh"
+        path.write_text(f"{head}Frames: {len(some)}\nFrame Time: {float(1 / rate):.9f}\n" + "\n".join(some) + "\n")
+        clips.append(read_motion(path))
+    distinct, repeated = clips
+    assert (distinct.cleaned.held, repeated.cleaned.held) == (1, count)
+    assert repeated.clip.fps == distinct.clip.fps
+    assert np.array_equal(repeated.clip.rotations, distinct.clip.rotations)
+    assert np.array_equal(repeated.clip.hips_m, distinct.clip.hips_m)
+    assert "repeated" in " ".join(text(one) for one in guesses(repeated))
