@@ -27,6 +27,8 @@ LOWER_M_PER_DEG = 0.0006
 """Room that counts as much as a degree of that."""
 ROOM_M = 0.03
 """Room that a still body leaves between hands and lap for the motion, in which trunk and head go down."""
+PIN_LEFT_M = 0.04
+"""Length by which a pin can still be drawn out on a still body, for breaths that lift the instrument."""
 ACCEPTED_M = 0.01
 """Lacking room for which the usual seat is kept."""
 
@@ -90,8 +92,11 @@ def _lower(posture: Posture, lower_deg: float) -> Posture:
 
 
 def _lacking_m(player: PlayerBody) -> float:
-    """Return the room in metres that arms lack, and the length of an instrument's pin that would be below the floor."""
+    """Return the room in metres that arms lack, and the length of an instrument's pin that would be below the floor or
+    is drawn out too far.
+    """
     if player.stand is None:
         return lacking_m(player, ROOM_M)
-    carried = upper_body(player, ContactCurves(player.still, {}, {}, np.zeros(1))).carried
-    return lacking_m(player, ROOM_M) + max(0.0, -player.stand.pin_m(carried))
+    pin_m = player.stand.pin_m(upper_body(player, ContactCurves(player.still, {}, {}, np.zeros(1))).carried)
+    too_far_m = pin_m - (player.stand.endpin.most_m - PIN_LEFT_M)
+    return lacking_m(player, ROOM_M) + max(0.0, -pin_m, too_far_m)
