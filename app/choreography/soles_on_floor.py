@@ -28,6 +28,8 @@ HALF_WIDTH_PART: Final = 0.35
 """Half width of a sole without skin, relative to the distance from ankle to toes."""
 EDGE_M: Final = 0.005
 """Distance in metres from a foot's axis from which a point can be on an edge."""
+SINKS_M: Final = 0.005
+"""Depth in metres up to which the front of a shoe may be in the floor while the foot rolls over it."""
 FLATTENS_S: Final = 0.03
 """Standard deviation in seconds over which a foot is flattened before and after its edge would be below the floor."""
 _OUTLINES: IdentityCache[FloatArray] = IdentityCache(64)
@@ -68,7 +70,7 @@ def over_the_floor(
     foot = _flattened(outline_m, axes, foot, tip_m[:, 1], fps)
     # What is left: heels raised while the foot was rolled, and the backs of feet whose soles face up.
     points = tip_m[:, None] + quaternion.rotate(foot[:, None], _HULLS.step(_hull_m, character, side))
-    tip_m[:, 1] += np.maximum(-points[..., 1].min(axis=1), 0.0)
+    tip_m[:, 1] += np.maximum(-points[..., 1].min(axis=1) - SINKS_M, 0.0)
     return tip_m - quaternion.rotate(foot, tip), foot
 
 

@@ -13,10 +13,13 @@ from app.arrays import FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.retarget import retarget
+from app.choreography.skin_around import skin_around
+from app.choreography.soles_on_floor import over_the_floor
 from app.motion.model import Motion
 from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.rig.skeleton import rest_positions
+from app.rig.sole import foot_tip_m
 
 FRAMES = 240
 HIPS_M, ANKLE_M = 0.95, 0.08
@@ -223,3 +226,23 @@ def test_a_kneeling_knee_is_on_the_floor_and_a_standing_body_is_not_lifted() -> 
     assert -0.01 < min(lowest) < 0.03
     lifted = retarget(still(), character).hips_m[FRAMES // 4, 1]
     assert motion.hips_m[FRAMES // 4, 1] == pytest.approx(lifted, abs=5e-3)
+
+
+def test_a_foot_that_rolls_over_its_toes_does_not_rise_meanwhile() -> None:
+    character, fps = character_named("woman_adult"), 60.0
+    tip = foot_tip_m(character.skeleton, "left")
+    bend_deg = np.concatenate([np.zeros(20), np.linspace(0.0, 25.0, 20), np.full(20, 25.0)])
+    foot = Rotation.from_euler("x", bend_deg[:, None], degrees=True).as_quat()
+    # It stands on its tip for forty frames, and then leaves.
+    tip_m = np.outer(np.maximum(np.arange(60) - 39, 0), (0.0, 0.01, 0.005))
+    ankle_m = tip_m - Rotation.from_quat(foot).apply(tip)
+    moved_m, turned = over_the_floor(character, "left", foot, ankle_m, fps)
+    after_m = moved_m + Rotation.from_quat(turned).apply(tip)
+    assert np.ptp(after_m[:40], axis=0).max() < 5e-4
+    hull_m = skin_around(character, [character.skeleton.index("leftFoot")])[0].rest_m
+    hull_m = hull_m - rest_positions(character.skeleton)[character.skeleton.index("leftFoot")]
+    lowest_m = [
+        (place + Rotation.from_quat(turn).apply(hull_m))[:, 1].min()
+        for place, turn in zip(moved_m, turned, strict=True)
+    ]
+    assert min(lowest_m) > -0.005
