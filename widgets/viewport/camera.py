@@ -181,7 +181,9 @@ def frame_points(camera: Camera, points_m: FloatArray, aspect: float, margin: fl
     # A camera at (c, d) sees a point at (p, b) if |p - c| <= slope (d - b).
     needed = [((at + slope * before).max() - (at - slope * before).min()) / (2.0 * slope) for at, slope in sides]
     depth = (float(before.max()) + float(before.min())) / 2.0
-    eye = depth + min(max(float(max(needed)) - depth, NEAREST_M), FARTHEST_M)
+    # The eye could be in the nearest point.
+    eye = max(float(max(needed)), float(before.max()) + NEAREST_M)
+    eye = min(eye, depth + FARTHEST_M)
     across, over = (_centre(at, np.maximum(eye - before, 1e-6)) for at, _ in sides)
     target = across * camera.right + over * camera.up + depth * camera.backward
     return replace(camera, target_m=triple(target), distance_m=eye - depth)

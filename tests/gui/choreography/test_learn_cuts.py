@@ -228,13 +228,16 @@ def test_the_plot_zooms_at_the_mouse_scrolls_and_pans(dialog: LearnDialog) -> No
     assert plot(dialog).view.viewRange()[0] == pytest.approx(whole)
 
 
-def test_the_pose_under_the_mouse_is_drawn(dialog: LearnDialog) -> None:
+def test_the_pose_under_the_mouse_is_drawn(dialog: LearnDialog, qtbot: QtBot) -> None:
     view = plot(dialog).plot.viewport()
+    unseen = dialog.cuts.figure.pose
     QTest.mouseMove(view, at(dialog, 60))
+    qtbot.waitUntil(lambda: dialog.cuts.figure.pose is not unseen)
     # The arms are up after the first swing, and level before it.
     before = dialog.cuts.figure.pose
     place = at(dialog, 120)
     QTest.mouseMove(view, place)
+    qtbot.waitUntil(lambda: dialog.cuts.figure.pose is not before)
     after = dialog.cuts.figure.pose
     assert before is not None
     assert after is not None
