@@ -42,7 +42,7 @@ EDITOR_SIZE: Final = (800, 533)
 
 BAND: Final = ROOT / "tests" / "data" / "midi" / "ensemble" / "concert_band_hall_tenth_regiment_march.mid"
 BAND_BARS: Final = (12, 17)
-BAND_BOX: Final = (140, 240, 1160, 580)
+BAND_BOX: Final = (70, 150, 1230, 537)
 BAND_SIZE: Final = (800, 267)
 
 MOST_WAIT_S: Final = 120.0
