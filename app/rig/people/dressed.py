@@ -66,15 +66,15 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
 
 
 def _finished(character: Character) -> Character:
-    """Return the finished body that a person was made from, directly or by way of another body."""
+    """Return the finished body that a character was made from, directly or through another body."""
     while character.made_from is not None:
         character = character.made_from
     return character
 
 
 def _joined(mesh: Mesh, file: Original, finished: Character, skin: Mesh) -> Mesh:
-    """Return a mesh of an outfit; where it is bare skin that continues the person's own, such as a forearm the hand,
-    both get the same vertices.
+    """Return a mesh of an outfit; where its bare skin continues the person's own, as at a wrist, both get the same
+    vertices.
     """
     if any(material.name != SKIN_MATERIAL for material in mesh.materials):
         return mesh
