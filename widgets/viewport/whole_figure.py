@@ -6,7 +6,6 @@ What depends only on arrays that all people made from one body share is computed
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -14,12 +13,11 @@ import numpy.typing as npt
 
 from app.arrays import AnyFloatArray, BoolArray, FloatArray, IntArray, SingleArray
 from app.formats.scene import Material
-from app.formats.texture_colors import OPAQUE, linear, sampled
-from app.formats.textures import TextureUse
 from app.identity_cache import IdentityCache
 from app.rig.mesh import Mesh, plain_materials
 from widgets.viewport.normals_across_seams import SplitMesh, numbered, row_keys, split_mesh, turned_morphs
 from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
+from widgets.viewport.texture_at_vertices import mostly_filled, pictured, placed
 from widgets.viewport.texture_groups import texture_groups, textured_looks, uv_islands
 
 PLAIN_LEAST_M = 0.08
@@ -28,16 +26,6 @@ LEAST_CELL_M = 1e-5
 """Finest cell in metres for flat meshes."""
 FAR_HEAD_SHARE = 0.4
 """Size of the cells of heads relative to that of others at the coarsest level: a face is known by its small parts."""
-_INSIDE = np.array(
-    [
-        *((1 / 3, 1 / 3, 1 / 3), (0.6, 0.2, 0.2), (0.2, 0.6, 0.2), (0.2, 0.2, 0.6)),
-        *((0.45, 0.45, 0.1), (0.1, 0.45, 0.45), (0.45, 0.1, 0.45)),
-    ]
-)
-"""Points in a triangle, as shares of its corners, where its texture is sampled."""
-_LEAST_FILLED = 0.4
-"""Mean opacity below which a cut-out triangle is left out at the coarsest level: fringes are above, single hairs along
-hairlines below."""
 _MOST_SHORT = 2**16 - 1
 """Greatest number of vertices with 16-bit indices."""
 
@@ -67,17 +55,20 @@ class WholeFigure:
         total = int(self._starts[-1])
         self._shape = np.zeros(total, SHAPE)
         self._surface = np.zeros(total, SURFACE)
-        self._part = np.repeat(np.arange(len(splits)), counts)
         thick_m = [_thickness_m(split.mesh) for split in splits]
         self._thickness = np.repeat(thick_m, counts)
         self._two_sided = np.zeros(total, dtype=bool)
-        self._uvs, self._look = np.zeros((total, 2), np.float32), np.full(total, -1, np.int32)
+        self._look = np.full(total, -1, np.int32)
         self._shades = np.ones((total, 3), np.float32)
         """Colour of a texture at a vertex, beside its mean."""
+        self._colored = np.zeros(total, np.intp)
+        """The same number for vertices of one mesh and colour. Sheets of hair have one, to be joined along their edges
+        at the coarsest level: the scalp would show."""
         looks = textured_looks(meshes)
         plain = [not mesh.morphs and own_m > PLAIN_LEAST_M for mesh, own_m in zip(meshes, thick_m, strict=True)]
         self._coarser = np.repeat(np.where(plain, plain_factor, 1.0), counts)
-        for split, start in zip(splits, self._starts, strict=False):
+        known: dict[tuple[int, bytes], int] = {}
+        for part, (split, start) in enumerate(zip(splits, self._starts, strict=False)):
             own = slice(int(start), int(start) + len(split.vertices))
             mesh = split.mesh
             self._shape["a_position"][own] = mesh.positions_m.take(split.vertices, axis=0)
@@ -89,25 +80,18 @@ class WholeFigure:
             colors = np.array([(*material.base_color[:3], material.roughness) for material in plains], np.float32)
             metallic = np.array([material.metallic for material in plains], np.float32)
             self._surface["a_color"][own] = colors[split.materials]
+            numbers_of = [known.setdefault((part, color.tobytes()), len(known)) for color in colors]
+            self._colored[own] = np.array(numbers_of)[split.materials]
             self._surface["a_metallic"][own] = metallic[split.materials]
             self._texture(own, split, looks, plains)
             two_sided = np.array([material.double_sided for material in mesh.materials])
             self._two_sided[own] = two_sided[split.materials]
-        colors = np.ascontiguousarray(self._surface["a_color"]).view(np.int32)
-        islands = np.concatenate([_islands(split) for split in splits])
-        self._looks = numbered(row_keys(self._part, islands, *colors.T))[1]
-        """The same number for vertices of one mesh and colour and, where they have textures, of one part of these."""
-        self._far_looks = numbered(row_keys(self._part, *colors.T))[1]
-        """The same without parts of textures: sheets of hair are joined along their edges, or the scalp would show."""
         self._surface["a_color"][:, :3] *= self._shades
         self._head_bones = np.array(sorted(head_bones), np.float32)
 
     def _texture(self, own: slice, split: SplitMesh, looks: tuple[Material, ...], plains: tuple[Material, ...]) -> None:
-        """Store texture coordinates, textured materials and colours of a mesh's vertices, which are in the range
-        ``own``.
-        """
-        mesh, places = split.mesh, _placed(split)
-        self._uvs[own] = places.uvs
+        """Store textured materials and colours of a mesh's vertices, which are in the range ``own``."""
+        mesh, places = split.mesh, placed(split)
         for number, (material, plain) in enumerate(zip(mesh.materials, plains, strict=True)):
             if material not in looks:
                 continue
@@ -115,7 +99,7 @@ class WholeFigure:
             self._look[own][here] = looks.index(material)
             found = None
             if material.textures.color is not None and material.alpha_mode != "blend":
-                found = _pictured(material.textures.color, places, number, material.alpha_mode == "mask")
+                found = pictured(material.textures.color, places, number, material.alpha_mode == "mask")
             if found is not None:
                 filled, colors = found
                 self._shades[own][here[filled]] = (
@@ -195,16 +179,16 @@ class WholeFigure:
         wide = np.maximum(np.where(head, FAR_HEAD_SHARE, 1.0) * wide, LEAST_CELL_M)[:, None]
         cells = np.floor(places_m / wide).astype(np.int64)
         # Surfaces that face in different directions are not merged through a thin wall.
-        facing = np.argmax(np.abs(self._shape["a_normal"]), axis=1)
-        sign = np.take_along_axis(self._shape["a_normal"], facing[:, None], axis=1)[:, 0] > 0.0
-        looks = self._far_looks if far else self._looks
+        facing, sign = _facing(self._shape["a_normal"])
+        looks = self._colored if far else self._looks
         first, cluster = numbered(row_keys(*cells.T, (facing * 2 + sign) * 2 + head, looks))
         if far:
             # Triangles between the middles of cells are more regular.
             middles_m = _mean(places_m, cluster, np.ones(len(cluster)))
-            off_m = np.linalg.norm(places_m - middles_m[cluster], axis=1)
-            order = np.lexsort((off_m, cluster))
-            first = order[np.searchsorted(cluster[order], np.arange(len(first)))]
+            off_m = np.linalg.norm(places_m - middles_m.take(cluster, axis=0), axis=1)
+            farthest_first = np.argsort(off_m, kind="stable")[::-1]
+            # The last one stored stays.
+            first[cluster[farthest_first]] = farthest_first
         return first, cluster
 
     def _joined(self, clusters: tuple[IntArray, IntArray] | None, far: bool) -> tuple[IntArray, IntArray]:
@@ -212,10 +196,12 @@ class WholeFigure:
         if clusters is None:
             return np.arange(len(self._shape)), self._triangles
         first, cluster = clusters
-        triangles = first[cluster][self._triangles[self._filled] if far else self._triangles]
+        triangles = first[cluster].take(self._triangles[self._filled] if far else self._triangles)
         a, b, c = triangles.T
         triangles = triangles[(a != b) & (b != c) & (c != a)]
-        triangles = triangles[numbered(row_keys(*np.sort(triangles, axis=1).T))[0]]
+        a, b, c = triangles.T
+        low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+        triangles = triangles[numbered(row_keys(low, a + b + c - low - high, high))[0]]
         used = np.zeros(len(self._shape), np.bool_)
         used[triangles] = True
         return np.flatnonzero(used), triangles
@@ -226,8 +212,10 @@ class WholeFigure:
         """
         cluster = clusters[1]
         triangles = self._triangles[self._filled]
-        a, b, c = (self._shape["a_position"].take(corner, axis=0) for corner in triangles.T)
-        area = np.linalg.norm(np.cross(b - a, c - a), axis=1).astype(np.float64)
+        a, b, c = self._shape["a_position"].T.take(triangles.T, axis=1).transpose(1, 0, 2)
+        (ax, ay, az), (bx, by, bz) = b - a, c - a
+        x, y, z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+        area = np.sqrt(x * x + y * y + z * z).astype(np.float64)
         shares = np.full(len(self._shape), 1e-12)
         shares += np.bincount(triangles.ravel(), np.repeat(area, 3), len(shares))
         own = cluster[order]
@@ -246,6 +234,18 @@ class WholeFigure:
         return mostly
 
     @cached_property
+    def _uvs(self) -> SingleArray:
+        """Texture coordinates (V, 2) of the vertices."""
+        return np.concatenate([placed(split).uvs for split in self._splits]).astype(np.float32, copy=False)
+
+    @cached_property
+    def _looks(self) -> IntArray:
+        """The same number (V,) for vertices of one mesh and colour and, where they have textures, of one part of
+        these.
+        """
+        return numbered(row_keys(self._colored, np.concatenate([_islands(split) for split in self._splits])))[1]
+
+    @cached_property
     def _filled(self) -> BoolArray:
         """Array (T,), False for triangles that are mostly cut out, such as single hairs: without their textures, they
         would be drawn whole.
@@ -255,12 +255,9 @@ class WholeFigure:
             for number, material in enumerate(split.mesh.materials):
                 if material.textures.color is None or material.alpha_mode != "mask":
                     continue
-                own = np.flatnonzero(split.materials[split.triangles[:, 0]] == number)
-                corners = split.mesh.uvs[split.vertices[split.triangles[own]]]
-                places = np.einsum("pc,tcd->tpd", _INSIDE, corners.astype(np.float64))
-                pictured = sampled(material.textures.color, places.reshape(-1, 2))
+                pictured = mostly_filled(material.textures.color, placed(split), number)
                 if pictured is not None:
-                    filled[own] = pictured[:, 3].reshape(len(own), -1).mean(axis=1) >= _LEAST_FILLED
+                    filled[split.materials[split.triangles[:, 0]] == number] = pictured
         return np.concatenate(found)
 
     @cached_property
@@ -283,6 +280,17 @@ class WholeFigure:
             for name, parts in found.items()
             if parts
         }
+
+
+def _facing(normals: SingleArray) -> tuple[IntArray, BoolArray]:
+    """Return the axis (V,) nearest to each of V normals (V, 3), and True where the normal points along it, not against
+    it.
+    """
+    x, y, z = normals.T
+    ahead, up, aside = np.abs(z), np.abs(y), np.abs(x)
+    of_two = (up > aside).astype(np.intp)
+    along_z = ahead > np.maximum(up, aside)
+    return np.where(along_z, 2, of_two), np.where(along_z, z, np.where(of_two, y, x)) > 0.0
 
 
 def _mean(values: AnyFloatArray, cluster: IntArray, shares: FloatArray) -> FloatArray:
@@ -319,39 +327,6 @@ def _strongest_of(
 
 
 _STRONGEST: IdentityCache[tuple[npt.NDArray[np.int32], SingleArray]] = IdentityCache(128)
-
-
-@dataclass(frozen=True, eq=False)
-class _Places:
-    """Texture coordinates (V, 2) and materials (V,) of the vertices of a split mesh."""
-
-    uvs: SingleArray
-    materials: IntArray
-
-
-def _placed(split: SplitMesh) -> _Places:
-    if not split.mesh.is_skinned:
-        return _places(split.vertices, split.materials, split.mesh.uvs)
-    return _PLACES.step(_places, split.vertices, split.materials, split.mesh.uvs)
-
-
-def _places(vertices: IntArray, materials: IntArray, uvs: SingleArray) -> _Places:
-    return _Places(uvs.take(vertices, axis=0), materials)
-
-
-_PLACES: IdentityCache[_Places] = IdentityCache(128)
-
-
-@lru_cache(maxsize=32)
-def _pictured(use: TextureUse, places: _Places, number: int, cut_out: bool) -> tuple[BoolArray, FloatArray] | None:
-    """Return the linear colours (N, 3) of a texture at vertices with one material, those cut out excepted, and an array
-    that is True for these vertices among all with the material; None if the texture cannot be read.
-    """
-    found = sampled(use, places.uvs[places.materials == number])
-    if found is None:
-        return None
-    filled: BoolArray = found[:, 3] > (OPAQUE if cut_out else -1.0)
-    return filled, linear(found[filled, :3])
 
 
 def _islands(split: SplitMesh) -> IntArray:

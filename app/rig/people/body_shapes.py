@@ -231,8 +231,11 @@ def _sums(shapes: BodyShapes, coefficients: Sequence[FloatArray]) -> list[FloatA
     """Return the bodies (V + J, 3) of several weights (K,) of the shapes, which are unpacked once for all of them."""
     amounts = [(own @ shapes.places).astype(np.float32) for own in coefficients]
     totals = [np.zeros(shapes.directions.shape[1], dtype=np.float32) for _ in amounts]
+    # One block of memory for all rows: a new one for each would take longer than filling it.
+    memory = np.empty((ROWS, shapes.directions.shape[1]), dtype=np.float32)
     for start in range(0, len(shapes.directions), ROWS):
-        rows = shapes.directions[start : start + ROWS].astype(np.float32)
+        rows = memory[: len(shapes.directions) - start]
+        rows[:] = shapes.directions[start : start + ROWS]
         for own, total in zip(amounts, totals, strict=True):
             total += own[start : start + ROWS] @ rows
     return [shapes.mean_m.astype(np.float64) + total.reshape(3, -1).T for total in totals]
