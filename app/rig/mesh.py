@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from threading import Lock
+from typing import overload
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +26,39 @@ class Morph:
     vertices: npt.NDArray[np.int32]
     deltas_m: SingleArray
     normal_deltas: SingleArray | None
+
+
+class MorphsOnDemand(Sequence[Morph]):
+    """The morphs of a mesh, made when one of them is first read: a band is drawn from afar without any.
+
+    Parameters
+    ----------
+    count : int
+        Number of morphs.
+    make : callable
+        Makes all of them; called once, in any thread.
+    """
+
+    def __init__(self, count: int, make: Callable[[], tuple[Morph, ...]]) -> None:
+        self._count = count
+        self._make: Callable[[], tuple[Morph, ...]] | None = make
+        self._made: tuple[Morph, ...] = ()
+        self._lock = Lock()
+
+    def __len__(self) -> int:
+        return self._count
+
+    @overload
+    def __getitem__(self, index: int) -> Morph: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Morph, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> Morph | tuple[Morph, ...]:
+        with self._lock:
+            if self._make is not None:
+                self._made, self._make = self._make(), None
+        return self._made[index]
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +89,7 @@ class Mesh:
     materials: tuple[Material, ...]
     joints: npt.NDArray[np.int32]
     weights: SingleArray
-    morphs: tuple[Morph, ...] = ()
+    morphs: Sequence[Morph] = ()
 
     @property
     def is_skinned(self) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Final
 
 import numpy as np
@@ -17,7 +17,7 @@ from app.arrays import AnyIntArray, FloatArray, IndexArray, SingleArray
 from app.formats.scene import Material
 from app.formats.textures import Texture
 from app.identity_cache import IdentityCache
-from app.rig.mesh import Mesh, Morph
+from app.rig.mesh import Mesh, Morph, MorphsOnDemand
 from app.rig.model import Character, Skeleton
 from app.rig.people.body_shapes import BodyShapes, Phenotype, body_m
 from app.rig.people.displacement import NO_CHANGE, Attaching, Binding, FaceChange, face_change, normals_of, places_of
@@ -283,7 +283,9 @@ def _changed(original: Original, mesh: Mesh, moved: FloatArray, joints: MovedJoi
     moved = off_the_eyes(_parts(original, mesh).lids, moved, joints)
     normals = mesh.normals + normals_of(moved, mesh, original.places[mesh.name]) - original.normals[mesh.name]
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
-    morphs = _shapes(original, mesh, moved, joints, face) if mesh.morphs else ()
+    # Most people of a band are far away: faces are made when they are seen near, or lips meet a mouthpiece.
+    later = MorphsOnDemand(len(mesh.morphs), partial(_shapes, original, mesh, moved, joints, face))
+    morphs = later if mesh.morphs else ()
     positions = moved.astype(np.float32)
     return replace(mesh, positions_m=positions, normals=normals.astype(np.float32), morphs=morphs)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from app.arrays import AnyIntArray, BoolArray, FloatArray, IndexArray, SingleArray
@@ -70,5 +72,5 @@ def _skin(character: Character, joints: FloatArray, names: tuple[str, ...]) -> F
     for mesh in character.meshes:
         rows = _CARRIED.step(_carried, names, skeleton.names, mesh.joints, mesh.weights)
         if len(rows):
-            found.append(patch(character, mesh, rows).deformed(world)[0])
+            found.append(patch(character, replace(mesh, morphs=()), rows).deformed(world)[0])
     return np.concatenate(found)

@@ -16,15 +16,24 @@ from app.formats.toml import toml
 from app.project.model import characters_for
 from app.rig import quaternion
 from app.rig.characters.character_library import bundled_characters, character_named, our_arm_m, our_characters
+from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character
+from app.rig.people import make_person
 from app.rig.people.body_shapes import SKIN_VERTICES, Phenotype, body_m, body_shapes, heights_m
-from app.rig.people.bundled_people import bundled_people, bundled_person, finished_character, whole_phenotype
-from app.rig.people.make_person import original_of, person_character
+from app.rig.people.bundled_people import (
+    bundled_people,
+    bundled_person,
+    finished_character,
+    person_of,
+    whole_phenotype,
+)
+from app.rig.people.make_person import Original, original_of, person_character
 from app.rig.people.person import originals, ranges, read_person
 from app.rig.skeleton import forward, rest_positions
 from app.rig.skinning import mesh_named, patch
 from instrument_maps.load import bundled_maps
 from tests.support.deformed import deform
+from widgets.viewport.geometry import character_levels
 
 ANNY = Path(__file__).parents[3] / "data" / "anny_bodies.json"
 """Results of anny 0.6.2 for three people: some vertices and joints in metres, soles on the floor."""
@@ -113,6 +122,27 @@ def test_lids_close_over_the_eyes_of_everyone(id: str) -> None:
         far = np.linalg.norm(shut - np.linalg.inv(one.joint_from_mesh[eye])[:3, 3], axis=1)
         least.append(np.sort(far)[:100])
     np.testing.assert_allclose(least[1], least[0], atol=3e-4)
+
+
+def test_a_face_is_made_when_its_person_is_seen_near(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A band is drawn from afar without any."""
+    made, make = list[str](), make_person._shapes
+
+    def counted(original: Original, mesh: Mesh, *others: Any) -> tuple[Morph, ...]:
+        made.append(mesh.name)
+        return make(original, mesh, *others)
+
+    monkeypatch.setattr(make_person, "_shapes", counted)
+    person = person_of("seen", bundled_person("cast_yumi"), character_named)
+    levels = character_levels(person)
+    assert levels.coarsest.face is None
+    assert made == []
+    face = levels[0].face
+    assert face is not None
+    assert "jawOpen" in face.names
+    skin = mesh_named(person, "body")
+    assert len(skin.morphs) == len(list(skin.morphs)) > 50
+    assert sorted(made) == sorted(mesh.name for mesh in person.meshes if mesh.morphs)
 
 
 def test_a_child_has_hands_of_its_own_and_arms_that_go_with_its_body() -> None:
