@@ -122,7 +122,7 @@ def _hold(
         fitted = hold_for(hands, model, _as_usual(instrument), load_body(), progress)
         from app.rig.grip.fitting.same_hands import with_own_arms  # slow to import, like a fit
 
-        return with_own_arms(fitted, character, model, instrument, body)
+        return with_own_arms(fitted, character, instrument, body)
 
 
 def hidden_on(player: Player, instrument: InstrumentMap) -> Message | None:
@@ -164,7 +164,7 @@ def _strained(character: Character, hands: Character, instrument: InstrumentMap)
     body, usual, model = load_body(), _as_usual(instrument), model_of(instrument)
     with _worked_out(character, instrument):
         fitted = hold_for(hands, model, usual, body)
-        return are_strained(fitted, character, hands, model, (instrument, usual), body)
+        return are_strained(fitted, character, hands, (instrument, usual), body)
 
 
 def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[FloatArray, FloatArray] | None:

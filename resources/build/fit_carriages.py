@@ -49,7 +49,7 @@ def straightest(person_id: str, instrument: InstrumentMap) -> Shares:
 
     def cost(shares: Shares) -> float:
         carried = carried_by(instrument, shares)
-        return arms_cost(hold, person, model, carried, body) + OFF * sum(map(abs, shares))
+        return arms_cost(hold, person, carried, body) + OFF * sum(map(abs, shares))
 
     return descended(cost)
 

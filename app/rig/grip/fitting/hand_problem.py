@@ -17,33 +17,25 @@ from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.carriage import Upright
 from app.rig.grip.finger_stations import Station, stations
+from app.rig.grip.fitting.arm_problem import ArmProblem, arm_problem, carrier_of
 from app.rig.grip.fitting.hand_model import FINGERS, HandModel, hand_model, rest_landmark
 from app.rig.grip.fitting.touch_targets import TouchTarget, nodes_at, touch_at
 from app.rig.grip.grip_pose import Side
 from app.rig.grip.instrument_proxy import Bodies, bodies, near
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.hold import Contact, HandSeed
-from instrument_maps.model import ROOT, Control, InstrumentMap
+from instrument_maps.model import Control, InstrumentMap
 from metadata.load import load_skeleton
-from metadata.model import Body, Posture
+from metadata.model import Body
 
 # Deviations that give a residual of one.
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
-LIMIT_RAD = 0.02
-LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.47, 0.45
-"""Share of the wrist's range that a grip may use; the rest is for the body's motion, which moves a slide hand most."""
-SWIVEL_RANGE_RAD = (0.2, 0.9)
-"""Range in radians of the elbow's swivel from straight down outwards, clear of the ribs."""
-SWIVEL_ABOUT_RAD = 0.35
-"""Range in radians of the elbow's swivel around a value given by a map."""
 ANCHOR = (0.25, 0.7, 0.5)
 """Standard deviations of the wrist's position (in 0.1 m), its rotation and the fingers (rad) between knots of a
 slide.
 """
 METRES = 0.1
 """Unit of the wrist's position in metres, so that it has the weight of radians."""
-HELP_RAD = 0.44
-"""Rotation of the trunk in radians that moves the shoulder towards a far hand, and partly also for nearer positions."""
 NEAR_M = 0.28
 """Distance from the palm in metres beyond which bodies of the proxy are ignored."""
 
@@ -77,7 +69,7 @@ class Elsewhere:
 
 
 @dataclass(frozen=True, eq=False)
-class HandProblem:
+class HandProblem(ArmProblem):
     """Constants of the least-squares problem of one hand on its instrument."""
 
     hand: HandModel
@@ -92,17 +84,7 @@ class HandProblem:
     node_place: FloatArray
     node_turn: FloatArray
     proxies: Bodies
-    shoulder_m: FloatArray
-    helped_m: FloatArray
-    helped: bool
-    upper_m: float
-    lower_m: float
-    swivel_frame: FloatArray
-    swivel_usual: float
-    swivel_range: tuple[float, float]
-    reference_shift_m: FloatArray
     configs: int
-    wrist_limits: FloatArray
     elsewhere: tuple[Elsewhere, ...] = ()
     anchor: FloatArray | None = None
     anchor_spread: tuple[float, float, float] = ANCHOR
@@ -119,9 +101,8 @@ def grip_problem(
     stand: Upright,
 ) -> tuple[HandProblem, Control | None]:
     side = seed.hand
-    posture = body.postures[instrument_map.hold.postures[0]]
     hand = hand_model(character, side, body, load_skeleton(body.skeleton))
-    carrier = next((c for c in instrument_map.controls if seed.node != ROOT and c.node == seed.node), None)
+    carrier = carrier_of(instrument_map, seed)
     names = tuple(model.node_names)
     places = stations(instrument_map)
     of_finger = tuple(places.get(f"{side}.{finger}", ()) for finger in FINGERS)
@@ -134,14 +115,12 @@ def grip_problem(
     palm = rest_landmark(hand, f"{side}.palm")
     turn = seed_turn(seed)
     seed_m = model.node_positions_m[names.index(seed.node)] + seed.palm_position_m - quaternion.rotate(turn, palm)
-    back = quaternion.conjugate(stand.instrument_rotation)
-    shoulder_m, helped_m = _shoulders(character, side, stand)
     place, node_turn = nodes_at(model, instrument_map, home, carrier, np.array([0.0, 1.0]))
     near_hand = near(
         bodies(instrument_map.proxy, names), model.node_positions_m, seed_m + quaternion.rotate(turn, palm), NEAR_M
     )
-    usual, swivels = _swivels(seed, posture)
     problem = HandProblem(
+        **vars(arm_problem(character, instrument_map, body, seed, stand)),
         hand=hand,
         seed_m=seed_m,
         seed_rotation=turn,
@@ -154,32 +133,11 @@ def grip_problem(
         node_place=place,
         node_turn=node_turn,
         proxies=near_hand,
-        shoulder_m=shoulder_m,
-        upper_m=float(np.linalg.norm(character.skeleton.offsets_m[character.skeleton.index(f"{side}LowerArm")])),
-        lower_m=float(np.linalg.norm(character.skeleton.offsets_m[character.skeleton.index(f"{side}Hand")])),
-        # The elbow hangs: its swivel is measured from straight down, positive outwards.
-        swivel_frame=quaternion.rotate(back, [[0.0, -1.0, 0.0], [1.0 if side == "left" else -1.0, 0.0, 0.0]]),
-        swivel_usual=usual,
-        swivel_range=swivels,
-        reference_shift_m=np.zeros(3),
-        helped=False,
-        helped_m=helped_m,
         configs=2 if worked else 1,
-        wrist_limits=hand.limits[0] * (LIMIT_SHARE if carrier is None else CARRIED_LIMIT_SHARE),
     )
     problem = replace(problem, elsewhere=_elsewhere(problem, model, instrument_map, carrier))
     low, high = _bounds(problem)
     return replace(problem, low=low, high=high), carrier
-
-
-def _swivels(seed: HandSeed, posture: Posture) -> tuple[float, tuple[float, float]]:
-    """Return the usual swivel of the elbow about the line from shoulder to wrist, away from the ribs, and its range
-    (least, greatest), in radians.
-    """
-    if seed.elbow_off_ribs_deg is None:
-        return float(np.radians(posture.elbow_off_ribs_deg)), SWIVEL_RANGE_RAD
-    usual = float(np.radians(seed.elbow_off_ribs_deg))
-    return usual, (usual - SWIVEL_ABOUT_RAD, usual + SWIVEL_ABOUT_RAD)
 
 
 def _contacts_at_home(
@@ -194,17 +152,6 @@ def _contacts_at_home(
             number = FINGERS.index(finger) if finger in FINGERS else -1
             if number < 0 or index in stations[number][0].contacts:
                 yield contact, number
-
-
-def _shoulders(character: Character, side: Side, stand: Upright) -> tuple[FloatArray, FloatArray]:
-    """Return the shoulder joint in the instrument's frame (3,), first without and then with help by the trunk."""
-    skeleton, back = character.skeleton, quaternion.conjugate(stand.instrument_rotation)
-    joint_m = stand.joints_m[skeleton.index(f"{side}UpperArm")]
-    chest = stand.joints_m[skeleton.parents[skeleton.index(f"{side}Shoulder")]]
-    help_turn = quaternion.from_axis_angle([0.0, 1.0, 0.0], (-1.0 if side == "left" else 1.0) * HELP_RAD)
-    helped_m = chest + quaternion.rotate(help_turn, joint_m - chest)
-    own_m, with_help_m = (quaternion.rotate(back, one_m - stand.instrument_m) for one_m in (joint_m, helped_m))
-    return own_m, with_help_m
 
 
 def seed_turn(seed: HandSeed) -> FloatArray:

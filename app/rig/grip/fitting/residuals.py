@@ -10,6 +10,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.rig import quaternion
+from app.rig.grip.fitting.arm_problem import arm_residuals, elbow_place
 from app.rig.grip.fitting.hand_model import (
     ball_centres,
     flesh_radius,
@@ -21,7 +22,6 @@ from app.rig.grip.fitting.hand_model import (
 )
 from app.rig.grip.fitting.hand_problem import (
     COUPLING_RAD,
-    LIMIT_RAD,
     METRES,
     Elsewhere,
     HandProblem,
@@ -31,20 +31,13 @@ from app.rig.grip.fitting.hand_problem import (
     wrist_transform,
 )
 from app.rig.grip.instrument_proxy import Bodies, InstrumentNodes, gradient, inside
-from app.rig.ik import TWIST_SHARE
 
 # Deviations that give a residual of one.
 PENETRATION_M, FOREARM_M = 0.0005, 0.003
 BALL_M = 0.001
 GIVE_M, STIFFENING = 0.0019, 5.0
 WORKED_RAD = 0.5
-FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD, SWIVEL_RAD = 0.3, 0.16, 0.8, 0.25
 SEED_M, SEED_RAD = 0.03, 0.4
-PRONATION_MOST_RAD = 1.3
-REACH_M = 0.03
-"""Scale in metres of the cost of an arm that is too short: the shoulder's help is costly, but a fingertip's grip cannot
-bridge half a metre.
-"""
 STEP = 1e-6
 ELSEWHERE_M, ELSEWHERE_NORMAL, ELSEWHERE_RELAXED = 0.006, 0.7, 1.5
 """Scales of the terms for other stations: the wrist is near a position from which fingers reach these too; it is offset
@@ -171,7 +164,7 @@ class Residuals:
         gap = np.sqrt(np.einsum("bki,bki->bk", pairs, pairs))
         parts.append((np.maximum(hand.ball_gaps_m - gap, 0.0) / (BALL_M * self.soft)).reshape(count, -1))
         parts.append(self._natural(angles))
-        parts.append(self.arm(x, place, turn))
+        parts.append(arm_residuals(problem, x[:, 6], place, turn))
         parts.append(self._anchored(x))
         return np.concatenate(parts, axis=1), skin
 
@@ -180,7 +173,7 @@ class Residuals:
         ``x`` of B candidates, whose wrists are at ``place`` (B, 3).
         """
         wrist = place + self.problem.reference_shift_m
-        behind = _elbow_place(self.problem, wrist, x[:, 6], self.problem.shoulder_m) - wrist
+        behind = elbow_place(self.problem, wrist, x[:, 6], self.problem.shoulder_m) - wrist
         behind /= np.linalg.norm(behind, axis=1)[:, None]
         balls = place[:, None] + behind[:, None] * self.problem.hand.forearm_balls[:, :1]
         return np.repeat(balls[:, None], self.problem.configs, axis=1)
@@ -202,65 +195,6 @@ class Residuals:
                 parts.append((last - 0.67 * middle) / COUPLING_RAD)
         return np.stack(parts, axis=1)
 
-    def arm(self, x: FloatArray, place: FloatArray, turn: FloatArray) -> FloatArray:
-        """Return the residuals that keep the wrist straight: from direction and twist of the forearm and position of
-        the elbow.
-
-        ``place`` (B, 3) and ``turn`` (B, 4) are the wrists of B candidates.
-        """
-        problem = self.problem
-        wrist = place + problem.reference_shift_m
-        bent, over = self._bend(x, wrist, turn, problem.shoulder_m)
-        far = np.linalg.norm(wrist - problem.shoulder_m, axis=1) - 0.97 * (problem.upper_m + problem.lower_m)
-        parts = [
-            bent / (FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD),
-            over / LIMIT_RAD,
-            ((x[:, 6] - problem.swivel_usual) / SWIVEL_RAD)[:, None],
-            (np.maximum(far, 0.0) / REACH_M)[:, None],
-        ]
-        if problem.helped:
-            parts.append(self._bend(x, wrist, turn, problem.helped_m)[1] / LIMIT_RAD)
-        return np.concatenate(parts, axis=1)
-
-    def _bend(
-        self, x: FloatArray, wrist: FloatArray, turn: FloatArray, shoulder_m: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return for B candidates flexion, deviation and pronation of the wrist (B, 3) in radians, and the excess over
-        their limits of these and of two further measures (B, 5).
-        """
-        problem = self.problem
-        elbow = _elbow_place(problem, wrist, x[:, 6], shoulder_m)
-        forearm = wrist - elbow
-        forearm /= np.linalg.norm(forearm, axis=1)[:, None]
-        sign = 1.0 if problem.hand.side == "left" else -1.0
-        back = quaternion.conjugate(turn)
-        local = quaternion.rotate(back, forearm)
-        flexion = np.arctan2(sign * local[:, 1], np.maximum(sign * local[:, 0], 1e-3))
-        deviation = np.arctan2(-local[:, 2], np.maximum(sign * local[:, 0], 1e-3))
-        # Hinge of the elbow in the hand's frame: along the palm's normal if the forearm is neither pronated nor
-        # supinated.
-        hinge = np.cross(elbow - shoulder_m, forearm)
-        hinge /= np.maximum(np.linalg.norm(hinge, axis=1), 1e-9)[:, None]
-        seen = quaternion.rotate(back, hinge) * sign
-        bent = np.stack([flexion, deviation, np.arctan2(seen[:, 2], -seen[:, 1])], axis=1)
-        both = np.concatenate([bent, self._shared(forearm, hinge, turn)], axis=1)
-        low, high = problem.wrist_limits[:2].T
-        low, high = np.array([*low, -PRONATION_MOST_RAD, *low]), np.array([*high, PRONATION_MOST_RAD, *high])
-        return bent, np.maximum(both - high, 0.0) + np.minimum(both - low, 0.0)
-
-    def _shared(self, forearm: FloatArray, hinge: FloatArray, turn: FloatArray) -> FloatArray:
-        """Return flexion and deviation (B, 2) of the wrist in radians for B candidates, after the forearm has taken its
-        share of the twist.
-        """
-        hand = self.problem.hand
-        sign = 1.0 if hand.side == "left" else -1.0
-        frame = quaternion.from_frames(sign * forearm, -sign * hinge)
-        local = quaternion.multiply(quaternion.conjugate(frame), turn)
-        axis = np.array([1.0, 0.0, 0.0])
-        taken = quaternion.from_axis_angle(axis, TWIST_SHARE * quaternion.twist_angle(local, axis))
-        swing, _ = quaternion.swing_twist(quaternion.multiply(quaternion.conjugate(taken), local), axis)
-        return quaternion.to_rotation_vector(swing) @ hand.axes[0, :2].T
-
     def _anchored(self, x: FloatArray) -> FloatArray:
         """Return the residuals (B, m) that keep a hand near its seed, or, for a hand moved by a control, near the
         solution at the neighbouring value.
@@ -271,29 +205,6 @@ class Residuals:
             place, turn, finger = self.problem.anchor_spread
             off = (x - self.problem.anchor) / ([place] * 3 + [turn] * 3 + [0.01] + [finger] * (x.shape[1] - 7))
         return off
-
-
-def _elbow_place(problem: HandProblem, wrist: FloatArray, swivel: FloatArray, shoulder_m: FloatArray) -> FloatArray:
-    """Return the elbow's position (B, 3) for B wrists (B, 3) and swivels (B,): 0 is straight down, positive is
-    outwards.
-    """
-    a, b = problem.upper_m, problem.lower_m
-    line = wrist - shoulder_m
-    reach = np.clip(np.linalg.norm(line, axis=1), abs(a - b) + 1e-4, (a + b) * 0.9999)
-    direction = line / np.linalg.norm(line, axis=1)[:, None]
-    along = (a * a - b * b + reach * reach) / (2.0 * reach)
-    aside = np.sqrt(np.maximum(a * a - along * along, 0.0))
-    pole = _pole(problem, direction, swivel)
-    elbow: FloatArray = shoulder_m + direction * along[:, None] + pole * aside[:, None]
-    return elbow
-
-
-def _pole(problem: HandProblem, direction: FloatArray, swivel: FloatArray) -> FloatArray:
-    down, out = problem.swivel_frame
-    pole = np.cos(swivel)[:, None] * down + np.sin(swivel)[:, None] * out
-    pole = pole - direction * np.einsum("bi,bi->b", pole, direction)[:, None]
-    result: FloatArray = pole / np.maximum(np.linalg.norm(pole, axis=1), 1e-9)[:, None]
-    return result
 
 
 def pressure_cost(depth: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -12,12 +12,10 @@ import numpy as np
 from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.carriage import Upright, upright
-from app.rig.grip.fitting.hand_problem import HandProblem, grip_problem
-from app.rig.grip.fitting.residuals import Residuals
+from app.rig.grip.fitting.arm_problem import ArmProblem, arm_problem, arm_residuals
 from app.rig.grip.grip_pose import GripPose, HandHold
 from app.rig.grip.lips import fit_lips
-from app.rig.model import Character, InstrumentModel
-from instrument_maps.hold import HandSeed
+from app.rig.model import Character
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
@@ -28,9 +26,7 @@ STRAINED: Final = (1.5, 7.0)
 on the bundled people and instruments)."""
 
 
-def with_own_arms(
-    grip: GripPose, character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body
-) -> GripPose:
+def with_own_arms(grip: GripPose, character: Character, instrument: InstrumentMap, body: Body) -> GripPose:
     """Return the grip of a character from that of another one with the same hands (`Character.hands_of`).
 
     Each elbow is placed for the straightest wrist between shoulder and instrument, as in a new fit.
@@ -43,21 +39,19 @@ def with_own_arms(
     stand = upright(character, instrument, body, lips)
     hands = zip(grip.hands, instrument.hands, strict=True)
     return replace(
-        own, hands=tuple(_elbow(hand, character, model, instrument, body, seed, stand) for hand, seed in hands)
+        own,
+        hands=tuple(_elbow(hand, arm_problem(character, instrument, body, seed, stand), stand) for hand, seed in hands),
     )
 
 
-def arms_cost(
-    grip: GripPose, character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body
-) -> float:
+def arms_cost(grip: GripPose, character: Character, instrument: InstrumentMap, body: Body) -> float:
     """Return the strain of both arms if a character uses the grip of another one with the same hands: the sum of
     squares of the fit's residuals for elbows and wrists.
     """
     stand = upright(character, instrument, body, fit_lips(character, instrument, body))
     hands = zip(grip.hands, instrument.hands, strict=True)
     return sum(
-        float(_costs(hand, grip_problem(character, model, instrument, body, seed, stand)[0])[1].min())
-        for hand, seed in hands
+        float(_costs(hand, arm_problem(character, instrument, body, seed, stand))[1].min()) for hand, seed in hands
     )
 
 
@@ -65,7 +59,6 @@ def are_strained(
     grip: GripPose,
     character: Character,
     other: Character,
-    model: InstrumentModel,
     carried: tuple[InstrumentMap, InstrumentMap],
     body: Body,
 ) -> bool:
@@ -79,20 +72,11 @@ def are_strained(
         The instrument as carried by the character, and as carried by the other one.
     """
     times, more = STRAINED
-    usual = arms_cost(grip, other, model, carried[1], body)
-    return arms_cost(grip, character, model, carried[0], body) > max(times * usual, usual + more)
+    usual = arms_cost(grip, other, carried[1], body)
+    return arms_cost(grip, character, carried[0], body) > max(times * usual, usual + more)
 
 
-def _elbow(
-    hand: HandHold,
-    character: Character,
-    model: InstrumentModel,
-    instrument: InstrumentMap,
-    body: Body,
-    seed: HandSeed,
-    stand: Upright,
-) -> HandHold:
-    problem, _ = grip_problem(character, model, instrument, body, seed, stand)
+def _elbow(hand: HandHold, problem: ArmProblem, stand: Upright) -> HandHold:
     swivels, cost = _costs(hand, problem)
     swivel = swivels[np.argmin(cost)]
     down, out = problem.swivel_frame
@@ -100,14 +84,12 @@ def _elbow(
     return replace(hand, elbow_direction=pole)
 
 
-def _costs(hand: HandHold, problem: HandProblem) -> tuple[FloatArray, FloatArray]:
+def _costs(hand: HandHold, problem: ArmProblem) -> tuple[FloatArray, FloatArray]:
     """Return the tried swivels of the elbow (`SWIVELS`,) in radians, and the cost of each."""
     swivels = np.linspace(*problem.swivel_range, SWIVELS)
-    tried = np.zeros((SWIVELS, len(problem.low)))
-    tried[:, 6] = swivels
-    residuals, cost = Residuals(problem, 1.0), np.zeros(SWIVELS)
+    cost = np.zeros(SWIVELS)
     places, turns = np.atleast_2d(hand.instrument_from_hand_m), np.atleast_2d(hand.instrument_from_hand_rotation)
     for place, turn in zip(places, turns, strict=True):
-        parts = residuals.arm(tried, np.tile(place, (SWIVELS, 1)), np.tile(turn, (SWIVELS, 1)))
+        parts = arm_residuals(problem, swivels, np.tile(place, (SWIVELS, 1)), np.tile(turn, (SWIVELS, 1)))
         cost += np.square(parts).sum(axis=1)
     return swivels, cost
