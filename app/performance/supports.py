@@ -14,7 +14,7 @@ from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.motion.body_motion import BodyMotion
 from app.motion.contacts.clear_seat import highest_seat
-from app.motion.contacts.ready_player import player_body
+from app.motion.contacts.ready_player import body_as_fitted
 from app.motion.contacts.solve import PlayerBody, body_with_help, needs, poses, with_elbows_out
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import Stance, hips_path, solve_legs, stance, trunk
@@ -75,7 +75,7 @@ def _supports(
     parameters, players = PlayerParameters(posture=named), dict[int, PlayerBody]()
     for number, (instrument, grip) in enumerate(zip(maps, grips, strict=True)):
         if grip is not None and (worn(instrument, named) or instrument.endpin is not None):
-            players[number] = player_body(parameters, instrument, dressed, grip, body)
+            players[number] = body_as_fitted(parameters, instrument, dressed, grip, body)
     sits = body.postures[named].seat_height_shank > 0.0
     joints = still_joints(character, maps[0], body, named, highest_seat(players.values()) if players else None)
     fit = chair_fit(character, joints) if sits else None

@@ -32,6 +32,7 @@ from metadata.load import load_skeleton
 from metadata.model import Body, EmbouchureWeights
 
 _CURVED: IdentityCache[GripPose] = IdentityCache(128)
+_READY: IdentityCache[PlayerBody] = IdentityCache(128)
 _PLAYERS: IdentityCache[PlayerBody] = IdentityCache(128)
 _DRESSED: IdentityCache[PlayerBody] = IdentityCache(128)
 """Grips with curved fingers and other values of a player that do not change with time."""
@@ -63,13 +64,26 @@ def player_body(
 ) -> PlayerBody:
     """Return the time-independent data of a player, including reach of the hands and tilt of the instrument; cached, so
     that equal bodies in equal postures share one object.
+    """
+    curved = _CURVED.step(_curved, grip, character.skeleton)
+    return _READY.step(_with_grip, body_as_fitted(parameters, instrument_map, character, grip, body), curved)
+
+
+def _with_grip(player: PlayerBody, grip: GripPose) -> PlayerBody:
+    return replace(player, grip=grip)
+
+
+def body_as_fitted(
+    parameters: PlayerParameters, instrument_map: InstrumentMap, character: Character, grip: GripPose, body: Body
+) -> PlayerBody:
+    """Return the data of `player_body` with the fingers as in ``grip``, not curved, which makes no difference to
+    anything else: enough for chairs and straps, in less time.
 
     On the clothes that the character wears it depends how far elbows go out, how a player sits, and where the
     instrument is lowered.
     """
-    curved = _CURVED.step(_curved, grip, character.skeleton)
     made = _PLAYERS.step(
-        _made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body, trunk_shape(character)
+        _made, sys.intern(parameters.posture), instrument_map, character.skeleton, grip, body, trunk_shape(character)
     )
     if character.undressed is None:
         return made

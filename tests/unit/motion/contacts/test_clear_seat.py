@@ -11,13 +11,13 @@ import pytest
 from app.export.arm_depths import ARM_MM
 from app.motion.contacts.clear_carriage import lacking_m
 from app.motion.contacts.clear_seat import ROOM_M, highest_seat, on_seat
-from app.motion.contacts.ready_player import player_body
+from app.motion.contacts.ready_player import body_as_fitted, player_body
 from app.motion.contacts.solve import PlayerBody
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import stance
 from app.motion.contacts.upper_body import upper_body
 from app.performance.bodies import body_of, dressed_character, hold_of, suited_to
-from app.performance.supports import joints_of, still_pose
+from app.performance.supports import instrument_matrices, joints_of, still_pose
 from app.rig.characters.character_library import character_named
 from app.rig.grip.carriage import carrying
 from app.rig.model import Character
@@ -103,3 +103,26 @@ def test_the_chair_is_as_high_as_its_sitter() -> None:
     usual_m = joints_of(character_named(SMALL), still_pose(seated("clarinet_Bb", SMALL, "")[0]))[0]
     own = chair_fit(character_named(SMALL), usual_m)
     assert below_hips_m == pytest.approx(usual_m[character.skeleton.index("hips"), 1, 3] - own.top_m, abs=0.05)
+
+
+@pytest.mark.parametrize("instrument_id", ["sax_baritone_Eb", "contrabassoon"])
+def test_curved_fingers_change_nothing_of_how_a_player_sits_and_holds(instrument_id: str) -> None:
+    """Chairs and straps are made without them."""
+    made, _, character = seated(instrument_id, SMALL, "")
+    player = msgspec.structs.replace(
+        quartet().players[0], instrument_id=instrument_id, character_id=SMALL, outfit=OutfitChoice("")
+    )
+    parameters = msgspec.structs.replace(player.parameters, posture="seated")
+    instrument = suited_to(player, bundled_maps()[instrument_id]).instrument
+    fitted = hold_of(player, instrument)
+    with_curves, without = (
+        body_as_fitted(parameters, instrument, character, grip, body_of(player)) for grip in (made.grip, fitted)
+    )
+    assert made.grip is not fitted
+    for one in (made, with_curves):
+        assert one.place.hips_m.tolist() == without.place.hips_m.tolist()
+        assert one.carriage == without.carriage
+        assert one.lowered == without.lowered
+        assert one.bell_room == without.bell_room
+    ends = [instrument_matrices(still_pose(one, 1.0)) for one in (made, without)]
+    np.testing.assert_array_equal(*ends)
