@@ -22,6 +22,8 @@ Pieces = list[tuple[Surface, str]]
 BLACK, NEAR_BLACK, WHITE = (0.012, 0.012, 0.014), (0.018, 0.018, 0.021), (0.80, 0.80, 0.79)
 NAVY, GOLD = (0.012, 0.016, 0.042), (0.55, 0.36, 0.10)
 OWN = ("shirt", "trousers")
+ANKLE_M = 0.18
+"""Height over the sole of the base mesh up to which legs show under a long dress in a stride."""
 
 
 @dataclass(frozen=True)
@@ -158,14 +160,19 @@ def _blazer(wearer: Wearer) -> Pieces:
     return [(on_lap(wearer, suit_jacket(wearer), legs), "top"), (legs, "bottom")]
 
 
-def _school_legs(wearer: Wearer, material: str, checked: bool, socks: str) -> Pieces:
+def socks(wearer: Wearer, material: str, high_m: float) -> Surface:
+    """Socks from the shoes to a height."""
+    return garment("socks", {material: [shell(wearer, wearer.tailoring.foot_m + 0.045, high_m, 0.002)]}, wearer)
+
+
+def _school_legs(wearer: Wearer, material: str, checked: bool, socks_material: str) -> Pieces:
     """A pleated skirt to the knee, bare knees, socks below them."""
     tailoring = wearer.tailoring
     hem, sock = tailoring.knee_m - 0.025, tailoring.knee_m - 0.10
     pleated = skirt(wearer, Skirt(tailoring.belt_m - 0.015, hem, 0.035, 0.012, 16), checked=checked)
     return [
         (garment("skirt", {material: [pleated]}, wearer, SKIRT_BONES), "bottom"),
-        (garment("socks", {socks: [shell(wearer, tailoring.foot_m + 0.045, sock, 0.002)]}, wearer), "bottom"),
+        (socks(wearer, socks_material, sock), "bottom"),
         (bare_legs(wearer, sock - 0.05, hem + 0.20), "skin"),
     ]
 
@@ -286,11 +293,12 @@ def _polo(wearer: Wearer) -> Pieces:
 def _dress(wearer: Wearer) -> Pieces:
     tailoring = wearer.tailoring
     waist = tailoring.belt_m + 0.01
-    long = skirt(wearer, Skirt(waist + 0.012, tailoring.foot_m + 0.06, 0.085, 0.010, 22, 0.16))
+    long = skirt(wearer, Skirt(waist + 0.012, tailoring.foot_m + 0.06, 0.090, 0.010, 22, 0.15, 0.977))
     bodice = plain(close_dress(wearer, waist - 0.01))
     start = (tailoring.wrist_m - tailoring.shoulder[0]) * 0.60 + tailoring.shoulder[0]
     return [
         (garment("dress", {MAIN: [bodice, long]}, wearer, SKIRT_BONES), "dress"),
+        (socks(wearer, MAIN, tailoring.foot_m + ANKLE_M), "bottom"),
         (bare_shoulders(wearer), "skin"),
         (bare_arms(wearer, start), "skin"),
     ]

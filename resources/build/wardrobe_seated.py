@@ -33,6 +33,16 @@ SAG_M = 0.015
 """Depth in the middle to which a short skirt sags between the legs."""
 OVER_KNEES_M = 0.09
 """Length of a short skirt that hangs before the knees."""
+CALF_M = 0.11
+"""Distance behind the knees at which the back of a long skirt falls from the seat."""
+RAISED_M = 0.02
+"""Height by which sitting down raises the hem of a long skirt in front."""
+BEFORE, BEHIND = 0.16, 0.20
+"""Slopes by which a long skirt comes away from the knees before the shins, and behind the calves."""
+FALLS = 0.2
+"""Slope of a long skirt's front beside the thighs."""
+HOLLOW_M = 0.09
+"""Depth of a long skirt's hollow between the shins."""
 DROP = 0.18
 """Share of the hips in the hem of a short skirt, by which it hangs down at the sides."""
 SHORTER = 0.78
@@ -65,13 +75,20 @@ def _blend(wearer: Wearer, points: np.ndarray, legs: np.ndarray) -> np.ndarray:
     return points + legs[:, :1] * (thigh - points) + legs[:, 1:] * (shin - points)
 
 
-def _spanned(body: np.ndarray, places: np.ndarray, sign: float) -> np.ndarray:
+def _spanned(body: np.ndarray, places: np.ndarray, sign: float, falls: float | None = None) -> np.ndarray:
     """Heights (N,) of a cloth spanned over the tops (`sign` 1) or undersides (-1) of both legs at places (N, 3), before
-    the knees those of the knees; NaN where there is no body."""
+    the knees those of the knees; NaN where there is no body, or at its sides those of cloth that `falls` with this
+    slope."""
     found, foremost = np.full(len(places), np.nan), body[:, 2].max() - KNEE_CAP_M
     for row, place in enumerate(np.minimum(places, [np.inf, np.inf, foremost])):
         near = body[np.abs(body[:, 2] - place[2]) < SLICE_M]
-        if len(near) < 3 or not near[:, 0].min() - ASIDE_M < place[0] < near[:, 0].max() + ASIDE_M:
+        if len(near) < 3:
+            continue
+        least, most = near[:, 0].min() - ASIDE_M, near[:, 0].max() + ASIDE_M
+        beside = max(least - place[0], place[0] - most)
+        if beside >= 0.0:
+            if falls is not None:
+                found[row] = (near[:, 1].min() + near[:, 1].max()) / 2.0 - sign * falls * beside
             continue
         wide = np.concatenate([near[:, :2] + [aside, 0.0] for aside in (-ASIDE_M, ASIDE_M)])
         corners = wide[ConvexHull(wide).vertices]
@@ -85,19 +102,41 @@ def _spanned(body: np.ndarray, places: np.ndarray, sign: float) -> np.ndarray:
     return found
 
 
-def _over_knees(wearer: Wearer, body: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Places (N, 2) in height and along the thighs at which the front of a skirt that ends at the knees lies on them,
-    spans the gap between them and falls before them."""
+def _over_knees(wearer: Wearer, body: np.ndarray, points: np.ndarray, hem_m: float | None) -> np.ndarray:
+    """Places (N, 2) in height and along the thighs at which the front of a skirt lies on the thighs, spans the gap
+    between them and falls before the knees, down to a height `hem_m` if it is a long one."""
     hip = wearer.fit.positions_t[wearer.fit.index("leftUpperLeg")]
     down = np.maximum(hip[1] - points[:, 1], 0.0)
     edge = body[:, 2].max() + LIES_M
-    length = down * (edge - hip[2] + OVER_KNEES_M) / down.max()
+    knees_m = float(body[body[:, 2] > edge - 2.0 * KNEE_CAP_M, 1].max())
+    fall = OVER_KNEES_M if hem_m is None else knees_m - hem_m
+    length = down * (edge - hip[2] + fall) / down.max()
     along = np.minimum(hip[2] + length, edge)
     places = np.column_stack([points[:, :2], along])
-    height = _spanned(body, places, 1.0) + LIES_M
+    height = _spanned(body, places, 1.0, None if hem_m is None else FALLS) + LIES_M
     knee = np.abs(wearer.fit.positions_t[wearer.fit.index("leftLowerLeg")][0])
-    sag = SAG_M * np.maximum(1.0 - (points[:, 0] / knee) ** 2, 0.0) * smoothstep(down, 0.15, 0.35)
-    return np.column_stack([height - sag - np.maximum(hip[2] + length - edge, 0.0), along])
+    between = np.maximum(1.0 - (points[:, 0] / knee) ** 2, 0.0)
+    height -= (SAG_M if hem_m is None else HOLLOW_M) * between * smoothstep(down, 0.15, 0.35)
+    below = np.maximum(hip[2] + length - edge, 0.0)
+    if hem_m is None:
+        return np.column_stack([height - below, along])
+    hangs = BEFORE * below - HOLLOW_M * between * smoothstep(below, 0.0, 0.5 * fall)
+    return np.column_stack([height + (hem_m - height) * below / fall, along + hangs])
+
+
+def _behind_knees(wearer: Wearer, body: np.ndarray, points: np.ndarray, hem_m: float) -> np.ndarray:
+    """Places (N, 2) in height and along the thighs at which the back of a long skirt lies under the thighs and falls
+    behind the calves to a height `hem_m`."""
+    hip, knee = (wearer.fit.positions_t[wearer.fit.index(f"left{part}Leg")] for part in ("Upper", "Lower"))
+    down = np.maximum(hip[1] - points[:, 1], 0.0)
+    edge = hip[2] + hip[1] - knee[1] - CALF_M
+    at_edge = np.abs(body[:, 2] - edge) < SLICE_M
+    fall = body[at_edge, 1].min() - LIES_M - hem_m
+    length = down * (edge - hip[2] + fall) / down.max()
+    along = np.minimum(hip[2] + length, edge)
+    height = _spanned(body, np.column_stack([points[:, :2], along]), -1.0) - LIES_M
+    below = np.maximum(hip[2] + length - edge, 0.0)
+    return np.column_stack([height + (hem_m - height) * below / fall, along - BEHIND * below])
 
 
 def _mixtures() -> np.ndarray:
@@ -107,14 +146,14 @@ def _mixtures() -> np.ndarray:
     return pairs[pairs.sum(axis=1) <= 1.0 + 1e-9]
 
 
-def _laid(wearer: Wearer, points: np.ndarray, legs: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+def _laid(wearer: Wearer, points: np.ndarray, legs: np.ndarray, wanted: np.ndarray, along: float = ALONG) -> np.ndarray:
     """Mixtures (N, 2) whose places in a seated pose are nearest to the wanted ones (N, 2) in height and
     along the thighs."""
     thigh, shin = _seated(wearer, points)
     tried, found = _mixtures(), legs.copy()
     for row in np.flatnonzero(~np.isnan(wanted).any(axis=1)):
         place = points[row] + tried @ np.stack([thigh[row] - points[row], shin[row] - points[row]])
-        off = (place[:, 1:] - wanted[row]) * [1.0, ALONG]
+        off = (place[:, 1:] - wanted[row]) * [1.0, along]
         change = KEPT_M * (tried - legs[row])
         found[row] = tried[np.argmin((off**2).sum(axis=1) + (change**2).sum(axis=1))]
     return found
@@ -140,28 +179,26 @@ def seated_weights(
     legs, seat = high & (own.sum(axis=1) > 0.5), high & (wearer.tailoring.arm < 0.3) & (own[:, 1] < 0.4)
     ahead = points[:, 2] - hip[2]
     low = 1.0 - smoothstep(points[:, 1], hip[1] - 0.12, hip[1] - 0.02)
-    # Below the knees long cloth hangs from them.
-    low *= smoothstep(points[:, 1], knee[1] - BELOW_M, knee[1])
     before = _of_legs(wearer, weights)
     along = _blend(wearer, points, before)[:, 2]
     short = points[:, 1].min() > knee[1] - BELOW_M
+    hem_m = None if short else float(_seated(wearer, points)[1][:, 1].min())
+    front_m = None if hem_m is None else hem_m + RAISED_M
     if short:
-        low = 1.0 - smoothstep(points[:, 1], hip[1] - 0.12, hip[1] - 0.02)
         before = before * (1.0 - DROP * smoothstep(hip[1] - points[:, 1], 0.08, 0.35))[:, None]
         along = hip[2] + SHORTER * (along - hip[2])
-    found = before
+    # Towards the sides cloth goes from above the thighs to below them.
+    share = (low * smoothstep(np.abs(ahead), 0.0, 0.06))[:, None]
+    found, behind = before, ahead < 0.0
     for _ in range(ROUNDS):
-        placed = _blend(wearer, points, found)
-        height = np.full(len(points), np.nan)
-        for sign, there in ((1.0, legs), (-1.0, seat)):
-            rows = np.flatnonzero(sign * ahead > 0.0)
-            height[rows] = _spanned(body[there], placed[rows], sign) + sign * LIES_M
-        wanted = np.stack([height, along], axis=1)
-        if short:
-            wanted[ahead > 0.0] = _over_knees(wearer, body[legs], points)[ahead > 0.0]
-        # Towards the sides cloth goes from above the thighs to below them.
-        share = (low * smoothstep(np.abs(ahead), 0.0, 0.06))[:, None]
-        found = before + share * (_smoothed(_laid(wearer, points, before, wanted), columns) - before)
+        wanted = _over_knees(wearer, body[legs], points, front_m)
+        if hem_m is None:
+            height = _spanned(body[seat], _blend(wearer, points[behind], found[behind]), -1.0) - LIES_M
+            wanted[behind] = np.stack([height, along[behind]], axis=1)
+        else:
+            wanted[behind] = _behind_knees(wearer, body[seat], points[behind], hem_m)
+        laid = _laid(wearer, points, before, wanted, ALONG if short else 1.0)
+        found = before + share * (_smoothed(laid, columns) - before)
     return _with_legs(wearer, weights, found, left)
 
 

@@ -16,6 +16,8 @@ from wardrobe_seated import seated_weights
 PLEATS, PER_PLEAT = 24, 4
 SKIRT_BONES = 5
 """Bones that a skirt goes with between the legs: hips, thighs and shins."""
+INSTEP_M = 0.12
+"""Height over the sole of the base mesh from which feet come before the shins."""
 FARTHEST_M = 0.030
 """Greatest distance in metres by which a garment is widened to cover another one."""
 
@@ -105,8 +107,9 @@ def _about_both_legs(wearer: Wearer, low: float, high: float) -> Profile:
 
 @dataclass(frozen=True)
 class Skirt:
-    """A skirt from waist to hem (heights, m), how much wider it becomes per metre, how deep its pleats are, and how far
-    off the middle cloth goes with one leg alone."""
+    """A skirt from waist to hem (heights, m), how much wider it becomes per metre, how deep its pleats are, how far off
+    the middle cloth goes with one leg alone, and the share of its width at the hips that a row keeps of the one above.
+    """
 
     top_m: float
     hem_m: float
@@ -114,6 +117,7 @@ class Skirt:
     pleat_m: float
     rows: int = 12
     between_m: float = 0.09
+    kept: float = 0.997
 
 
 def skirt(wearer: Wearer, shape: Skirt, *, checked: bool = False) -> Sewn:
@@ -130,8 +134,10 @@ def skirt(wearer: Wearer, shape: Skirt, *, checked: bool = False) -> Sewn:
     for height in heights:
         down = shape.top_m - height
         ease = 0.003 + 0.006 * smoothstep(np.array([down]), 0.0, 0.12)[0]
-        hull = profile.radius_at(np.full(columns + 1, height), angles) + ease
-        widest = np.maximum(widest, hull) if down < 0.25 else np.maximum(widest * 0.997, hull)
+        # Cloth hangs over the feet, not around them.
+        level = max(height, wearer.tailoring.foot_m + INSTEP_M)
+        hull = profile.radius_at(np.full(columns + 1, level), angles) + ease
+        widest = np.maximum(widest, hull) if down < 0.25 else np.maximum(widest * shape.kept, hull)
         open_pleat = shape.pleat_m * smoothstep(np.array([down]), 0.04, 0.30)[0]
         radius = widest + shape.flare * down**1.3 + open_pleat * (saw - 0.4)
         middle = np.array([np.interp(height, profile.levels, profile.centres[:, k]) for k in range(2)])
