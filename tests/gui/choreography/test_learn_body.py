@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton, QToolButton
 from pytestqt.qtbot import QtBot
@@ -23,6 +23,7 @@ from tests.unit.choreography.test_command import write_clip, write_drums
 from tests.unit.choreography.test_cuts import arm_swings
 from widgets.common.combo import Combo
 from widgets.dialogs.bone_tree import BoneTree
+from widgets.dialogs.choreography.body_view import VIEWS, BodyView
 from widgets.dialogs.choreography.learn import LearnDialog
 
 SWORD = [(30.0, 0.0, 0.0)] * 4
@@ -93,11 +94,12 @@ def test_a_motion_that_is_not_understood_is_corrected_bone_by_bone(dialog: Learn
     assert read is not None
     expected = read_motion(folder / "swings.bvh").clip
     assert np.abs(read.motion.clip.rotations - expected.rotations).max() < 0.05
-    for figure in (dialog.body.first, dialog.body.rest):
-        assert figure.pose is not None
+    assert dialog.body.first.pose is not None
     # In the T-pose both hands are as high as the shoulders.
     arms = [at for at, name in enumerate(SEGMENTS) if "Arm" in name or "Hand" in name]
-    assert np.ptp(dialog.body.rest.pose[arms, 1]) < 0.05
+    rest = dialog.body.rest.pose
+    assert rest is not None
+    assert np.ptp(rest.points[arms, 1]) < 0.05
 
 
 def test_corrections_are_taken_back(dialog: LearnDialog, folder: Path) -> None:
@@ -145,3 +147,36 @@ def test_of_a_file_with_two_figures_either_is_learned_from(session: Session, qtb
     dialog.form._change(motion=swings)
     assert not figures.isVisible()
     assert dialog.drafts[0].figure == ""
+
+
+def test_all_three_pictures_are_orbited_together(session: Session, qtbot: QtBot, folder: Path) -> None:
+    dialog = shown(session, qtbot, folder)
+    drop(dialog, folder / "swings.bvh", folder / "drums.mid")
+    dialog.tabs.setCurrentWidget(dialog.tabs.widget(1))
+    figures = (dialog.body.raw, dialog.body.first, dialog.body.rest)
+    buttons = {name: child(dialog, QToolButton, f"body_view_{name}") for name in VIEWS}
+
+    def shows(view: BodyView) -> bool:
+        lit = {name for name, button in buttons.items() if button.isChecked()}
+        return all(figure.view == view for figure in figures) and lit == {name for name in VIEWS if VIEWS[name] == view}
+
+    assert shows(VIEWS["front"])
+    seen = {}
+    for name in ("side", "three_quarter", "three_quarter", "front"):
+        QTest.mouseClick(buttons[name], Qt.MouseButton.LeftButton)
+        assert shows(VIEWS[name])
+        seen[name] = [figure.grab().toImage() for figure in figures]
+    for at in range(len(figures)):
+        assert seen["front"][at] != seen["side"][at] != seen["three_quarter"][at]
+    for figure in figures:
+        before, middle = figure.view, figure.rect().center()
+        QTest.mousePress(figure, Qt.MouseButton.LeftButton, pos=middle)
+        QTest.mouseMove(figure, middle + QPoint(40, 10))
+        QTest.mouseRelease(figure, Qt.MouseButton.LeftButton, pos=middle + QPoint(40, 10))
+        assert shows(before.dragged(40.0, 10.0))
+        # Without a held button the mouse turns nothing.
+        QTest.mouseMove(figure, middle)
+        assert shows(before.dragged(40.0, 10.0))
+    # The view stays with another motion.
+    dialog.form._change(motion=folder / "sword.bvh")
+    assert dialog.body.raw.view == figures[0].view != VIEWS["front"]

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QApplication, QCheckBox, QLabel, QPushButton, QToo
 from pytestqt.qtbot import QtBot
 
 from app.choreography.body import SEGMENTS
+from app.choreography.body_pose import body_pose
 from app.choreography.cuts import Cut, segment
 from app.choreography.cuts_by_hand import bounds, extrema
 from app.choreography.model_file import read_model
@@ -25,7 +26,6 @@ from tests.support.dances import stepping
 from tests.support.windows import child
 from tests.unit.choreography.test_command import write_clip, write_drums
 from tests.unit.choreography.test_cuts import arm_swings
-from widgets.dialogs.choreography.cut_figure import pose_of
 from widgets.dialogs.choreography.cut_plot import CutLine, CutPlot
 from widgets.dialogs.choreography.learn import LearnDialog
 
@@ -242,9 +242,10 @@ def test_the_pose_under_the_mouse_is_drawn(dialog: LearnDialog, qtbot: QtBot) ->
     assert before is not None
     assert after is not None
     hand = SEGMENTS.index("leftHand")
-    assert after[hand, 1] > before[hand, 1] + 0.2
+    assert after.points[hand, 1] > before.points[hand, 1] + 0.2
     clip = read_motion(dialog.drafts[0].motion).clip
-    assert after == pytest.approx(pose_of(clip, plot(dialog).frame_at(place.x())), abs=1e-4)
+    drawn = body_pose(clip, plot(dialog).frame_at(place.x()))
+    assert after.points == pytest.approx(drawn.points, abs=1e-4)
 
 
 def test_sections_that_are_left_out_are_shaded(session: Session, qtbot: QtBot, folder: Path) -> None:

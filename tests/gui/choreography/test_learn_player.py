@@ -14,6 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from app.audio.playback import Playback
 from app.audio.track import RATE_HZ
+from app.choreography.body_pose import body_pose
 from app.editor.session import Session
 from tests.gui.choreography.test_learn_dialog import drop, press, state, type_number
 from tests.gui.transport.devices import FakeDevices, Time
@@ -21,7 +22,6 @@ from tests.support.phrases import know_phrases
 from tests.support.windows import child, show_in_front
 from tests.unit.choreography.test_command import write_clip, write_drums
 from tests.unit.choreography.test_cuts import arm_swings
-from widgets.dialogs.choreography.cut_figure import pose_of
 from widgets.dialogs.choreography.learn import LearnDialog
 
 STEP_S = 0.01
@@ -99,8 +99,10 @@ def drawn_at(dialog: LearnDialog, time_s: float) -> bool:
     analysis = dialog._rows[0].found.analysis
     assert analysis is not None
     frame = round(time_s * float(analysis.clip.fps))
-    poses = [pose_of(analysis.clip, near) for near in (frame - 1, frame, frame + 1)]
-    return any(np.array_equal(dialog.cuts.figure.pose, pose) for pose in poses)
+    pose = dialog.cuts.figure.pose
+    assert pose is not None
+    poses = [body_pose(analysis.clip, near).points for near in (frame - 1, frame, frame + 1)]
+    return any(np.array_equal(pose.points, near) for near in poses)
 
 
 def test_motion_and_music_play_together_from_the_offset_on(

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import Final
 
-import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QKeySequence, QShortcut
-from PySide6.QtWidgets import QSizePolicy, QTreeWidgetItem, QWidget
+from PySide6.QtWidgets import QSizePolicy, QToolButton, QTreeWidgetItem, QWidget
 
-from app.choreography.body import SEGMENTS
-from app.choreography.clip import MotionClip
+from app.choreography.body_pose import body_pose, knee_caps, t_pose_of
 from app.choreography.raw_skeleton import JOINTS, REQUIRED, RawSkeleton
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.session import Session
-from app.rig import quaternion
 from app.rig.characters.joint_mapping import JointMapping
+from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Caption, ColumnList, IconButton, Retranslated, named, wrapped
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
@@ -23,22 +22,23 @@ from widgets.common.text import message_text
 from widgets.dialogs.body_map import BodyMap, joints
 from widgets.dialogs.bone_tree import BoneTree
 from widgets.dialogs.character_draft import DraftHistory, State, joint_name
-from widgets.dialogs.choreography.cut_figure import PoseFigure, SkeletonFigure, pose_of, skeleton_pose
+from widgets.dialogs.choreography.body_view import VIEWS, BodyView, ViewName
+from widgets.dialogs.choreography.cut_figure import PoseFigure, SkeletonFigure, skeleton_pose
 from widgets.dialogs.choreography.learn_draft import PairContents
 
 _LEAST_MAP_PX: Final = 190
 _LEAST_LIST_PX: Final = 250
 _PICTURE_PX: Final = 136
-
-
-def t_pose_of(clip: MotionClip) -> MotionClip:
-    """Return a single frame with the body in T-pose."""
-    still = np.tile(quaternion.IDENTITY, (1, len(SEGMENTS), 1))
-    return MotionClip(clip.shape, clip.fps, clip.shape.offsets_m[:1], still)
+_VIEW_TEXTS: Final[dict[ViewName, tuple[str, str]]] = {
+    "front": ("body_panel.front", "body_panel.from_front"),
+    "side": ("body_panel.side", "body_panel.from_right"),
+    "three_quarter": ("body_panel.three_quarter", "body_panel.from_front_right"),
+}
+"""Text and tool tip ids of the views."""
 
 
 class BodyPanel(Retranslated, QWidget):
-    """Panel with three pictures of the body, and lists of the joints and of the file's bones.
+    """Panel with three pictures of the body that are orbited together, and lists of the joints and of the file's bones.
 
     Signals
     -------
@@ -58,6 +58,7 @@ class BodyPanel(Retranslated, QWidget):
         self.raw = named(SkeletonFigure(session, is_fitted=True), "body_raw")
         self.first = named(PoseFigure(session, is_fitted=True), "body_first")
         self.rest = named(PoseFigure(session, is_fitted=True), "body_rest")
+        self._views = {name: self._view_button(name) for name in VIEWS}
         self.body = self.texted(BodyMap(session, self._joint_text), name="character_dialog.joints_of_body")
         self.rows = ColumnList("body_joints", "character_dialog.joint", "character_dialog.bone", stretches=(1,))
         self._items = {joint: QTreeWidgetItem() for joint in joints() if joint in JOINTS}
@@ -76,12 +77,15 @@ class BodyPanel(Retranslated, QWidget):
         for key, step in ((QKeySequence.StandardKey.Undo, self.undo), (QKeySequence.StandardKey.Redo, self.redo)):
             QShortcut(QKeySequence(key), self).activated.connect(step)
         session.theme_changed.connect(self._show)
+        self.show_from(VIEWS["front"])
         self.retranslate()
 
     def _build(self) -> None:
         for figure in (self.raw, self.first, self.rest):
             figure.setMinimumWidth(_PICTURE_PX)
             figure.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+            figure.orbited.connect(self.show_from)
+            self.texted(figure, tip="body_panel.figure_tip")
         for joint, item in self._items.items():
             item.setData(0, Qt.ItemDataRole.UserRole, joint)
             self.rows.addTopLevelItem(item)
@@ -103,8 +107,18 @@ class BodyPanel(Retranslated, QWidget):
             (self._choice, 5),
             margins=0,
         )
-        tools = in_row((self._said, 1), self._undo, self._redo, self._reset, margins=0)
+        views = in_row(*self._views.values(), margins=0, spacing=1)
+        tools = in_row(views, 8, (self._said, 1), self._undo, self._redo, self._reset, margins=0)
         in_column(tools, (shown, 1), of=self, margins=0)
+
+    def _view_button(self, name: ViewName) -> QToolButton:
+        text_id, tip_id = _VIEW_TEXTS[name]
+        button = self.texted(named(QToolButton(), f"body_view_{name}"), text=text_id, tip=tip_id)
+        button.setCheckable(True)
+        button.setAutoRaise(True)
+        button.setMinimumSize(LEAST_TARGET_PX + 2, LEAST_TARGET_PX + 2)
+        on_click(button, self.show_from, VIEWS[name])
+        return button
 
     # User actions
 
@@ -122,6 +136,13 @@ class BodyPanel(Retranslated, QWidget):
     def bones(self) -> BoneTree | None:
         """Tree of the file's bones; None before a file is read."""
         return self._bones
+
+    def show_from(self, view: BodyView) -> None:
+        """Show all three pictures from one direction."""
+        for figure in (self.raw, self.first, self.rest):
+            figure.show_from(view)
+        for name, button in self._views.items():
+            button.setChecked(view == VIEWS[name])
 
     def choose(self, joint: str) -> None:
         """Select a joint, and its bone in the tree and the picture."""
@@ -197,7 +218,7 @@ class BodyPanel(Retranslated, QWidget):
         return "doubtful" if joint in self._mapping.doubtful else "mapped"
 
     def _show(self) -> None:
-        tokens, found, skeleton = self._session.tokens, self._found, self._skeleton
+        tokens, skeleton = self._session.tokens, self._skeleton
         colours = {"mapped": tokens.text, "doubtful": tokens.warning, "missing": tokens.text_dim}
         marks = {"mapped": ("check", tokens.good), "doubtful": ("warning", tokens.warning)}
         self.body.show_states({joint: self._state(joint) for joint in self._items})
@@ -214,11 +235,20 @@ class BodyPanel(Retranslated, QWidget):
         if self._bones is not None:
             used = {bone: joint for joint, bone in self._mapping.bones.items() if joint in self._items}
             self._bones.show_used({bone: joint_name(joint) for bone, joint in used.items()})
-        motion = None if found.read is None else found.read.motion
-        self.first.show_pose(None if motion is None else pose_of(motion.clip, 0))
-        self.rest.show_pose(None if motion is None else pose_of(t_pose_of(motion.clip), 0))
+        self._show_poses()
         self._say()
         self._show_choice()
+
+    def _show_poses(self) -> None:
+        read = self._found.read
+        if read is None:
+            self.first.show_pose(None)
+            self.rest.show_pose(None)
+        else:
+            clip = read.motion.clip
+            caps = knee_caps(clip)
+            self.first.show_pose(body_pose(clip, 0, caps))
+            self.rest.show_pose(body_pose(t_pose_of(clip), 0, caps))
 
     def _say(self) -> None:
         if self._found.error is not None and self._skeleton is not None:

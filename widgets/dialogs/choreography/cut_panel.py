@@ -11,12 +11,13 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QWidget
 
 from app.audio.playback import Playback
+from app.choreography.body_pose import body_pose
 from app.choreography.cuts_by_hand import Cuts
 from app.editor.session import Session
 from widgets.common.controls import Button, Caption, Check, IconButton, Retranslated
 from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
-from widgets.dialogs.choreography.cut_figure import PoseFigure, pose_of
+from widgets.dialogs.choreography.cut_figure import PoseFigure
 from widgets.dialogs.choreography.cut_plot import CutPlot
 from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft, offset_s_of
 from widgets.dialogs.choreography.pair_player import PairPlayer
@@ -156,7 +157,7 @@ class CutPanel(Retranslated, QWidget):
     def _point(self, frame: int) -> None:
         analysis = self._found.analysis
         if analysis is not None:
-            self.figure.show_pose(pose_of(analysis.clip, frame))
+            self.figure.show_pose(body_pose(analysis.clip, frame))
             time_s = float(self.plot.time_s(frame))
             self._place.setText(
                 self.tr("cut_panel.s_rad_s").format(
