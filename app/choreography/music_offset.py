@@ -61,6 +61,8 @@ class MusicOffset:
 def find_offset(clip: MotionClip, rhythm: Rhythm) -> MusicOffset:
     """Find the offset at which the beats of a motion best match the hits and beats of the music; 0 with confidence 0 if
     there are none.
+
+    If the music is long enough to sound during the whole motion, it does, unless another offset is clearly better.
     """
     frames, strengths = motion_beats(clip)
     times_s = np.concatenate([rhythm.hits_s, rhythm.beats_s])
@@ -70,12 +72,26 @@ def find_offset(clip: MotionClip, rhythm: Rhythm) -> MusicOffset:
     motion = _pulses(frames / float(clip.fps), strengths, clip.length_s)
     music = _pulses(times_s, weights, float(times_s.max()))
     fit, lags = _fit(motion, music)
-    best = int(np.argmax(fit))
+    best = _best(fit, lags, len(motion), len(music))
     others = fit[np.abs(lags - lags[best]) * GRID_S > APART_S]
     if fit[best] <= 0.0:
         return MusicOffset(0.0, 0.0)
-    confidence = 1.0 - max(0.0, float(others.max(initial=0.0))) / float(fit[best])
+    confidence = max(0.0, 1.0 - max(0.0, float(others.max(initial=0.0))) / float(fit[best]))
     return MusicOffset(round(float(lags[best]) * GRID_S, 3), confidence)
+
+
+def _best(fit: FloatArray, lags: IntArray, motion: int, music: int) -> int:
+    """Index of the best fit (K,) among those at which music with the given number of samples covers the whole motion;
+    of all if none of these is comparably good. A fit to half of the motion is good by chance more easily.
+    """
+    best = int(np.argmax(fit))
+    shared = min(lags[best] + music, motion) - max(lags[best], 0)
+    covers = (lags <= 0) & (lags + music >= motion)
+    if not covers.any():
+        return best
+    least = (1.0 - CONFIDENT) * np.sqrt(shared / motion)
+    covering = int(np.flatnonzero(covers)[np.argmax(fit[covers])])
+    return covering if fit[covering] >= least * fit[best] else best
 
 
 def motion_beats(clip: MotionClip) -> tuple[IntArray, FloatArray]:

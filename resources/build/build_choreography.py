@@ -3,13 +3,15 @@
     python -m resources.build.build_choreography FOLDER
 
 ``FOLDER`` holds the files that `PAIRS` names, anywhere below it (`resources/choreographies/README.md` says where they
-are from). No one danced to these rhythms; each offset is found.
+are from). No one danced to these rhythms: an offset is as arbitrary as another, and they are kept so that the dances
+of existing projects stay.
 """
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Final
@@ -26,21 +28,23 @@ CREDITS: Final = TARGET.with_name("credits.txt")
 FPS: Final = Fraction(60)
 """Frame rate in frames per second of the captures; the files wrongly state 120."""
 PAIRS: Final = {
-    "cmu_salsa_01.bvh": "gmd_drummer5_session1_14_latin-brazilian-songo_112_beat_4-4.mid",
-    "cmu_salsa_03.bvh": "gmd_drummer5_session2_24_latin-brazilian-songo_120_beat_4-4.mid",
-    "cmu_salsa_05.bvh": "gmd_drummer5_session2_8_neworleans-chacha_124_beat_4-4.mid",
-    "cmu_salsa_16.bvh": "gmd_drummer1_session1_38_latin-samba_116_beat_4-4.mid",
-    "cmu_salsa_18.bvh": "gmd_drummer5_session2_24_latin-brazilian-songo_120_beat_4-4.mid",
+    "cmu_salsa_01.bvh": ("gmd_drummer5_session1_14_latin-brazilian-songo_112_beat_4-4.mid", 15.93),
+    "cmu_salsa_03.bvh": ("gmd_drummer5_session2_24_latin-brazilian-songo_120_beat_4-4.mid", -125.9),
+    "cmu_salsa_05.bvh": ("gmd_drummer5_session2_8_neworleans-chacha_124_beat_4-4.mid", -72.42),
+    "cmu_salsa_16.bvh": ("gmd_drummer1_session1_38_latin-samba_116_beat_4-4.mid", 8.145),
+    "cmu_salsa_18.bvh": ("gmd_drummer5_session2_24_latin-brazilian-songo_120_beat_4-4.mid", -49.79),
 }
+"""Capture, rhythm, and the time in seconds of what is learned of the capture at which the rhythm begins."""
 
 
 def read(folder: Path) -> Iterator[ReadPair]:
     """Read the pairs. Raises FileNotFoundError if one is not in the folder."""
-    for names in PAIRS.items():
-        motion, music = (next(folder.rglob(name), None) for name in names)
+    for motion_name, (music_name, offset_s) in PAIRS.items():
+        motion, music = (next(folder.rglob(name), None) for name in (motion_name, music_name))
         if motion is None or music is None:
-            raise FileNotFoundError(f"{folder} lacks {' or '.join(names)}")
-        yield read_pair(motion, music, fps=FPS, credits=CREDITS)
+            raise FileNotFoundError(f"{folder} lacks {motion_name} or {music_name}")
+        one = read_pair(motion, music, fps=FPS, credits=CREDITS)
+        yield replace(one, pair=replace(one.pair, offset_s=offset_s))
 
 
 def learned(folder: Path) -> ChoreographyModel:

@@ -72,3 +72,23 @@ def test_without_beats_there_is_no_confidence() -> None:
     assert find_offset(still, rhythm(np.arange(4.0))).confidence == 0.0
     assert find_offset(clip, rhythm(np.zeros(0))).confidence == 0.0
     assert find_offset(clip.span(0, 1), rhythm(np.arange(4.0))).confidence == 0.0
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_unrelated_music_that_is_long_enough_sounds_during_the_whole_motion(seed: int) -> None:
+    clip = random_clip(1, 1201)
+    hits_s = np.cumsum(np.random.default_rng(seed).uniform(0.1, 1.2, 200))
+    found = find_offset(clip, rhythm(hits_s))
+    assert found.offset_s <= 0.0
+    assert found.offset_s + hits_s[-1] >= clip.length_s - 0.01
+
+
+def test_music_that_clearly_ends_within_the_motion_is_found_there() -> None:
+    clip = random_clip(1, 1801)
+    beats_s = motion_beats(clip)[0] / float(clip.fps)
+    # A long piece before, then the danced hits, which end in the middle of the motion.
+    before_s = np.cumsum(np.random.default_rng(5).uniform(0.1, 1.2, 100))
+    danced_s = before_s[-1] + 0.7 + beats_s[beats_s < 0.7 * clip.length_s]
+    found = find_offset(clip, rhythm(np.concatenate([before_s, danced_s])))
+    assert found.offset_s == pytest.approx(-before_s[-1] - 0.7, abs=0.03)
+    assert found.confidence > CONFIDENT
