@@ -186,9 +186,11 @@ class WholeFigure:
             # Triangles between the middles of cells are more regular.
             middles_m = _mean(places_m, cluster, np.ones(len(cluster)))
             off_m = np.linalg.norm(places_m - middles_m.take(cluster, axis=0), axis=1)
-            farthest_first = np.argsort(off_m, kind="stable")[::-1]
-            # The last one stored stays.
-            first[cluster[farthest_first]] = farthest_first
+            least_m = np.full(len(first), np.inf)
+            np.minimum.at(least_m, cluster, off_m)
+            nearest = np.flatnonzero(off_m == least_m.take(cluster))[::-1]
+            # Of equally near ones the last one stored stays, which is the first.
+            first[cluster[nearest]] = nearest
         return first, cluster
 
     def _joined(self, clusters: tuple[IntArray, IntArray] | None, far: bool) -> tuple[IntArray, IntArray]:

@@ -6,14 +6,14 @@ body's hands is valid for every person made from it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from typing import Final
 
 import numpy as np
 
-from app.arrays import AnyIntArray, FloatArray, IndexArray, SingleArray
+from app.arrays import FloatArray, IndexArray
 from app.formats.scene import Material
 from app.formats.textures import Texture
 from app.identity_cache import IdentityCache
@@ -22,7 +22,7 @@ from app.rig.model import Character, Skeleton
 from app.rig.people.body_shapes import BodyShapes, Phenotype, body_m
 from app.rig.people.displacement import NO_CHANGE, Attaching, Binding, FaceChange, face_change, normals_of, places_of
 from app.rig.people.eyeballs import NearEye, ball_rows, near_eyes, off_the_eyes
-from app.rig.people.moved_joints import SIDES, MovedJoints, moved_joints, t_positions, with_arms_to
+from app.rig.people.moved_joints import SIDES, MovedJoints, lowest_m, moved_joints, t_positions, with_arms_to
 from app.rig.people.person import Color
 from app.rig.skeleton import ancestors
 
@@ -283,9 +283,13 @@ def _changed(original: Original, mesh: Mesh, moved: FloatArray, joints: MovedJoi
     moved = off_the_eyes(_parts(original, mesh).lids, moved, joints)
     normals = mesh.normals + normals_of(moved, mesh, original.places[mesh.name]) - original.normals[mesh.name]
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
-    # Most people of a band are far away: faces are made when they are seen near, or lips meet a mouthpiece.
-    later = MorphsOnDemand(len(mesh.morphs), partial(_shapes, original, mesh, moved, joints, face))
-    morphs = later if mesh.morphs else ()
+    morphs: Sequence[Morph] = ()
+    if mesh.morphs:
+        make = partial(_shapes, original, mesh, moved, joints, face)
+        # Most people of a band are far away: a face is made when it is seen near, or lips meet a mouthpiece. Few and
+        # small morphs take less memory than what they are made from.
+        many = sum(len(morph.vertices) for morph in mesh.morphs) > 2 * len(moved)
+        morphs = MorphsOnDemand(len(mesh.morphs), make) if many else make()
     positions = moved.astype(np.float32)
     return replace(mesh, positions_m=positions, normals=normals.astype(np.float32), morphs=morphs)
 
@@ -365,37 +369,10 @@ def _standing(character: Character, joints: MovedJoints) -> Character:
     places = t_positions(skeleton, joints.after)
     root = joints.after[0, :3, 3]
     places += root
-    floor_m = _lowest_m(character, joint_from_mesh, places)
+    floor_m = lowest_m(character, joint_from_mesh, places)
     places[1:, 1] -= floor_m
     offsets = places.copy()
     offsets[1:] -= places[list(skeleton.parents[1:])]
     return replace(
         character, skeleton=Skeleton(skeleton.names, skeleton.parents, offsets), joint_from_mesh=joint_from_mesh
     )
-
-
-def _lowest_m(character: Character, joint_from_mesh: FloatArray, places: FloatArray) -> float:
-    """Return the height in metres of the lowest vertex of the feet in the T-pose.
-
-    ``places`` (J, 3) are the positions of the joints in the T-pose.
-    """
-    lowest_m = np.inf
-    world = joint_from_mesh[:, 1, :].copy()
-    world[:, 3] += places[:, 1]
-    for mesh in character.meshes:
-        own = _FEET.step(_feet, character.skeleton.names, mesh.joints, mesh.weights)
-        if len(own):
-            rows = world[mesh.joints[own]]
-            heights = np.einsum("nka,na->nk", rows[..., :3], mesh.positions_m[own]) + rows[..., 3]
-            lowest_m = min(lowest_m, float((heights * mesh.weights[own]).sum(axis=1).min()))
-    return lowest_m if np.isfinite(lowest_m) else 0.0
-
-
-def _feet(names: tuple[str, ...], joints: AnyIntArray, weights: SingleArray) -> IndexArray:
-    """Return those of N vertices, given by joints and weights (N, K), that belong to the feet."""
-    feet = [names.index(f"{side}{part}") for side, _ in SIDES for part in ("Foot", "Toes")]
-    return np.flatnonzero((weights * np.isin(joints, feet)).sum(axis=1) > 0.5)
-
-
-# People made from one body share joints and weights.
-_FEET: IdentityCache[IndexArray] = IdentityCache(256)

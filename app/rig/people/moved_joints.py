@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.arrays import FloatArray
+from app.arrays import AnyIntArray, FloatArray, IndexArray, SingleArray
+from app.identity_cache import IdentityCache
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import ancestors
 
@@ -166,3 +167,30 @@ def _frame(first: FloatArray, second: FloatArray) -> FloatArray:
     two = second - one * (second @ one)
     two /= np.linalg.norm(two)
     return np.stack([one, two, np.cross(one, two)], axis=1)
+
+
+def lowest_m(character: Character, joint_from_mesh: FloatArray, places: FloatArray) -> float:
+    """Return the height in metres of the lowest vertex of the feet in the T-pose.
+
+    ``places`` (J, 3) are the positions of the joints in the T-pose.
+    """
+    least_m = np.inf
+    world = joint_from_mesh[:, 1, :].copy()
+    world[:, 3] += places[:, 1]
+    for mesh in character.meshes:
+        own = _FEET.step(_feet, character.skeleton.names, mesh.joints, mesh.weights)
+        if len(own):
+            rows = world[mesh.joints[own]]
+            heights = np.einsum("nka,na->nk", rows[..., :3], mesh.positions_m[own]) + rows[..., 3]
+            least_m = min(least_m, float((heights * mesh.weights[own]).sum(axis=1).min()))
+    return least_m if np.isfinite(least_m) else 0.0
+
+
+def _feet(names: tuple[str, ...], joints: AnyIntArray, weights: SingleArray) -> IndexArray:
+    """Return those of N vertices, given by joints and weights (N, K), that belong to the feet."""
+    feet = [names.index(f"{side}{part}") for side, _ in SIDES for part in ("Foot", "Toes")]
+    return np.flatnonzero((weights * np.isin(joints, feet)).sum(axis=1) > 0.5)
+
+
+# People made from one body share joints and weights.
+_FEET: IdentityCache[IndexArray] = IdentityCache(256)
