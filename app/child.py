@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import shlex
 import signal
 import struct
 import subprocess
@@ -28,6 +29,11 @@ _ENDING: Final = (signal.SIGINT, signal.SIGTERM)
 _LOOK_S: Final = 0.1
 _ENCODER: Final = msgspec.msgpack.Encoder()
 T = TypeVar("T")
+
+
+def typed_python() -> str:
+    """Return the Python in which the program runs, as it is typed in a shell: packages that it lacks belong there."""
+    return shlex.quote(sys.executable) if os.name == "posix" else f'"{sys.executable}"'
 
 
 class MessageChannel(Generic[T]):

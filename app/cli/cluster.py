@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import urlsplit
 
+from app.child import typed_python
 from app.cli.batch_inputs import own_digests, program_digest
 from app.errors import UsageError
 from app.version import program_version
@@ -36,7 +37,7 @@ def cluster_executor(address: str) -> Iterator[Executor]:
     try:
         from distributed import Client
     except ImportError as error:
-        raise UsageError("dask.missing") from error
+        raise UsageError("dask.missing", python=typed_python()) from error
     _reach(address)
     try:
         client = Client(address, timeout=CONNECT_S)  # type: ignore[no-untyped-call]

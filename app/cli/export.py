@@ -167,6 +167,10 @@ def _names(text: str, possible: Collection[str], refusal: str) -> list[str]:
 
 def export(arguments: argparse.Namespace) -> int:
     """Write the files, print their contents and the excluded players, and return the exit status."""
+    if arguments.scheduler is None:
+        # What cannot be written here is reported before any piece is read; other machines may be able to.
+        for kind in requested(arguments.formats or ()):
+            kind.refuse()
     if arguments.piece is not None:
         arguments.file = arguments.piece
     elif os.path.isdir(arguments.file):

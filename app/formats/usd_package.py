@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Final
 
+from app.child import typed_python
 from app.errors import UsageError
 
 _MODULES: Final = ("Tf", "Gf", "Kind", "Sdf", "Usd", "UsdGeom", "UsdMedia", "UsdShade", "UsdSkel", "UsdUtils", "Vt")
@@ -24,7 +25,7 @@ def usd_installed() -> bool:
 def refuse_without_usd() -> None:
     """Raise UsageError if usd-core is not installed."""
     if not usd_installed():
-        raise UsageError("usd.missing")
+        raise UsageError("usd.missing", python=typed_python())
 
 
 @cache

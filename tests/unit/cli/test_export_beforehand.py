@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shlex
+import sys
 from pathlib import Path
 
 import mido
@@ -86,6 +88,7 @@ def test_tangents_that_blender_drops_are_named_with_the_remedy(
     def refuse(*_args: object, **_named: object) -> None:
         raise FileError("file.cannot_write", file=str(tmp_path), reason="the disk is full")
 
+    monkeypatch.setattr("app.formats.usd_package.usd_installed", lambda: True)
     monkeypatch.setattr("app.cli.export.write", refuse)
     main(["export", piece(tmp_path / "x.mid"), "--to", str(tmp_path / "out"), "--format", formats, "--keys", keys])
     said = capsys.readouterr().err
@@ -100,6 +103,27 @@ def test_a_format_that_keeps_its_meshes_is_named_where_motion_alone_is_asked_for
     def refuse(*_args: object, **_named: object) -> None:
         raise FileError("file.cannot_write", file=str(tmp_path), reason="the disk is full")
 
+    monkeypatch.setattr("app.formats.usd_package.usd_installed", lambda: True)
     monkeypatch.setattr("app.cli.export.write", refuse)
     main(["export", piece(tmp_path / "x.mid"), "--to", str(tmp_path / "out"), "--format", formats, "--motion-only"])
     assert (f"{named} is written with meshes all the same" in capsys.readouterr().err) == bool(named)
+
+
+@pytest.mark.parametrize("several", [False, True])
+def test_without_its_package_usd_is_refused_before_any_piece_is_read(
+    several: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The command that installs it is one for the very environment in which Suisou runs, as that of ``./run``."""
+
+    def read(*_args: object, **_named: object) -> None:
+        raise AssertionError("a piece was read")
+
+    monkeypatch.setattr("app.formats.usd_package.usd_installed", lambda: False)
+    monkeypatch.setattr("app.cli.export.open_project", read)
+    monkeypatch.setattr("app.cli.batch.export_folder", read)
+    file = piece(tmp_path / "x.mid")
+    named = str(tmp_path) if several else file
+    assert main(["export", named, "--to", str(tmp_path / "out"), "--format", "fbx,usd"]) != 0
+    said = capsys.readouterr().err
+    assert f"install it with: {shlex.quote(sys.executable)} -m pip install usd-core" in said
+    assert not (tmp_path / "out").exists()
