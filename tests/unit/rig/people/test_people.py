@@ -125,7 +125,7 @@ def test_lids_close_over_the_eyes_of_everyone(id: str) -> None:
 
 
 def test_a_face_is_made_when_its_person_is_seen_near(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A band is drawn from afar without any."""
+    """A band is drawn from afar without any. Few shapes, as of a breathing chest, are not worth waiting for."""
     made, make = list[str](), make_person._shapes
 
     def counted(original: Original, mesh: Mesh, *others: Any) -> tuple[Morph, ...]:
@@ -136,7 +136,7 @@ def test_a_face_is_made_when_its_person_is_seen_near(monkeypatch: pytest.MonkeyP
     person = person_of("seen", bundled_person("cast_yumi"), character_named)
     levels = character_levels(person)
     assert levels.coarsest.face is None
-    assert made == []
+    assert "body" not in made
     face = levels[0].face
     assert face is not None
     assert "jawOpen" in face.names
