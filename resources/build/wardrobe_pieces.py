@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -85,8 +85,8 @@ def piece(
     ----------
     patch : the name of its picture in `PATCHES`.
     chosen : gives the faces (F,) that are wanted from the texture coordinates (F, 2) of their middles.
-    materials : gives the material of each triangle (flags (T,) by name) from its middle (T, 2) and the linear dye of
-        its quad (T, 3).
+    materials : gives the material of each triangle (flags (T,) by name) from the middle (T, 2) and the linear dye
+        (T, 3) of its quad.
     """
     place = PATCHES[patch]
     asset = _asset(wearer.assets, place.folder)
@@ -98,7 +98,6 @@ def piece(
     positions = binding.positions(wearer.source.vertices)
     uvs = asset.uvs[uv_index]
     triangles = triangulate(faces, positions)
-    centres = uvs[triangles].mean(axis=1)
     # Both triangles of a quad have one dye.
     corner = np.sort(faces, axis=1)
     quad = np.repeat(np.arange(len(faces)), np.where((corner[:, 1:] == corner[:, :-1]).any(axis=1), 1, 2))
@@ -107,7 +106,7 @@ def piece(
     height, width = dyes.shape[:2]
     at = [(1.0 - middles[:, 1]) * height - 0.5, middles[:, 0] * width - 0.5]
     dye = np.stack([map_coordinates(dyes[:, :, k], at, order=1, mode="nearest") for k in range(3)], axis=1)
-    parts = {material: triangles[own] for material, own in materials(centres, dye).items() if own.any()}
+    parts = {material: triangles[own] for material, own in materials(middles, dye).items() if own.any()}
     weights = few_bones(binding.skin_weights(wearer.fit.weights))
     return modelled(name, positions, weights, parts, uvs=place.uvs(uvs))
 
@@ -130,17 +129,48 @@ def all_of(material: str) -> Callable[[np.ndarray, np.ndarray], dict[str, np.nda
     return lambda centres, dye: {material: np.ones(len(centres), dtype=bool)}
 
 
+TIE = (
+    (0.3865, 0.9085),
+    (0.3825, 0.905),
+    (0.3835, 0.893),
+    (0.3715, 0.868),
+    (0.3685, 0.850),
+    (0.3645, 0.833),
+    (0.361, 0.818),
+    (0.368, 0.8225),
+    (0.381, 0.8375),
+    (0.392, 0.8545),
+    (0.3945, 0.863),
+    (0.400, 0.870),
+    (0.4035, 0.8815),
+    (0.4065, 0.894),
+    (0.4105, 0.898),
+    (0.4095, 0.908),
+    (0.4095, 0.917),
+    (0.397, 0.9165),
+    (0.392, 0.9135),
+)
+"""Outline of the suit's tie in texture coordinates."""
+
+
+def _within(outline: Sequence[tuple[float, float]], places: np.ndarray) -> np.ndarray:
+    """Flags (N,) of the places (N, 2) within an outline."""
+    inside = np.zeros(len(places), dtype=bool)
+    for one, other in zip(outline, (*outline[1:], outline[0]), strict=True):
+        passes = (one[1] > places[:, 1]) != (other[1] > places[:, 1])
+        at = one[0] + (places[:, 1] - one[1]) * (other[0] - one[0]) / (other[1] - one[1] or 1.0)
+        inside ^= passes & (places[:, 0] < at)
+    return inside
+
+
 def linen_apart(cloth: str, linen: str, tie: str) -> Callable[[np.ndarray, np.ndarray], dict[str, np.ndarray]]:
     """The suit: white linen by its brightness, the tie by its place, the cloth of the jacket."""
 
     def parted(centres: np.ndarray, dye: np.ndarray) -> dict[str, np.ndarray]:
         # The linen's own island: above a line beside the jacket's shoulder.
         island = (centres[:, 0] > 0.345) & (1.0 - centres[:, 1] < 0.181 - 0.85 * (centres[:, 0] - 0.361))
-        blue = dye[:, 2] > 1.15 * dye[:, 0]
         white = dye.mean(axis=1) > LINEN
-        # The strip of the tie runs aslant from the knot (0.405, 0.92) to its point (0.365, 0.82).
-        across = centres[:, 0] - (0.402 - (0.905 - centres[:, 1]) * 0.42)
-        of_tie = island & (blue | (np.abs(across) < 0.011)) & (centres[:, 1] < 0.925)
+        of_tie = _within(TIE, centres)
         of_linen = (white | island) & ~of_tie
         found: dict[str, np.ndarray] = {}
         for material, own in ((cloth, ~of_linen & ~of_tie), (linen, of_linen), (tie, of_tie)):

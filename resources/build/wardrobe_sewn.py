@@ -244,7 +244,7 @@ def bow_tie(wearer: Wearer, front: np.ndarray) -> Sewn:
     for sign in (1.0, -1.0):
         outline = ((0.004, 0.0075), (0.012, 0.011), (0.030, 0.0165), (0.050, 0.021), (0.054, 0.0205), (0.0545, 0.001))
         sections = [
-            _rounded(front + np.array([sign * x, 0.0, -6.0 * x * x - 0.001]), high, 0.0045 if x < 0.053 else 0.001)
+            _rounded(front + np.array([sign * x, 0.0, -3.0 * x * x - 0.001]), high, 0.0045 if x < 0.053 else 0.001)
             for x, high in outline
         ]
         wing = _loft(sections, weights)

@@ -27,6 +27,8 @@ from wardrobe_shirt import neck_of
 
 COLUMNS = 49
 BUTTON_M = 0.0075
+NECKLINE_M = 0.108
+"""Half of the width of a dress's neckline."""
 TUNIC_M = 0.011
 """Distance of a tunic from the drape of the trunk."""
 
@@ -176,7 +178,7 @@ def close_dress(wearer: Wearer, waist_m: float) -> Cloth:
     ahead = smoothstep(cloth.points[:, 2], tailoring.collar_point[2] + 0.02, tailoring.collar_point[2] + 0.12)
     aside = np.clip(np.abs(cloth.points[:, 0]) / 0.13, 0.0, 1.0)
     depth = 0.030 + 0.065 * ahead * np.sqrt(1.0 - aside**2)
-    neck = np.maximum(-above_collar(tailoring, cloth.points) - depth, np.abs(cloth.points[:, 0]) - 0.135)
+    neck = np.maximum(-above_collar(tailoring, cloth.points) - depth, np.abs(cloth.points[:, 0]) - NECKLINE_M)
     return cut(cloth, neck)
 
 
