@@ -48,6 +48,8 @@ class BandRoute:
         Thickness.
     material : int
         Index of the material.
+    around : bool
+        Whether the band goes around the ribs, not over a shoulder.
     """
 
     start_m: FloatArray
@@ -57,6 +59,7 @@ class BandRoute:
     half_m: Callable[[FloatArray], FloatArray]
     thick_m: float = 0.0028
     material: int = 0
+    around: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,11 +185,11 @@ def _low_bow(
 
 def _aim(route: BandRoute, meet_m: FloatArray) -> FloatArray:
     """Return the point (3,) towards which a band is laid over the body: ``meet_m``, or below it if it lies far ahead,
-    so that the band crosses the collar bone instead of going around the shoulders.
+    so that a band over a shoulder crosses the collar bone instead of going around the shoulders.
     """
     ahead = float(np.linalg.norm((meet_m - route.via_m)[[0, 2]]))
     least = _LEAST_DROP * ahead
-    if route.via_m[1] - meet_m[1] >= least:
+    if route.around or route.via_m[1] - meet_m[1] >= least:
         return meet_m
     return np.array([meet_m[0], route.via_m[1] - least, meet_m[2]])
 

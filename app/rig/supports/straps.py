@@ -212,7 +212,7 @@ def _harness_routes(wearer: Wearer, size: float) -> list[BandRoute]:
         routes.append(BandRoute(back, via, 0.7 * inner + 0.7 * up, inner, over))
     for side in (1.0, -1.0):
         rib = neck + 0.52 * (hips - neck) + np.array([side * wearer.half_shoulders_m, 0.0, 0.0])
-        routes.append(BandRoute(back, rib, up, up, around))
+        routes.append(BandRoute(back, rib, up, up, around, around=True))
     return routes
 
 

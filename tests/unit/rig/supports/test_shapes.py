@@ -11,7 +11,7 @@ from scipy.signal import savgol_filter
 from app.formats.scene import Material
 from app.rig.mesh import Mesh
 from app.rig.supports.band import SurfaceStrip, mesh_of, tube
-from app.rig.supports.bands_on_body import evened
+from app.rig.supports.bands_on_body import BandRoute, evened, leg_of, tapering
 from app.rig.supports.chair import ChairFit, chair
 from app.rig.supports.taut_string import PosedTrunk, taut_string
 
@@ -43,6 +43,23 @@ def test_a_string_over_a_ball_is_as_long_as_geometry_says() -> None:
 def test_there_is_no_string_where_there_is_no_body() -> None:
     far = np.array([5.0, 0.0, 0.0])
     assert taut_string(_ball(), far, far + np.array([0.0, 1.0, 0.0]), far + np.array([0.0, 0.0, 1.0])) is None
+
+
+def test_a_band_around_the_ribs_stays_outside_the_body_up_to_its_end() -> None:
+    ball, meet = _ball(), RADIUS_M * np.array([-0.4, -0.2, 1.4])
+    up = np.array([0.0, 1.0, 0.0])
+    route = BandRoute(
+        RADIUS_M * np.array([0.0, 0.3, -1.0]),
+        RADIUS_M * np.array([1.0, 0.0, 0.0]),
+        up,
+        up,
+        tapering([(0.0, 0.01), (2.0, 0.01)]),
+        around=True,
+    )
+    leg = leg_of(ball, route, meet, meet - np.array([0.0, 0.1, 0.0]))
+    assert leg is not None
+    assert np.linalg.norm(leg.centre_m, axis=1).min() > 0.98 * RADIUS_M
+    assert np.allclose(leg.centre_m[-1], meet)
 
 
 def _seen_from_outside(mesh: Mesh) -> float:
