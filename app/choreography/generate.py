@@ -31,7 +31,7 @@ from app.choreography.hands_out_of_body import out_of_body
 from app.choreography.hit_log_odds import Hearing, hearing
 from app.choreography.idling import idling_odds
 from app.choreography.joins import distances_m
-from app.choreography.limbs import unbroken
+from app.choreography.limbs import hinged, unbroken
 from app.choreography.model import ChoreographyModel
 from app.choreography.music_motion_dependence import trust_in
 from app.choreography.phrases import returning_places
@@ -217,7 +217,7 @@ class Choreographer:
         clip = out_of_body(without_haste(clip, self._spins.fastest_rad_s))
         clip, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
         clip = within_limits(clip, falls.standing, self._usual_accelerations(fps), self.usual_change_rad_s(fps))
-        return Dance(clip, first_s, plan.steps, speeds, seams, falls.standing)
+        return Dance(hinged(clip), first_s, plan.steps, speeds, seams, falls.standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:
         """Usual change of motion in the model's captures, for a frame rate (see

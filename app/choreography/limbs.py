@@ -23,6 +23,12 @@ STRETCHED_RAD: Final = 0.15
 """Greatest angle in radians of a knee that would bend backwards, as in a blend of two motions."""
 FOLDED_RAD: Final = 2.6
 """Angle in radians that the bend of a knee exceeds by at most `STRETCHED_RAD`, also in a blend of a kick."""
+SIDEWAYS_RAD: Final = (0.05, 0.04)
+"""Angle in radians of a shank from the plane in which its knee bends that is unchanged, and the most that a greater one
+exceeds it by; 0 to 0.07 in captures.
+"""
+CLEAR: Final = (0.1, 0.3)
+"""Sine of a knee's bend below which its plane is unknown, and above which it is certain."""
 _ACROSS: Final = (1.0, 0.0, 0.0)
 HINGES: Final = {
     "leftLowerLeg": _ACROSS,
@@ -93,6 +99,41 @@ def unbroken(clip: MotionClip) -> MotionClip:
         bent_rad = np.where(bent_rad < -0.5 * np.pi, bent_rad + 2.0 * np.pi, bent_rad)
         back_rad = softly_within(bent_rad, 0.0, FOLDED_RAD) - bent_rad
         shank[:] = quaternion.multiply(shank, quaternion.from_rotation_vector(back_rad[:, None] * np.array(_ACROSS)))
+    return replace(clip, rotations=quaternion.continuous(rotations))
+
+
+def hinged(clip: MotionClip) -> MotionClip:
+    """Return the motion with thighs rotated about their length so that knees bend about their hinges and not sideways,
+    also where legs were placed apart from their thighs. Joints stay where they are, and feet keep their rotations.
+    """
+    world, rotations = clip.world(), clip.rotations.copy()
+    for side in SIDES:
+        thigh_at, shank_at, foot_at = (1 + SEGMENTS.index(f"{side}{part}") for part in ("UpperLeg", "LowerLeg", "Foot"))
+        along = _unit(clip.shape.offsets_m[shank_at - 1])
+        way = quaternion.rotate(
+            quaternion.conjugate(world.rotations[:, thigh_at]),
+            _unit(world.positions_m[:, foot_at] - world.positions_m[:, shank_at]),
+        )
+        aside, back = way[:, 0], np.linalg.norm(way - way @ along[:, None] * along, axis=1)
+        least, more = SIDEWAYS_RAD
+        over = np.maximum(np.arcsin(np.clip(np.abs(aside), 0.0, 1.0)) - least, 0.0)
+        if not over.any():
+            continue
+        kept = np.where(over > 0.0, np.sin(least - more * np.expm1(-over / more)), np.abs(aside))
+        share = np.clip((back - CLEAR[0]) / (CLEAR[1] - CLEAR[0]), 0.0, 1.0)
+        share = share * share * (3.0 - 2.0 * share)
+        wide = np.maximum(back, 1e-9)
+        turn = np.arcsin(np.clip(np.abs(aside) / wide, 0.0, 1.0)) - np.arcsin(np.clip(kept / wide, 0.0, 1.0))
+        turn *= share * np.sign(aside) * np.sign(-way[:, 2])
+        twist = quaternion.from_rotation_vector(turn[:, None] * along)
+        thigh = quaternion.multiply(world.rotations[:, thigh_at], twist)
+        rotations[:, thigh_at - 1] = quaternion.multiply(rotations[:, thigh_at - 1], twist)
+        back_in_place = quaternion.between(way, quaternion.rotate(quaternion.conjugate(twist), way))
+        shank = quaternion.multiply(back_in_place, rotations[:, shank_at - 1])
+        rotations[:, shank_at - 1] = shank
+        rotations[:, foot_at - 1] = quaternion.multiply(
+            quaternion.conjugate(quaternion.multiply(thigh, shank)), world.rotations[:, foot_at]
+        )
     return replace(clip, rotations=quaternion.continuous(rotations))
 
 
