@@ -21,8 +21,8 @@ from app.rig.people.make_person import SKIN, SKIN_MATERIAL, Original, carried, o
 from app.rig.people.person import Person, originals
 from app.rig.people.wardrobe import OutfitChoice, OutfitFacts, linear_colour, tailored_for, wardrobe
 
-SAME_PLACE_M: Final = 1e-4
-"""Distance in metres up to which two vertices are at one place."""
+SAME_PLACE: Final = 1e-5
+"""Distance in texture coordinates up to which two vertices are at one place of the skin."""
 
 
 def dressed_id(id: str, person: Person, choice: OutfitChoice) -> str:
@@ -53,8 +53,7 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
     file = _garments(path, facts.body)
     finished, skin = _finished(character), next(mesh for mesh in character.meshes if mesh.name == SKIN)
     worn = carried(file, body_shapes(), whole_phenotype(person), table.hands, other)
-    if facts.body == finished.id:
-        worn = tuple(_joined(mesh, file, finished, skin) for mesh in worn)
+    worn = tuple(_joined(mesh, file, finished, skin) for mesh in worn)
     own = [_uncovered(mesh, facts, finished) for mesh in character.meshes if mesh.name not in facts.hides]
     own, garments = ([_coloured(mesh, facts, choice, skin) for mesh in meshes] for meshes in (own, worn))
     landmarks = {
@@ -86,15 +85,15 @@ def _joined(mesh: Mesh, file: Original, finished: Character, skin: Mesh) -> Mesh
 
 @lru_cache(maxsize=64)
 def _common_vertices(file: Original, name: str, finished: Character) -> tuple[IndexArray, IndexArray]:
-    """Return the vertices of a mesh of an outfit that are at those of the skin of the finished body it was fitted to,
-    and these.
+    """Return the vertices of a mesh of an outfit that have the texture coordinates of vertices of a finished body's
+    skin, and these. All bodies share the layout of the skin, also those that the outfit was not fitted to.
     """
     from scipy.spatial import cKDTree  # slow to import; needed for few outfits
 
     mesh = next(mesh for mesh in file.character.meshes if mesh.name == name)
     skin = next(mesh for mesh in finished.meshes if mesh.name == SKIN)
-    far_m, nearest = cKDTree(skin.positions_m).query(mesh.positions_m)
-    rows = np.flatnonzero(np.asarray(far_m) < SAME_PLACE_M)
+    far, nearest = cKDTree(skin.uvs).query(mesh.uvs)
+    rows = np.flatnonzero(np.asarray(far) < SAME_PLACE)
     return rows, np.asarray(nearest, np.intp)[rows]
 
 

@@ -113,7 +113,7 @@ def test_bare_skin_continues_the_bodys_own() -> None:
         assert not double, (path.stem, mesh.name)
 
 
-@pytest.mark.parametrize("id", ["child_hina", "cast_lucia", "cast_thomas"])
+@pytest.mark.parametrize("id", ["child_hina", "child_leo", "cast_lucia", "cast_thomas"])
 def test_no_gap_between_a_hand_and_its_bare_forearm(id: str) -> None:
     character = character_in(id, OutfitChoice("polo"))
     forearms = next(mesh for mesh in character.meshes if mesh.name == "skin_arms")
