@@ -28,7 +28,7 @@ from widgets.viewport.geometry import (
 )
 from widgets.viewport.limb_capsules import HELD, LIMBS, SHADING, LimbCapsules
 from widgets.viewport.shape_model import Geometry, LevelsOfDetail
-from widgets.viewport.shapes import MOST_NEAR, Shapes, Solid, draw_sides, looks_same, sides, unmade
+from widgets.viewport.shapes import MOST_NEAR, MOST_NEAR_AT_REST, Shapes, Solid, draw_sides, looks_same, sides, unmade
 from widgets.viewport.texture_maps import MULTISAMPLED, WHOLE_PIXELS, TextureMaps
 
 FINE_PX_PER_M = 620.0
@@ -201,7 +201,8 @@ class Renderer:
             return
         # While the camera moves, drawing waits for no texture; a still picture uses all of them.
         self._maps.left = 1 if emphasis.in_motion else _ALL
-        level = self._levels(stage, camera, matrix, height / HASTY_FACTOR if hasty else height)
+        most = MOST_NEAR if emphasis.in_motion else MOST_NEAR_AT_REST
+        level = self._levels(stage, camera, matrix, height / HASTY_FACTOR if hasty else height, most)
         near = np.flatnonzero((level >= 0) & (level < LEVELS - 1))
         away_m = np.linalg.norm(self._middles_m[near] - camera.eye_m, axis=1)
         coarse = unmade(stage, shapes, near[np.argsort(away_m, kind="stable")])
@@ -279,8 +280,10 @@ class Renderer:
         self._video.draw("triangle_strip")
         gloo.set_state(blend=False)
 
-    def _levels(self, stage: Stage, camera: Camera, matrix: FloatArray, height_px: float) -> IndexArray:
-        """Return the level of detail (N,) of all performers: 0 is the finest, -1 outside the picture."""
+    def _levels(self, stage: Stage, camera: Camera, matrix: FloatArray, height_px: float, most: int) -> IndexArray:
+        """Return the level of detail (N,) of all performers: 0 is the finest, -1 outside the picture; ``most`` have
+        finer ones than the last.
+        """
         middles = self._middles_m
         away = np.linalg.norm(middles - camera.eye_m, axis=1)
         scale = camera.pixels_per_metre(height_px, 1.0) / np.maximum(away - 0.35, 0.2)
@@ -291,7 +294,7 @@ class Renderer:
         outside = (middles @ planes[:, :3].T + planes[:, 3] < -SPREAD_M).any(axis=1)
         unseen = outside | ~stage.shown
         nearest = np.argsort(np.where(unseen, np.inf, away), kind="stable")
-        level[nearest[MOST_NEAR:]] = LEVELS - 1
+        level[nearest[most:]] = LEVELS - 1
         level[unseen] = -1
         return level
 
@@ -443,6 +446,6 @@ class Renderer:
             buffer.set_subdata(face.morphed(weights), offset=0)
         self._morphed[row, level] = (buffer, pose)
         self._morphed.move_to_end((row, level))
-        while len(self._morphed) > 2 * MOST_NEAR:
+        while len(self._morphed) > MOST_NEAR_AT_REST:
             self._morphed.popitem(last=False)
         return buffer

@@ -22,7 +22,9 @@ from widgets.viewport.geometry import (
 from widgets.viewport.shape_model import Geometry, LevelsOfDetail
 
 MOST_NEAR = 12
-"""Greatest number of performers that are drawn with finer levels of detail."""
+"""Greatest number of performers that are drawn with finer levels of detail while the picture moves."""
+MOST_NEAR_AT_REST = 30
+"""The same in a picture that stays or is kept, such as a film's: a school's band."""
 
 
 @dataclass(frozen=True, eq=False)

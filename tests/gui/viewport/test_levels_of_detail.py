@@ -48,14 +48,37 @@ def test_a_still_picture_has_all_details_at_once(panel: ViewportPanel) -> None:
     assert (panel.render_image(320, 180, AT_S, "mouth") == first).all()
 
 
-def test_performers_outside_the_picture_take_no_place_of_near_ones(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(renderer, "MOST_NEAR", 2)
+def test_performers_outside_the_picture_take_no_place_of_near_ones() -> None:
     drawn: Any = object.__new__(renderer.Renderer)
     drawn._middles_m = np.array([[-5.0, 1.0, 6.0], [5.0, 1.0, 6.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [2.0, 1.0, 0.0]])
     camera = Camera(distance_m=8.0)
     stage = SimpleNamespace(shown=np.ones(5, bool))
-    level = drawn._levels(stage, camera, camera.clip_from_world(1.6), 800.0)
+    level = drawn._levels(stage, camera, camera.clip_from_world(1.6), 800.0, 2)
     assert level.tolist() == [-1, -1, 1, 1, 2]
+
+
+def test_more_performers_have_details_in_a_picture_that_stays(
+    panel: ViewportPanel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The nearest ones first."""
+    monkeypatch.setattr(renderer, "MOST_NEAR", 1)
+    # In the small picture of a test nobody would be near without a graphics card.
+    monkeypatch.setattr(renderer, "HASTY_FACTOR", 0.05)
+    seen, levels_of = list[list[int]](), renderer.Renderer._levels
+
+    def counted(drawn: renderer.Renderer, *given: Any) -> Any:
+        level = levels_of(drawn, *given)
+        seen.append([int(one) for one in level])
+        return level
+
+    monkeypatch.setattr(renderer.Renderer, "_levels", counted)
+    panel.render_image(640, 360, AT_S, "mouth")
+    show(panel)
+    panel._session.viewport.set_view("ensemble")
+    panel._session.set_playing(True)
+    panel.canvas_widget().grabFramebuffer()
+    assert sum(0 <= one < 2 for one in seen[0]) > 1
+    assert sum(0 <= one < 2 for one in seen[-1]) <= 1
 
 
 def test_the_window_draws_coarse_figures_until_finer_ones_are_made(
