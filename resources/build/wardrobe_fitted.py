@@ -20,7 +20,7 @@ from character_surface import Surface
 from scipy.interpolate import LinearNDInterpolator
 from scipy.ndimage import gaussian_filter
 from wardrobe_pieces import Wearer, few_bones
-from wardrobe_seated import on_lap
+from wardrobe_seated import OVER_LAP_M, on_lap
 from wardrobe_sewn import moved_to, weights_near
 
 EASE_M, HEM_M = 0.009, 0.050
@@ -104,9 +104,17 @@ def straight_legs(wearer: Wearer, trousers: Surface) -> Surface:
     return moved_to(wearer, replace(trousers, weights=few_bones(weights)), places)
 
 
-def tail(wearer: Wearer, body: Cloth, below: Cloth, heights: np.ndarray, profile: Profile, out_m: float) -> Cloth:
+def tail(
+    wearer: Wearer,
+    body: Cloth,
+    below: Cloth,
+    heights: np.ndarray,
+    profile: Profile,
+    out_m: float,
+    lies_m: float = OVER_LAP_M,
+) -> Cloth:
     """The part of a coat below its waist, from the highest to the lowest of `heights`, `out_m` off a drape; its upper
-    edge goes with the `body` of the coat, its hem with the trousers `below` it, or lies on the lap.
+    edge goes with the `body` of the coat, its hem with the trousers `below` it, or lies `lies_m` over the lap.
     """
     angles = 2 * np.pi * np.arange(AROUND) / (AROUND - 1)
     rows = []
@@ -121,7 +129,7 @@ def tail(wearer: Wearer, body: Cloth, below: Cloth, heights: np.ndarray, profile
     points = np.concatenate(rows)
     legs = weights_near(below, points).reshape(len(heights), AROUND, -1)
     weights = gaussian_filter(legs, (1.0, 2.5, 0.0), mode=("nearest", "wrap", "nearest")).reshape(len(points), -1)
-    weights = on_lap(wearer, below, points, weights, AROUND)
+    weights = on_lap(wearer, below, points, weights, AROUND, lies_m)
     near = smoothstep(points[:, 1], heights[0] - 0.07, heights[0] - 0.01)[:, None]
     weights = near * weights_near(body, points) + (1.0 - near) * weights
     return to_triangles(Cloth(points, few_bones(weights), grid_faces(len(heights), AROUND, closed=False)))
@@ -143,13 +151,13 @@ def going_with(wearer: Wearer, outer: Surface, below: Cloth, from_m: float) -> S
     return moved_to(wearer, moving, cloth.points)
 
 
-def over_lap(wearer: Wearer, body: Cloth, below: Cloth) -> Cloth:
-    """A grid about the hips that lies on the lap of a seated player in the trousers `below` it, for the weights of
-    jackets and shirts."""
+def over_lap(wearer: Wearer, body: Cloth, below: Cloth, lies_m: float = OVER_LAP_M) -> Cloth:
+    """A grid about the hips that lies `lies_m` over the lap of a seated player in the trousers or skirt `below` it,
+    for the weights of jackets and shirts."""
     waist, hem_m = wearer.tailoring.belt_m + LAP_M, float(body.points[:, 1].min()) - 0.01
     drape = smoothed(hang(wearer.tailoring.trunk, 0.30), 2.0, 1.5)
     rows = int(np.ceil((waist - hem_m) / 0.02)) + 1
-    return tail(wearer, body, below, np.linspace(waist, hem_m, rows), drape, LAP_OUT_M)
+    return tail(wearer, body, below, np.linspace(waist, hem_m, rows), drape, LAP_OUT_M, lies_m)
 
 
 def over_throat(wearer: Wearer, points: np.ndarray, linen: np.ndarray) -> np.ndarray:

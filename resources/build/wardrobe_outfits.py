@@ -13,6 +13,7 @@ from wardrobe_marching import belt, cuffs, epaulettes, shako, stripes
 from wardrobe_pieces import ACCENT, MAIN, SECOND, Wearer, all_of, few_bones, linen_apart, piece, skin
 from wardrobe_polo import polo_shirt
 from wardrobe_sailor import sailor_collar, scarf
+from wardrobe_seated import OVER_LAP_M
 from wardrobe_sewn import SKIRT_BONES, Skirt, bow_tie, garment, moved_to, over, plain, shell, skirt, throat
 from wardrobe_shirt import own_shirt
 from wardrobe_tunic import TUNIC_M, buttons, close_dress, front_strip, ribbon, stand_collar, tunic, tunic_drape
@@ -22,6 +23,8 @@ Pieces = list[tuple[Surface, str]]
 BLACK, NEAR_BLACK, WHITE = (0.012, 0.012, 0.014), (0.018, 0.018, 0.021), (0.80, 0.80, 0.79)
 NAVY, GOLD = (0.012, 0.016, 0.042), (0.55, 0.36, 0.10)
 OWN = ("shirt", "trousers")
+OVER_PLEATS_M = 0.024
+"""Distance by which a jacket lies over a pleated skirt on the lap."""
 ANKLE_M = 0.18
 """Height over the sole of the base mesh up to which legs show under a long dress in a stride."""
 
@@ -131,9 +134,9 @@ def cloth_of(wearer: Wearer, surface: Surface) -> Cloth:
     return Cloth(wearer.fit.to_t_pose(surface.positions, surface.weights), surface.weights, surface.all_triangles())
 
 
-def on_lap(wearer: Wearer, jacket: Surface, legs: Surface) -> Surface:
-    """A jacket that lies on the lap of a seated player in trousers."""
-    lap = over_lap(wearer, cloth_of(wearer, jacket), cloth_of(wearer, legs))
+def on_lap(wearer: Wearer, jacket: Surface, legs: Surface, lies_m: float = OVER_LAP_M) -> Surface:
+    """A jacket that lies on the lap of a seated player in trousers or a skirt."""
+    lap = over_lap(wearer, cloth_of(wearer, jacket), cloth_of(wearer, legs), lies_m)
     return going_with(wearer, jacket, lap, wearer.tailoring.belt_m + LAP_M)
 
 
@@ -192,7 +195,7 @@ def _blazer_and_skirt(wearer: Wearer) -> Pieces:
 def _roomy_jacket(wearer: Wearer, below: Surface) -> Surface:
     """A jacket that leaves room for a skirt and goes with it."""
     cloth, waist = cloth_of(wearer, below), wearer.tailoring.belt_m
-    jacket = going_with(wearer, suit_jacket(wearer), cloth, waist - 0.02)
+    jacket = on_lap(wearer, suit_jacket(wearer), below, OVER_PLEATS_M)
     return moved_to(wearer, jacket, over(wearer, cloth_of(wearer, jacket), cloth, waist + 0.05, 0.016, 0.05).points)
 
 

@@ -15,7 +15,7 @@ from wardrobe_tunic import buttons, ribbon
 
 SLEEVE = 0.36
 """Length of the sleeve as a share of the arm from shoulder to wrist."""
-HEM_M, HANGS_M = 0.085, 0.012
+HEM_M, HANGS_M = 0.075, 0.012
 """Depth of the hem under the hip joints, and distance of the cloth from the drape of the trunk."""
 RIB_M, RIB_LIFT_M = 0.022, 0.0022
 BUTTONS_M = (-0.018, -0.062, -0.106)

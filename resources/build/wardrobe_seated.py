@@ -17,6 +17,8 @@ from wardrobe_pieces import Wearer
 
 SEAT_RAD = np.radians(86.0)
 LIES_M = 0.010
+OVER_LAP_M = 0.023
+"""Distance of the front of coats and shirts from a lap: thighs of short players rise towards the knees."""
 SLICE_M, ASIDE_M = 0.02, 0.025
 """Half of the slice of the body that a place of the skirt lies on, and distance beyond its sides within which cloth
 still lies on it."""
@@ -202,17 +204,19 @@ def seated_weights(
     return _with_legs(wearer, weights, found, left)
 
 
-def on_lap(wearer: Wearer, below: Cloth, points: np.ndarray, weights: np.ndarray, columns: int) -> np.ndarray:
-    """Weights (N, J) of the grid of a coat below its waist, the front of which lies on the lap of a seated player in
-    the trousers `below` it: it bends forwards where it meets them."""
+def on_lap(
+    wearer: Wearer, below: Cloth, points: np.ndarray, weights: np.ndarray, columns: int, lies_m: float = OVER_LAP_M
+) -> np.ndarray:
+    """Weights (N, J) of the grid of a coat below its waist, the front of which lies `lies_m` over the lap of a seated
+    player in the trousers or skirt `below` it: it bends forwards where it meets them."""
     fit = wearer.fit
     before, own = _of_legs(wearer, weights), _of_legs(wearer, below.weights)
     body = _blend(wearer, below.points, own)[own.sum(axis=1) > 0.5]
     ahead = points[:, 2] - fit.positions_t[fit.index("leftUpperLeg")][2]
-    lap = _spanned(body, points, 1.0) + LIES_M
+    lap = _spanned(body, points, 1.0) + lies_m
     under = np.nan_to_num(np.maximum(lap - points[:, 1], 0.0))
     lies = points + under[:, None] * [0.0, 0.0, 1.0]
-    wanted = np.stack([_spanned(body, lies, 1.0) + LIES_M, lies[:, 2]], axis=1)
+    wanted = np.stack([_spanned(body, lies, 1.0) + lies_m, lies[:, 2]], axis=1)
     wanted[(under == 0.0) | (ahead < 0.0)] = np.nan
     share = smoothstep(ahead, 0.0, 0.06)[:, None]
     found = before + share * (_smoothed(_laid(wearer, points, before, wanted), columns) - before)
