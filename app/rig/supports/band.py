@@ -116,7 +116,7 @@ def band(
     half_m: FloatArray,
     thick_m: FloatArray,
     weights: Sequence[Shares],
-    over_m: float,
+    over_m: FloatArray,
     material: int = 0,
     edges_m: tuple[FloatArray, FloatArray] | None = None,
 ) -> list[SurfaceStrip]:
@@ -131,14 +131,14 @@ def band(
         Half its width, and its thickness.
     weights : sequence of shares
         Skin weights of each of the R points.
-    over_m : float
+    over_m : (R,) float64
         Distance of the inner face from the surface below it.
     material : int
         Index of the material of its surfaces.
     edges_m : two of (R, 3), optional
         Points of both edges; absent: the middle line moved by half the width.
     """
-    raised = outwards * over_m
+    raised = outwards * over_m[:, None]
     if edges_m is None:
         edges_m = (centre_m + across * half_m[:, None], centre_m - across * half_m[:, None])
     one, other = edges_m[0] + raised, edges_m[1] + raised

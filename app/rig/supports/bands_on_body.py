@@ -14,10 +14,12 @@ from app.rig.supports.band import Shares, SurfaceStrip, band
 from app.rig.supports.model import StrapLeg
 from app.rig.supports.taut_string import PosedTrunk, TautString, taut_string
 
-OVER_M = 0.0025
+OVER_M = 0.0045
 """Height in metres of a band over clothes, which yield a little more than the band when the trunk bends."""
 _ON_BODY, _FREE = 30, 9
 """Number of rings of a band on the body, and beyond it."""
+_AROUND_M = 0.008
+"""Additional height in metres of a band around the ribs where it leaves the body, in front of a belly that moves."""
 _SMOOTHED = 3
 _EVEN = 7
 """Number of rings over which a band is smoothed; odd."""
@@ -112,8 +114,11 @@ class LegShape:
             inner, outer = outer, inner
         half = self.route.half_m(at)
         thick = np.full(len(at), self.route.thick_m)
+        over = np.full(len(at), OVER_M)
+        if self.route.around:
+            over += _AROUND_M * np.sin(0.5 * np.pi * at)
         return band(
-            self.centre_m, across, self.outwards, half, thick, shares, OVER_M, self.route.material, (inner, outer)
+            self.centre_m, across, self.outwards, half, thick, shares, over, self.route.material, (inner, outer)
         )
 
 

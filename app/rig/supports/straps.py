@@ -290,9 +290,8 @@ def _seat_strap(sitter: Sitter, hooks: Sequence[Hook], hook_m: FloatArray, numbe
         _SEAT_HALF_M,
         np.interp(np.arange(len(centre)), [4, 13], [_SEAT_HALF_M, 0.008]),
     )
-    strips = band(
-        centre, _unit(np.cross(ways, outwards)), outwards, widths, np.full(len(centre), 0.0025), shares, 0.0005, _WEB
-    )
+    thick, over = np.full(len(centre), 0.0025), np.full(len(centre), 0.0005)
+    strips = band(centre, _unit(np.cross(ways, outwards)), outwards, widths, thick, shares, over, _WEB)
     strips.append(_loop(hook_m, _unit(edge - hook_m), [(4, 1.0)]))
     return MadeStrap(strap, mesh_of("seat_strap", strips, _MATERIALS), tuple(bones))
 

@@ -60,6 +60,11 @@ def test_a_band_around_the_ribs_stays_outside_the_body_up_to_its_end() -> None:
     assert leg is not None
     assert np.linalg.norm(leg.centre_m, axis=1).min() > 0.98 * RADIUS_M
     assert np.allclose(leg.centre_m[-1], meet)
+    # In front of a belly, which moves, a band needs room.
+    leaves = leg.centre_m[leg.on_body - 1]
+    made = np.concatenate([strip.points_m.reshape(-1, 3) for strip in leg.strips({0: 0}, 1)])
+    near = made[np.linalg.norm(made - leaves, axis=1) < 0.02]
+    assert np.linalg.norm(near, axis=1).min() > RADIUS_M + 0.010
 
 
 def _seen_from_outside(mesh: Mesh) -> float:
