@@ -247,12 +247,15 @@ def test_a_conductor_sees_neither_the_thighs_nor_the_inside_of_a_skirt(outfit: s
         ("marching", "tunic", "trousers"),
         ("school_blazer", "jacket", "trousers"),
         ("polo", "shirt", "trousers"),
+        ("school_blazer", "jacket", "skirt"),
     ],
 )
 @pytest.mark.parametrize("build", ["adult", "child", "heavy"])
 def test_the_front_of_a_seated_garment_lies_on_the_lap(outfit: str, upper: str, lower: str, build: str) -> None:
     """Between the thighs its hem is about as high as their tops."""
     people = {"adult": "man_adult", "child": "child_sota", "heavy": "cast_daichi"}
+    if lower == "skirt":
+        people = {"adult": "woman_adult", "child": "child_nia", "heavy": "cast_elena"}
     character = character_in(people[build], OutfitChoice(outfit))
     garment, below = mesh_named(character, upper), mesh_named(character, lower)
     x, y, z = garment.positions_m.T
