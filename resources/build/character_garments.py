@@ -155,8 +155,9 @@ def neck_ring(tailoring: Tailoring, cloth: Cloth, height_m: float, angles: np.nd
     return np.concatenate([found, found[:1]])
 
 
-def collar(tailoring: Tailoring, shirt: Cloth, front: Front, neck: Cloth) -> Cloth:
-    """A turned-down collar on the shirt's neck seam, buttoned, its points spread; it stands about a `neck` of skin."""
+def collar(tailoring: Tailoring, shirt: Cloth, front: Front, neck: Cloth, longer_m: float = 0.0) -> Cloth:
+    """A turned-down collar on the shirt's neck seam, buttoned, its points spread; it stands about a `neck` of skin, and
+    falls `longer_m` lower behind."""
     columns = np.linspace(-np.pi, np.pi, 73)
     outward = np.stack([np.sin(columns), np.zeros(73), -np.cos(columns)], axis=1)
     base = neck_ring(tailoring, tailoring.suit, 0.0, columns)
@@ -172,10 +173,11 @@ def collar(tailoring: Tailoring, shirt: Cloth, front: Front, neck: Cloth) -> Clo
     proud = outward * (0.001 + 0.006 * throat)
     rows = [base - up * 0.008 - outward * 0.001, base + proud, base + rise * 0.5 + proud, top]
     rows += [top + up * 0.0025 + outward * 0.0025, top + outward * 0.0055]
-    length = 0.036 + 0.026 * throat
+    length = 0.036 + 0.026 * throat + longer_m * (1.0 - throat)
     spread = np.sign(columns)[:, None] * np.array([1.0, 0.0, 0.0]) * 0.034 * throat**2
     for share in (0.35, 0.7, 1.0):
-        fall = top + outward * (0.0055 + 0.003 * share) - rise * (length / 0.036) * share + spread * share
+        off = outward * (0.0055 + 0.003 * share + 0.7 * longer_m * (1.0 - throat) * share)
+        fall = top + off - rise * (length / 0.036) * share + spread * share
         lying = front(fall[:, 0], fall[:, 1])
         lying = np.where(np.isnan(lying), -1.0, lying)
         fall[:, 2] = np.where(throat[:, 0] > 0.02, np.maximum(fall[:, 2], lying + 0.004), fall[:, 2])

@@ -17,6 +17,8 @@ SLEEVE = 0.36
 """Length of the sleeve as a share of the arm from shoulder to wrist."""
 HEM_M, HANGS_M = 0.075, 0.012
 """Depth of the hem under the hip joints, and distance of the cloth from the drape of the trunk."""
+BEHIND_M = 0.016
+"""Length by which the collar hides the edge of the shirt's back behind."""
 RIB_M, RIB_LIFT_M = 0.022, 0.0022
 BUTTONS_M = (-0.018, -0.062, -0.106)
 
@@ -74,7 +76,7 @@ def polo_shirt(wearer: Wearer, legs: Cloth) -> tuple[Sewn, list[Sewn], float]:
     sewn = replace(sewn, cloth=own)
     under = neck_band(wearer, -0.06, 0.012, 0.0008, 0.10)
     front = front_of(join(own, under.cloth))
-    turned = collar(tailoring, own, front, neck_of(wearer))
+    turned = collar(tailoring, own, front, neck_of(wearer), BEHIND_M)
     top = float(tailoring.collar_point[1]) - 0.075
     path = np.stack([np.full(24, 0.0), np.linspace(top, top - 0.15, 24)], axis=1)
     strip = ribbon(own, path, 0.014, STRIP_M)
