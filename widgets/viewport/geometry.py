@@ -97,7 +97,8 @@ def supports_geometry(supports: Supports, first_bone: int) -> Geometry:
 def _moving_with(geometry: Geometry, first_bone: int) -> Geometry:
     """Return a geometry with its bone indices increased by ``first_bone``, for the shared table of all bones."""
     surfaces = geometry.surfaces.copy()
-    surfaces["a_bones"] += first_bone * (surfaces["a_weights"] > 0.0)
+    for bones, weights in (("a_bones", "a_weights"), ("a_more_bones", "a_more_weights")):
+        surfaces[bones] += first_bone * (surfaces[weights] > 0.0)
     return replace(geometry, surfaces=surfaces)
 
 

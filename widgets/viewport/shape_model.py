@@ -12,13 +12,17 @@ import numpy.typing as npt
 from app.arrays import SingleArray
 from app.formats.scene import Material
 
-BONES_PER_VERTEX = 4
+BONES_PER_VERTEX = 6
+"""Greatest number of bones that move a vertex, of which the first ``FIRST_BONES`` have attributes of their own."""
+FIRST_BONES = 4
 
 SHAPE = np.dtype([("a_position", np.float32, 3), ("a_normal", np.float32, 3)])
 SURFACE = np.dtype(
     [
-        ("a_bones", np.float32, BONES_PER_VERTEX),
-        ("a_weights", np.float32, BONES_PER_VERTEX),
+        ("a_bones", np.float32, FIRST_BONES),
+        ("a_weights", np.float32, FIRST_BONES),
+        ("a_more_bones", np.float32, BONES_PER_VERTEX - FIRST_BONES),
+        ("a_more_weights", np.float32, BONES_PER_VERTEX - FIRST_BONES),
         ("a_color", np.float32, 4),
         ("a_metallic", np.float32),
     ]

@@ -16,7 +16,7 @@ from app.formats.scene import Material
 from app.identity_cache import IdentityCache
 from app.rig.mesh import Mesh, plain_materials
 from widgets.viewport.normals_across_seams import SplitMesh, numbered, row_keys, split_mesh, turned_morphs
-from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
+from widgets.viewport.shape_model import BONES_PER_VERTEX, FIRST_BONES, SHAPE, SURFACE, Geometry, MorphTargets, numbers
 from widgets.viewport.texture_at_vertices import mostly_filled, pictured, placed
 from widgets.viewport.texture_groups import texture_groups, textured_looks, uv_islands
 
@@ -74,8 +74,10 @@ class WholeFigure:
             self._shape["a_position"][own] = mesh.positions_m.take(split.vertices, axis=0)
             self._shape["a_normal"][own] = mesh.normals.take(split.vertices, axis=0)
             bones, weights = _strongest(split)
-            self._surface["a_bones"][own, : bones.shape[1]] = bones
-            self._surface["a_weights"][own, : bones.shape[1]] = weights
+            for name, more, values in (("a_bones", "a_more_bones", bones), ("a_weights", "a_more_weights", weights)):
+                first, others = values[:, :FIRST_BONES], values[:, FIRST_BONES:]
+                self._surface[name][own, : first.shape[1]] = first
+                self._surface[more][own, : others.shape[1]] = others
             plains = plain_materials(mesh)
             colors = np.array([(*material.base_color[:3], material.roughness) for material in plains], np.float32)
             metallic = np.array([material.metallic for material in plains], np.float32)

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from app.rig.characters.character_library import bundled_characters, character_named
+from app.rig.characters.dressed_characters import character_in
+from app.rig.people.wardrobe import OutfitChoice
 from instrument_maps.load import bundled_maps
 from tests.support.models import bundled_instrument
 from widgets.viewport.geometry import (
@@ -20,7 +22,7 @@ from widgets.viewport.geometry import (
     stand,
 )
 from widgets.viewport.normals_across_seams import row_keys
-from widgets.viewport.shape_model import Geometry, LevelsOfDetail
+from widgets.viewport.shape_model import FIRST_BONES, Geometry, LevelsOfDetail
 
 CHARACTERS = tuple(bundled_characters())
 
@@ -33,6 +35,24 @@ def levels(name: str) -> LevelsOfDetail:
 def area(geometry: Geometry) -> float:
     places = geometry.shape["a_position"].astype(np.float64)[geometry.triangles]
     return float(np.linalg.norm(np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]), axis=1).sum() / 2)
+
+
+def test_a_skirt_that_five_bones_move_keeps_all_of_them_at_every_level() -> None:
+    """Thighs would come through it on a chair."""
+    character = character_in("woman_adult", OutfitChoice("school_blazer"))
+    skirt = next(mesh for mesh in character.meshes if mesh.name == "skirt")
+    assert ((skirt.weights > 0.0).sum(axis=1) > FIRST_BONES).any()
+    wanted = {position.tobytes(): row for position, row in zip(skirt.positions_m, skirt.weights, strict=True)}
+    for level in character_levels(character):
+        surface = level.surface
+        shares = np.concatenate([surface["a_weights"], surface["a_more_weights"]], axis=1)
+        of_skirt = [
+            (shares[vertex], wanted[position.tobytes()])
+            for vertex, position in enumerate(level.shape["a_position"])
+            if position.tobytes() in wanted
+        ]
+        assert len(of_skirt) > 100
+        assert max(np.abs(np.sort(one)[::-1][:5] - np.sort(other)[::-1][:5]).max() for one, other in of_skirt) < 1e-3
 
 
 @pytest.mark.parametrize("name", CHARACTERS)
@@ -75,8 +95,11 @@ def test_coarser_levels_are_smaller_but_cover_the_same_body(name: str) -> None:
 @pytest.mark.parametrize("name", CHARACTERS)
 def test_weights_sum_to_one_and_name_the_characters_own_joints(name: str) -> None:
     for level in levels(name):
-        assert level.surface["a_weights"].sum(axis=1) == pytest.approx(1.0, abs=1e-5)
-        assert level.surface["a_bones"].max() < len(character_named(name).skeleton.names)
+        surface = level.surface
+        shares = surface["a_weights"].sum(axis=1) + surface["a_more_weights"].sum(axis=1)
+        assert shares == pytest.approx(1.0, abs=1e-5)
+        for bones in ("a_bones", "a_more_bones"):
+            assert surface[bones].max() < len(character_named(name).skeleton.names)
 
 
 @pytest.mark.parametrize("name", CHARACTERS)

@@ -16,7 +16,7 @@ from widgets.viewport.shape_model import SHAPE, SURFACE, Geometry, MorphTargets
 def level(count: int, face: bool, shared: bool) -> Geometry:
     random = np.random.default_rng(count)
     shape = random.random((count, 6), np.float32).view(SHAPE).reshape(-1)
-    surfaces = random.random((3 if shared else count, 13), np.float32).view(SURFACE).reshape(-1)
+    surfaces = random.random((3 if shared else count, SURFACE.itemsize // 4), np.float32).view(SURFACE).reshape(-1)
     vertices, deltas = np.arange(5, dtype=np.int32), random.random((5, 6), np.float32)
     made = MorphTargets(
         6, ("a", "b"), ((vertices, deltas), (vertices[:0], deltas[:0])), random.random((6, 6), np.float32)

@@ -14,6 +14,8 @@ attribute vec3 a_position;
 attribute vec3 a_normal;
 attribute vec4 a_bones;
 attribute vec4 a_weights;
+attribute vec2 a_more_bones;
+attribute vec2 a_more_weights;
 attribute vec4 a_color;
 attribute float a_metallic;
 attribute float a_row;
@@ -64,6 +66,16 @@ vec2 shaded(vec3 p, vec3 n, float row) {
     return open;
 }
 
+// Adds a bone's share to the rows of the matrix that moves the vertex.
+void moved(float bone, float weight, float row, inout vec4 x, inout vec4 y, inout vec4 z) {
+    if (weight > 0.0) {
+        float column = 3.0 * bone;
+        x += weight * texel(column, row);
+        y += weight * texel(column + 1.0, row);
+        z += weight * texel(column + 2.0, row);
+    }
+}
+
 void main() {
     float row = u_row + u_batched * a_row;
     vec4 state = texel(u_bones_size.x - 1.0, row);
@@ -73,13 +85,10 @@ void main() {
     }
     vec4 x = vec4(0.0), y = vec4(0.0), z = vec4(0.0);
     for (int i = 0; i < 4; i++) {
-        float weight = a_weights[i];
-        if (weight > 0.0) {
-            float column = 3.0 * a_bones[i];
-            x += weight * texel(column, row);
-            y += weight * texel(column + 1.0, row);
-            z += weight * texel(column + 2.0, row);
-        }
+        moved(a_bones[i], a_weights[i], row, x, y, z);
+    }
+    for (int i = 0; i < 2; i++) {
+        moved(a_more_bones[i], a_more_weights[i], row, x, y, z);
     }
     vec4 rest = vec4(a_position, 1.0);
     v_position = vec3(dot(x, rest), dot(y, rest), dot(z, rest));
