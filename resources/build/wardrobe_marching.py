@@ -16,9 +16,9 @@ from wardrobe_tunic import TUNIC_M, tunic_drape
 OVER_EYES_M, HAIR_M, SHAKO_M = 0.052, 0.020, 0.150
 """Height of a shako's rim over the eyes, room for hair about the head, and its height."""
 PEAK_M, AROUND = 0.048, 48
-STRIPE_HALF_M, LIFT_M = 0.014, 0.0025
+STRIPE_HALF_M, LIFT_M = 0.014, 0.0040
 CUFF_M = 0.075
-BELT_M = 0.007
+BELT_M = 0.010
 
 
 def _rigid(wearer: Wearer, rings: np.ndarray, bone: str, *, closed: bool = True) -> Cloth:
