@@ -46,6 +46,8 @@ _BELOW_M, _PROBES = 0.004, 16
 _TESTED: Final = 24
 """Number of points whose winding numbers are computed at a time."""
 _MOST_TESTED: Final = 480
+_CORNERS: Final = 8
+"""Number of the corners nearest to a point whose triangles are asked for the nearest one."""
 _MOST_FRAMES, _APART_S, _SAMPLES, _CHUNK = 12, 0.25, 8, 2048
 
 
@@ -126,20 +128,47 @@ class _TrunkSurface:
         points_m = points_m[((points_m > low) & (points_m < high)).all(axis=1)]
         if not len(points_m):
             return 0.0
-        away, nearest = cKDTree(places_m).query(points_m)
+        tree = cKDTree(places_m)
+        away, nearest = tree.query(points_m)
         inside = -np.einsum("pi,pi->p", points_m - places_m[nearest], self.normals(places_m)[nearest])
         aside = np.sqrt(np.maximum(away**2 - inside**2, 0.0))
         deep = np.flatnonzero((aside < _ASIDE_M) & (inside > 0.0))
         deep = deep[np.argsort(-inside[deep], kind="stable")]
         # Of very many points of open sheets, some of all depths are tested.
         deep = deep[:: 1 + len(deep) // _MOST_TESTED]
-        corners_m = places_m[self._triangles]
+        corners_m, deepest_m = places_m[self._triangles], 0.0
         for first in range(0, len(deep), _TESTED):
             tested = deep[first : first + _TESTED]
-            enclosed = np.flatnonzero(_winding_numbers(points_m[tested], corners_m) > _ENCLOSED)
+            tested = tested[inside[tested] > deepest_m]
+            if not len(tested):
+                break
+            enclosed = tested[_winding_numbers(points_m[tested], corners_m) > _ENCLOSED]
             if len(enclosed):
-                return float(inside[tested[enclosed[0]]])
-        return 0.0
+                # Large triangles, as of a belt, are nearer than their corners.
+                around = tree.query(points_m[enclosed], k=min(_CORNERS, len(places_m)))[1]
+                beside = np.isin(self._triangles, around).any(axis=1)
+                below_m = _distances_m(points_m[enclosed], corners_m[beside])
+                deepest_m = max(deepest_m, float(np.minimum(inside[enclosed], below_m).max()))
+        return deepest_m
+
+
+def _distances_m(points_m: FloatArray, corners_m: FloatArray) -> FloatArray:
+    """Return the distances (P,) of P points (P, 3) from the nearest of T triangles (T, 3, 3)."""
+    to_edges = []
+    for corner in range(3):
+        begin_m, along_m = corners_m[:, corner], corners_m[:, (corner + 1) % 3] - corners_m[:, corner]
+        from_m = points_m[:, None] - begin_m
+        share = quaternion.dot(from_m, along_m) / np.maximum(quaternion.dot(along_m, along_m), 1e-18)
+        to_edges.append(np.linalg.norm(from_m - np.clip(share, 0.0, 1.0)[:, :, None] * along_m, axis=2))
+    across = np.cross(corners_m[:, 1] - corners_m[:, 0], corners_m[:, 2] - corners_m[:, 0])
+    normals = across / np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-18)
+    beside = np.ones(to_edges[0].shape, np.bool_)
+    for corner in range(3):
+        inwards = np.cross(normals, corners_m[:, (corner + 1) % 3] - corners_m[:, corner])
+        beside &= quaternion.dot(points_m[:, None] - corners_m[:, corner], inwards) >= 0.0
+    over_m = np.abs(quaternion.dot(points_m[:, None] - corners_m[:, 0], normals))
+    distances_m: FloatArray = np.minimum(np.minimum.reduce(to_edges), np.where(beside, over_m, np.inf)).min(axis=1)
+    return distances_m
 
 
 def _winding_numbers(points_m: FloatArray, corners_m: FloatArray) -> FloatArray:

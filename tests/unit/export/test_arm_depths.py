@@ -118,3 +118,22 @@ def test_depths_below_an_open_trim_are_those_of_the_trunk() -> None:
     way = np.tile([0.0, 0.0, TRUNK_M + ARM_M - 0.03], (FRAMES, 1))
     found = judged(way, trim=sheet(TRUNK_M + 0.002, -1.0))
     assert found.depth_mm == pytest.approx(30.0, abs=1.5)
+
+
+def belt(at_m: float) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices in metres, and triangles of a closed bar before the trunk, 4 cm thick and 4.4 cm high, without vertices
+    between its edges."""
+    across_m = np.linspace(-0.1, 0.1, 11)
+    ring = [(-0.022, 0.0), (-0.022, 0.04), (0.022, 0.04), (0.022, 0.0)]
+    places = np.array([[x, y, at_m + z] for x in across_m for y, z in ring])
+    quads = [
+        (4 * k + c, 4 * k + (c + 1) % 4, 4 * k + 4 + (c + 1) % 4, 4 * k + 4 + c) for k in range(10) for c in range(4)
+    ]
+    quads += [(3, 2, 1, 0), (40, 41, 42, 43)]
+    return places, np.array([[a, b, c] for a, b, c in ((q[0], q[k], q[k + 1]) for q in quads for k in (1, 2))])[:, ::-1]
+
+
+def test_the_depth_below_large_triangles_is_that_from_their_middle() -> None:
+    """The corners of a belt's front are farther away than the front."""
+    way = np.tile([0.0, 0.0, 0.28 + 0.04 + ARM_M - 0.005], (FRAMES, 1))
+    assert judged(way, trim=belt(0.28)).depth_mm == pytest.approx(5.0, abs=0.7)
