@@ -45,14 +45,25 @@ def test_drums_of_both_are_like_those_of_the_dancers_and_are_for_both() -> None:
     assert np.ptp(unlike, axis=1).max() < 0.3
 
 
+@pytest.mark.parametrize(("sound", "own"), [(7, 0), (21, 1)])
+@pytest.mark.parametrize("unheard", [2, 40])
+def test_unheard_drums_do_not_drown_a_sound_that_names_the_dancer(sound: int, own: int, unheard: int) -> None:
+    between = struck([sound])
+    music = replace(between, symbols=np.where(between.symbols == 1, unheard, between.symbols))
+    assert DRUMS.likeness(music)[0].min() > 0.8
+    assert shares(music)[:, own].min() > 0.99
+
+
 def test_other_drums_let_everyone_dance_as_much_as_was_captured() -> None:
     plain = beaten(BEATS)
+    heard = drums_of(CLIPS, [(1, 1, 7)] * 40 + [(1, 7, 7)] * 40, 2)
     # Nearer to the drums of the one than of the other, and like those of none.
     other = replace(plain, symbols=np.full(len(plain.symbols), 7))
-    like, unlike = DRUMS.likeness(other)
+    like, unlike = heard.likeness(other)
     assert like.max() < 0.01
-    assert (unlike[:, 1] - unlike[:, 0]).min() > 1.0
-    assert shares(other) == pytest.approx(np.tile((0.25, 0.75), (BEATS, 1)), abs=0.02)
+    assert (unlike[:, 0] - unlike[:, 1]).min() > 0.5
+    found = take_shares(heard, other, other.beats_s, CLIPS, np.where(CLIPS == 0, 1.0, 3.0)).shares
+    assert found == pytest.approx(np.tile((0.25, 0.75), (BEATS, 1)), abs=0.02)
 
 
 def test_sounds_that_none_heard_tell_nothing() -> None:
