@@ -16,19 +16,25 @@ from app.choreography.rhythm import SYMBOLS, Rhythm
 
 OF_ALL: Final = 2.0
 """Weight of the sounds heard with any dancer in the estimate for one dancer, as a number of sounds."""
+STRUCK: Final = 0.6
+"""Share of a hit's log odds at its own time; the rest is spread over the time until the next sound."""
+LASTS_S: Final = 1.0
+"""Longest time in seconds over which the log odds of a hit are spread."""
+PARTS: Final = 4
+"""Number of equal parts of the spread share."""
 SAME_S: Final = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
 class HeardHits:
-    """The H drum hits of a piece, with the log odds of each sounding during each of S segments.
+    """The drum hits of a piece as H parts of hits, with the log odds of each sounding during each of S segments.
 
     Attributes
     ----------
     times_s : (H,) float64
-        Ascending times of the hits in seconds.
+        Ascending times of the parts in seconds.
     summed : (H + 1, S) float64
-        Cumulative sums of the log odds of all earlier hits for each segment.
+        Cumulative sums of the log odds of all earlier parts for each segment.
     """
 
     times_s: FloatArray
@@ -91,8 +97,8 @@ class Hearing:
     melody: SoundOdds
 
     def hits(self, rhythm: Rhythm, melody: float, *, any_dancer: bool = True) -> HeardHits:
-        """Return the hits of a piece with their log odds for each segment, weighted by strength, regardless of their
-        position within a segment.
+        """Return the hits of a piece with their log odds for each segment, weighted by strength and partly spread
+        over the time until the next sound (`STRUCK`), regardless of their position within a segment.
 
         Parameters
         ----------
@@ -102,14 +108,31 @@ class Hearing:
             Whether sounds decide about the dancer and not only about the motion.
         """
         struck = self.percussion.of_hits(rhythm, any_dancer=any_dancer)
-        times_s, scores = rhythm.hits_s, rhythm.strengths[:, None] * struck
+        times_s, scores = _spread(rhythm.hits_s, rhythm.strengths[:, None] * struck)
         tune = rhythm.melody
         if tune is not None and melody:
             beside = melody * tune.strengths[:, None] * self.melody.of_hits(tune, any_dancer=any_dancer)
-            order = np.argsort(np.concatenate([times_s, tune.hits_s]), kind="stable")
-            times_s = np.concatenate([times_s, tune.hits_s])[order]
-            scores = np.concatenate([scores, beside])[order]
-        return HeardHits(times_s, np.concatenate([np.zeros((1, scores.shape[1])), np.cumsum(scores, axis=0)]))
+            tune_s, beside = _spread(tune.hits_s, beside)
+            times_s, scores = np.concatenate([times_s, tune_s]), np.concatenate([scores, beside])
+        order = np.argsort(times_s, kind="stable")
+        summed = np.cumsum(scores[order], axis=0)
+        return HeardHits(times_s[order], np.concatenate([np.zeros((1, scores.shape[1])), summed]))
+
+
+def _spread(times_s: FloatArray, scores: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Divide each of H hits into a part at its own time and others until the next sound, so that motions between two
+    hits follow the last one: the times (P,) of the parts, and their log odds (P, S).
+
+    Hits without information, such as those of sounds that were never learned, are left out, and end no other sound.
+    """
+    telling = scores.any(axis=1)
+    times_s, scores = times_s[telling], scores[telling]
+    sounding_s, at = np.unique(times_s, return_inverse=True)
+    lasts_s = np.minimum(np.diff(sounding_s, append=np.inf), LASTS_S)[at]
+    after = np.append(0.0, (np.arange(PARTS) + 0.5) / PARTS)
+    shares = np.append(STRUCK, np.full(PARTS, (1.0 - STRUCK) / PARTS))
+    parts_s = times_s[:, None] + lasts_s[:, None] * after
+    return parts_s.ravel(), (scores[:, None, :] * shares[:, None]).reshape(-1, scores.shape[1])
 
 
 def hearing(model: ChoreographyModel, trust: float = 1.0) -> Hearing:

@@ -33,7 +33,9 @@ STRETCH: Final = (3, 7)
 LEAST: Final = 20
 """Least number of motions for the test."""
 TRUSTED_BITS: Final = 0.5
-"""Information in bits per motion from which sounds are trusted completely."""
+"""Information in bits per motion at which sounds have their usual weight; it is proportional to the information."""
+MOST_TRUST: Final = 4.0
+"""Greatest weight, so that sounds which leave no doubt about the motion outweigh joins that fit less well."""
 TRUSTS: Final = (0.0, 0.06, 0.12, 0.25, 0.5, 1.0)
 """Weights of the sounds tried on a part of the learning material, since hits are not independent."""
 
@@ -74,14 +76,14 @@ def pairing_of(model: ChoreographyModel, seed: int = 0) -> Pairing | None:
 
 
 def trust_in(model: ChoreographyModel) -> float:
-    """Return the weight, 0..1, that the sounds of single motions get when a dance is generated.
+    """Return the weight, 0..`MOST_TRUST`, that the sounds of single motions get when a dance is generated.
 
-    0 if the test finds no information; 1 from `TRUSTED_BITS` on, or if the model is too small for the test.
+    0 if the test finds no information; 1 at `TRUSTED_BITS`, or if the model is too small for the test.
     """
     found = pairing_of(model)
     if found is None:
         return 1.0
-    return min(1.0, found.bits / TRUSTED_BITS) if found.tells else 0.0
+    return min(MOST_TRUST, found.bits / TRUSTED_BITS) if found.tells else 0.0
 
 
 def report(model: ChoreographyModel) -> Message:

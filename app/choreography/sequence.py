@@ -5,7 +5,7 @@ them. Going from one to the next counts
 
 - the model: transition and emission probabilities, as logarithms of how much likelier than by chance they are, so that
   few long motions and many short ones are compared fairly; every hit counts in the segment during which it sounds, as
-  when it was learned (`app.choreography.hit_log_odds`);
+  when it was learned, and partly in those until the next (`app.choreography.hit_log_odds`);
 - how well the second fits on the first (`app.choreography.joins`); the segment that follows in the capture fits best;
 - how much faster or slower than captured both must be danced between their accents, within `SPEEDS`;
 - an accent off the beat;

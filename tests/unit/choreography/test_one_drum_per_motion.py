@@ -26,11 +26,11 @@ def with_one_drum_per_motion(model: ChoreographyModel) -> ChoreographyModel:
     return replace(model, segments=segments, emission=counts / counts.sum(axis=1, keepdims=True))
 
 
-def struck(states: np.ndarray) -> Rhythm:
-    """The drum of a motion on and after each beat."""
-    hits_s = 0.5 * BEAT_S * np.arange(2 * BEATS)
-    beats_s = BEAT_S * np.arange(BEATS + 1)
-    symbols = 3 * np.repeat(states, 2)
+def struck(states: np.ndarray, parts: int = 2, beat_s: float = BEAT_S) -> Rhythm:
+    """The drum of a motion on each beat, and between beats as often as they have parts."""
+    hits_s = beat_s / parts * np.arange(parts * BEATS)
+    beats_s = beat_s * np.arange(BEATS + 1)
+    symbols = 3 * np.repeat(states, parts)
     return Rhythm(beats_s, np.arange(BEATS + 1) % 4, hits_s, symbols, np.ones(len(hits_s)), derived=False)
 
 
@@ -47,3 +47,28 @@ def test_three_of_four_strokes_of_a_drum_sound_during_its_motion() -> None:
         states = np.array([one.state for one in steps])[np.minimum(during, len(steps) - 1)]
         shares.append(np.mean(states == np.repeat(asked, 2)))
     assert np.mean(shares) >= 0.75
+
+
+def test_motions_between_sparse_strokes_are_those_of_the_drum() -> None:
+    """A drum is struck every 0.75 s for six beats: also steps without a stroke are of its motion, not any that fits."""
+    model = with_one_drum_per_motion(read_model(SALSA))
+    choreographer = Choreographer(model)
+    shares = []
+    for seed in range(2):
+        asked = np.repeat(np.random.default_rng(seed).integers(0, model.states, BEATS // 6 + 1), 6)[:BEATS]
+        steps = choreographer.steps(struck(asked, parts=1, beat_s=0.75), Manner(seed=seed))
+        danced = [(one.state, int(one.accent_s / 0.75 + 1e-6)) for one in steps if 0.0 <= one.accent_s < 0.75 * BEATS]
+        shares.append(np.mean([state == asked[beat] for state, beat in danced]))
+    assert np.mean(shares) >= 0.85
+
+
+def test_an_unheard_drum_neither_adds_to_nor_ends_the_others() -> None:
+    hearing = Choreographer(with_one_drum_per_motion(read_model(SALSA))).hearing
+    music = struck(np.zeros(BEATS, np.int64), parts=1)
+    hits_s = np.concatenate([music.hits_s, music.hits_s + 0.5 * BEAT_S])
+    order = np.argsort(hits_s)
+    symbols = np.concatenate([music.symbols, np.full(BEATS, 46)])[order]
+    more = replace(music, hits_s=hits_s[order], symbols=symbols, strengths=np.ones(len(hits_s)))
+    alone, both = hearing.hits(music, 0.0), hearing.hits(more, 0.0)
+    assert np.array_equal(alone.times_s, both.times_s)
+    assert np.array_equal(alone.summed, both.summed)
