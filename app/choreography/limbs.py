@@ -120,11 +120,9 @@ def hinged(clip: MotionClip) -> MotionClip:
         if not over.any():
             continue
         kept = np.where(over > 0.0, np.sin(least - more * np.expm1(-over / more)), np.abs(aside))
-        share = np.clip((back - CLEAR[0]) / (CLEAR[1] - CLEAR[0]), 0.0, 1.0)
-        share = share * share * (3.0 - 2.0 * share)
         wide = np.maximum(back, 1e-9)
         turn = np.arcsin(np.clip(np.abs(aside) / wide, 0.0, 1.0)) - np.arcsin(np.clip(kept / wide, 0.0, 1.0))
-        turn *= share * np.sign(aside) * np.sign(-way[:, 2])
+        turn *= smooth_share(back, CLEAR) * np.sign(aside) * np.sign(-way[:, 2])
         twist = quaternion.from_rotation_vector(turn[:, None] * along)
         thigh = quaternion.multiply(world.rotations[:, thigh_at], twist)
         rotations[:, thigh_at - 1] = quaternion.multiply(rotations[:, thigh_at - 1], twist)
@@ -184,8 +182,7 @@ def bend(
     points = quaternion.rotate(quaternion.multiply(swung, thigh), np.array(ahead))
     forward = _unit(points - way * np.einsum("fi,fi->f", points, way)[:, None])
     bent = np.linalg.norm(carried, axis=-1, keepdims=True) / (upper + lower)
-    share = np.clip((bent - STRAIGHT) / (BENT - STRAIGHT), 0.0, 1.0)
-    share = share * share * (3.0 - 2.0 * share)
+    share = smooth_share(bent, (STRAIGHT, BENT))
     pole = _unit(share * _unit(carried) + (1.0 - share) * forward)
     along = (upper * upper - lower * lower + distance * distance) / (2.0 * distance)
     aside = np.sqrt(np.maximum(upper * upper - along * along, 0.0))
@@ -197,6 +194,12 @@ def bend(
     rotations[:, thigh_at - 1] = quaternion.multiply(quaternion.conjugate(world.rotations[:, hip_at]), new_thigh)
     rotations[:, shank_at - 1] = quaternion.multiply(quaternion.conjugate(new_thigh), new_shank)
     rotations[:, foot_at - 1] = quaternion.multiply(quaternion.conjugate(new_shank), foot)
+
+
+def smooth_share(values: FloatArray, bounds: tuple[float, float]) -> FloatArray:
+    """Return a share that rises smoothly from 0 at the first bound to 1 at the second."""
+    share = np.clip((values - bounds[0]) / (bounds[1] - bounds[0]), 0.0, 1.0)
+    return np.asarray(share * share * (3.0 - 2.0 * share))
 
 
 def _unit(vector: FloatArray) -> FloatArray:

@@ -2,8 +2,8 @@
 
 Each segment's world rotation becomes that of the character's joint. Other joints follow: vertebrae and neck rotate
 between their neighbours, the collar bones rise with arms above the shoulders, fingers are loosely bent. The path is
-scaled by the length of the legs; the tips of the feet reach their scaled places by inverse kinematics, so that planted
-feet stay planted, and no sole is below the floor.
+scaled by the length of the legs; the balls of the feet reach their scaled places by inverse kinematics, so that planted
+feet stay planted, no sole is below the floor, and toes are bent where a foot rolls over its ball.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from app.arrays import FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.body_on_floor import needed_lifts
 from app.choreography.clip import BodyShape, MotionClip
+from app.choreography.limbs import smooth_share
 from app.choreography.soles_on_floor import HEEL_PART, over_the_floor
 from app.choreography.standing_feet import SINK_S
 from app.motion.model import Motion
@@ -24,7 +25,7 @@ from app.rig import quaternion
 from app.rig.ik import Side, leg, solve_limb
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import rest_positions
-from app.rig.sole import SIDES, TIP_PART, foot_tip_m, sole_way_m
+from app.rig.sole import SIDES, TIP_PART, roll_point_m, sole_way_m
 
 TRUNK: Final[tuple[str, ...]] = ("spine", "chest", "upperChest")
 COLLAR_SHARE: Final = 0.25
@@ -48,6 +49,15 @@ LOW_M: Final = 0.08
 """Height in metres of an ankle above its standing height up to which its foot is on the floor."""
 STANDING_M_S: Final = 0.2
 """Speed in metres per second below which a foot stands."""
+LEAST_AHEAD: Final = 0.35
+"""Horizontal part of a foot's direction below which it is no longer lengthened to 1, since a foot that points down has
+no direction ahead."""
+BALL_M: Final = (0.02, 0.04)
+"""Differences in metres of the distances from the ankle of a captured foot's end and of the character's ball up to
+which that end is the ball, and from which it is not."""
+RAISED_M: Final = (0.15, 0.45)
+"""Heights in metres of an ankle above its standing height between which a foot's place changes from one relative to the
+floor to one relative to the hip joint."""
 KNEE_AHEAD: Final = 0.02
 """Distance by which the knee of a straight leg points forward, relative to the leg's length."""
 
@@ -75,12 +85,14 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
     ankles_m = {side: _ankle_path(skeleton, side, clip.shape, segments, places_m, scale) for side in SIDES}
     floor_m = _floor_m(skeleton, segments, ankles_m, float(clip.fps))
     hips_m -= floor_m
-    feet = dict[Side, FloatArray]()
+    sockets_m = _socket_paths(skeleton, world, hips_m)
+    feet = {}
     for side in SIDES:
-        ankle_m = ankles_m[side] - floor_m
-        ankles_m[side], feet[side] = over_the_floor(character, side, segments[f"{side}Foot"], ankle_m, float(clip.fps))
+        ankle_m = _raised(skeleton, side, places_m, sockets_m[side], ankles_m[side] - floor_m)
+        feet[side] = over_the_floor(character, side, segments[f"{side}Foot"], ankle_m, float(clip.fps))
+    ankles_m = {side: foot.ankle_m for side, foot in feet.items()}
     hips_m[:, 1] -= _sink_m(skeleton, clip, world, hips_m, ankles_m)
-    targets = {side: (ankles_m[side], feet[side]) for side in SIDES}
+    targets = {side: (ankles_m[side], foot.rotations) for side, foot in feet.items()}
     local = _local(skeleton, segments, places_m, world, hips_m, targets)
     for _ in range(LIFTS):
         lifts = needed_lifts(character, local, hips_m, float(clip.fps))
@@ -90,6 +102,9 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
         for side in SIDES:
             targets[side][0][:, 1] += lifts.ankles_m[side]
         local = _local(skeleton, segments, places_m, world, hips_m, targets)
+    for side in SIDES:
+        if f"{side}Toes" in skeleton.names:
+            local[:, skeleton.index(f"{side}Toes")] = feet[side].toes
     _bend_fingers(skeleton, local)
     return Motion(
         fps=clip.fps,
@@ -202,15 +217,37 @@ def _ankle_path(
     places_m: dict[str, FloatArray],
     scale: float,
 ) -> FloatArray:
-    """Path (F, 3) of a character's ankle for which the tip of its foot follows the scaled path of the clip's foot tip.
+    """Path (F, 3) of a character's ankle for which the point about which its foot rolls follows the scaled path of the
+    end of the clip's foot.
 
-    So the tip of a standing foot stays in place while the heel rises, for feet of any length.
+    So the ball of a standing foot stays in place while the heel rises, for feet of any length: the end of a captured
+    foot is its ball in most files. Where it is farther ahead, the ball
+    is behind it.
     """
     foot = f"{side}Foot"
-    tip = shape.ends_m[ENDS.index(foot)]
-    flat_m = _clip_ankle_height_m(shape, side) + float(tip[1])
-    path = places_m[foot] + quaternion.rotate(segments[foot], tip) - (0.0, flat_m, 0.0)
-    return np.asarray(scale * path - quaternion.rotate(segments[foot], foot_tip_m(skeleton, side)))
+    end, roll = shape.ends_m[ENDS.index(foot)], roll_point_m(skeleton, side)
+    flat_m = _clip_ankle_height_m(shape, side) + float(end[1])
+    path = scale * (places_m[foot] + quaternion.rotate(segments[foot], end) - (0.0, flat_m, 0.0))
+    reach_m, own_m = scale * float(np.hypot(end[0], end[2])), float(np.hypot(roll[0], roll[2]))
+    ahead = quaternion.rotate(segments[foot], end * (1.0, 0.0, 1.0) / max(reach_m / scale, 1e-9)) * (1.0, 0.0, 1.0)
+    ahead /= np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), LEAST_AHEAD)
+    farther_m = reach_m - own_m
+    path -= farther_m * smooth_share(np.array(abs(farther_m)), BALL_M) * ahead
+    path[:, 1] += sole_way_m(skeleton, side)[1] + roll[1]
+    return np.asarray(path - quaternion.rotate(segments[foot], roll))
+
+
+def _raised(
+    skeleton: Skeleton, side: Side, places_m: dict[str, FloatArray], socket_m: FloatArray, ankle_m: FloatArray
+) -> FloatArray:
+    """Return the path (F, 3) of an ankle with a foot high over the floor as far from the hip joint, relative to the
+    leg's length, as in the clip: so a kick stretches legs of other proportions no more than those of the dancer.
+    """
+    hip, knee, ankle = (places_m[f"{side}{name}"] for name in ("UpperLeg", "LowerLeg", "Foot"))
+    length_m = float(np.linalg.norm(knee[0] - hip[0]) + np.linalg.norm(ankle[0] - knee[0]))
+    as_far_m = socket_m + (ankle - hip) * (leg(skeleton, side).length_m / length_m)
+    height_m = ankle_m[:, 1] - rest_positions(skeleton)[skeleton.index(f"{side}Foot"), 1]
+    return np.asarray(ankle_m + smooth_share(height_m, RAISED_M)[:, None] * (as_far_m - ankle_m))
 
 
 def _floor_m(
@@ -284,9 +321,10 @@ def _clip_ankle_height_m(shape: BodyShape, side: Side) -> float:
 
 
 def _sole_m(skeleton: Skeleton, side: Side, foot: FloatArray, ankle_m: FloatArray) -> FloatArray:
-    """Height (F,) in metres of the lowest point of a sole: heel, ball or tip."""
+    """Height (F,) in metres of the lowest point of a sole: heel or ball, or tip without a joint of the toes."""
     way, height_m = sole_way_m(skeleton, side)
-    sole = [np.array([part * way[0], -height_m, part * way[2]]) for part in (-HEEL_PART, 1.0, 1.0 + TIP_PART)]
+    parts = (-HEEL_PART, 1.0) if f"{side}Toes" in skeleton.names else (-HEEL_PART, 1.0, 1.0 + TIP_PART)
+    sole = [np.array([part * way[0], -height_m, part * way[2]]) for part in parts]
     lowest: FloatArray = np.min([ankle_m[:, 1] + quaternion.rotate(foot, point)[:, 1] for point in sole], axis=0)
     return lowest
 

@@ -1,20 +1,21 @@
-"""Feet of a character on the floor: no tip, heel or edge of a sole below it."""
+"""Feet of a character on the floor: no toes, heel or edge of a sole below it, and flat toes under a raised heel."""
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import FloatArray
+from app.choreography.bent_toes import toe_bend_rad
 from app.choreography.skin_around import skin_around
 from app.identity_cache import IdentityCache
 from app.rig import quaternion
 from app.rig.ik import Side
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import rest_positions
-from app.rig.sole import foot_tip_m, sole_way_m
+from app.rig.sole import foot_tip_m, roll_point_m, sole_way_m
 
 HEEL_PART: Final = 0.3
 """Distance of the heel behind the ankle relative to that from ankle to toes."""
@@ -33,14 +34,31 @@ SINKS_M: Final = 0.005
 FLATTENS_S: Final = 0.03
 """Standard deviation in seconds over which a foot is flattened before and after its edge would be below the floor."""
 _OUTLINES: IdentityCache[FloatArray] = IdentityCache(64)
-_HULLS: IdentityCache[FloatArray] = IdentityCache(64)
+_HULLS: IdentityCache[tuple[FloatArray, FloatArray]] = IdentityCache(64)
 _UP: Final = np.array([0.0, 1.0, 0.0])
 
 
-def over_the_floor(
-    character: Character, side: Side, foot: FloatArray, ankle_m: FloatArray, fps: float
-) -> tuple[FloatArray, FloatArray]:
-    """Keep a foot above the floor: the tip is lifted to it, a heel or an edge below it is raised about the tip.
+class PlacedFoot(NamedTuple):
+    """A foot on or above the floor.
+
+    Attributes
+    ----------
+    ankle_m : (F, 3) float64
+        World position of the ankle in metres.
+    rotations : (F, 4) float64
+        World rotation of the foot.
+    toes : (F, 4) float64
+        Rotation of the toes relative to the foot; none without a joint of the toes.
+    """
+
+    ankle_m: FloatArray
+    rotations: FloatArray
+    toes: FloatArray
+
+
+def over_the_floor(character: Character, side: Side, foot: FloatArray, ankle_m: FloatArray, fps: float) -> PlacedFoot:
+    """Keep a foot above the floor: the ball is lifted to it, a heel or an edge below it is raised about the ball, and
+    toes are bent flat. Without a joint of the toes the foot's tip takes the place of its ball.
 
     Parameters
     ----------
@@ -48,30 +66,34 @@ def over_the_floor(
         World rotation of the foot.
     ankle_m : (F, 3) float64
         World position of the ankle in metres.
-
-    Returns
-    -------
-    ankle_m, foot : (F, 3) and (F, 4) float64
     """
     skeleton = character.skeleton
-    outline_m, axes, tip = (
-        _OUTLINES.step(_outline_m, character, side),
-        _axes(skeleton, side),
-        foot_tip_m(skeleton, side),
-    )
-    heel = tip + outline_m[:, 0].min() * axes[0]
-    tip_m = ankle_m + quaternion.rotate(foot, tip)
-    tip_m[:, 1] += _lift_m(tip_m[:, 1])
-    along = quaternion.rotate(foot, heel - tip)[:, 1]
-    length_m = float(np.linalg.norm(heel - tip))
-    raised = np.minimum(along + _lift_m(tip_m[:, 1] + along), 0.999 * length_m)
+    outline_m, axes = _OUTLINES.step(_outline_m, character, side), _axes(skeleton, side)
+    roll, sole_m = roll_point_m(skeleton, side), sole_way_m(skeleton, side)[1]
+    rest_m = float(sole_m + roll[1])
+    under = rest_m * _UP
+    heel = outline_m[:, 0].min() * axes[0] - under
+    ball_m = ankle_m + quaternion.rotate(foot, roll)
+    ball_m[:, 1] += _lift_m(ball_m[:, 1] - rest_m)
+    along = quaternion.rotate(foot, heel)[:, 1]
+    length_m = float(np.linalg.norm(heel))
+    raised = np.minimum(along + _lift_m(ball_m[:, 1] + along), 0.999 * length_m)
     tilt = np.arcsin(raised / length_m) - np.arcsin(np.clip(along / length_m, -0.999, 0.999))
     foot = quaternion.multiply(foot, quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), np.maximum(tilt, 0.0)))
-    foot = _flattened(outline_m, axes, foot, tip_m[:, 1], fps)
+    foot = _flattened(outline_m, axes, foot, ball_m[:, 1], rest_m, fps)
+    bend = np.zeros(len(foot))
+    if rest_m:
+        tip_m = float(np.hypot(*(foot_tip_m(skeleton, side) - roll)[[0, 2]]))
+        reach_m = max(tip_m, float(outline_m[:, 0].max()))
+        bend = toe_bend_rad(foot, axes[0], ball_m[:, 1], rest_m, reach_m, fps)
+    toes = quaternion.from_axis_angle(axes[1], -bend)
     # What is left: heels raised while the foot was rolled, and the backs of feet whose soles face up.
-    points = tip_m[:, None] + quaternion.rotate(foot[:, None], _HULLS.step(_hull_m, character, side))
-    tip_m[:, 1] += np.maximum(-points[..., 1].min(axis=1) - SINKS_M, 0.0)
-    return tip_m - quaternion.rotate(foot, tip), foot
+    for turned, hull in zip(
+        (foot, quaternion.multiply(foot, toes)), _HULLS.step(_hulls_m, character, side), strict=True
+    ):
+        lowest_m = ball_m[:, 1] + quaternion.rotate(turned[:, None], hull)[..., 1].min(axis=1, initial=np.inf)
+        ball_m[:, 1] += np.maximum(-lowest_m - SINKS_M, 0.0)
+    return PlacedFoot(ball_m - quaternion.rotate(foot, roll), foot, toes)
 
 
 def _lift_m(height_m: FloatArray) -> FloatArray:
@@ -88,19 +110,25 @@ def _axes(skeleton: Skeleton, side: Side) -> FloatArray:
 
 
 def _outline_m(character: Character, side: Side) -> FloatArray:
-    """Return the outermost points (K, 2) of a sole: metres ahead and to the left of the foot's tip."""
+    """Return the outermost points (K, 2) of a sole: metres ahead and to the left of the foot's ball, or of its tip
+    without a joint of the toes.
+    """
     skeleton = character.skeleton
     ahead, aside, _ = _axes(skeleton, side)
     joints = _joints(skeleton, side)
-    tip = rest_positions(skeleton)[joints[0]] + foot_tip_m(skeleton, side)
-    points = np.concatenate([own.rest_m for own in skin_around(character, joints)] or [np.zeros((0, 3))]) - tip
-    points = points[points[:, 1] < SOLE_M]
+    roll_m = roll_point_m(skeleton, side)
+    ball = rest_positions(skeleton)[joints[0]] + roll_m
+    points = np.concatenate([own.rest_m for own in skin_around(character, joints)] or [np.zeros((0, 3))])
+    points = points[points[:, 1] < SOLE_M] - ball
     sole = np.stack([points @ ahead, points @ aside], axis=1)
     if len(sole) < OUTLINE:
         length_m = float(np.linalg.norm(sole_way_m(skeleton, side)[0]))
         half_m = HALF_WIDTH_PART * length_m
-        back_m = -float(np.linalg.norm(foot_tip_m(skeleton, side)[[0, 2]])) - HEEL_PART * length_m
-        return np.array([[x, y] for x in (0.25 * back_m, back_m) for y in (half_m, -half_m)])
+        tip_m, ball_m = (
+            float(np.linalg.norm(m[[0, 2]])) for m in (foot_tip_m(skeleton, side), roll_point_m(skeleton, side))
+        )
+        back_m = -tip_m - HEEL_PART * length_m
+        return np.array([[x + tip_m - ball_m, y] for x in (0.25 * back_m, back_m) for y in (half_m, -half_m)])
     turns = 2.0 * np.pi * np.arange(OUTLINE) / OUTLINE
     outermost = np.unique((sole @ np.stack([np.cos(turns), np.sin(turns)])).argmax(axis=0))
     return np.asarray(sole[outermost])
@@ -111,20 +139,29 @@ def _joints(skeleton: Skeleton, side: Side) -> list[int]:
     return [skeleton.names.index(name) for name in (f"{side}Foot", f"{side}Toes") if name in skeleton.names]
 
 
-def _hull_m(character: Character, side: Side) -> FloatArray:
-    """Return the outermost points (K, 3) of a foot at rest relative to its tip, in metres."""
+def _hulls_m(character: Character, side: Side) -> tuple[FloatArray, FloatArray]:
+    """Return the outermost points (K, 3) of a foot without its toes, and of its toes, at rest relative to its ball, in
+    metres.
+    """
     skeleton = character.skeleton
     joints = _joints(skeleton, side)
-    tip = rest_positions(skeleton)[joints[0]] + foot_tip_m(skeleton, side)
-    around = skin_around(character, joints)
-    if not around:
-        flat: FloatArray = _outline_m(character, side) @ _axes(skeleton, side)[:2]
-        return flat
-    return np.asarray(np.concatenate([own.rest_m[own.outermost(np.ones(len(own.rows), bool))] for own in around]) - tip)
+    ball = rest_positions(skeleton)[joints[0]] + roll_point_m(skeleton, side)
+
+    def hull(of: list[int]) -> FloatArray:
+        points = [own.rest_m[own.outermost(np.ones(len(own.rows), bool))] - ball for own in skin_around(character, of)]
+        return np.concatenate([*points, np.zeros((0, 3))])
+
+    foot, toes = hull(joints[:1]), hull(joints[1:])
+    if not len(foot) and not len(toes):
+        height_m = float(sole_way_m(skeleton, side)[1] + roll_point_m(skeleton, side)[1])
+        foot = _outline_m(character, side) @ _axes(skeleton, side)[:2] - height_m * _UP
+    return foot, toes
 
 
-def _flattened(outline_m: FloatArray, axes: FloatArray, foot: FloatArray, tip_m: FloatArray, fps: float) -> FloatArray:
-    """Return the world rotations (F, 4) of a foot, rolled about its axis through the tip until no edge is below the
+def _flattened(
+    outline_m: FloatArray, axes: FloatArray, foot: FloatArray, ball_m: FloatArray, rest_m: float, fps: float
+) -> FloatArray:
+    """Return the world rotations (F, 4) of a foot, rolled about its axis through the ball until no edge is below the
     floor.
 
     Parameters
@@ -133,13 +170,17 @@ def _flattened(outline_m: FloatArray, axes: FloatArray, foot: FloatArray, tip_m:
         Outline of the sole, see `_outline_m`.
     axes : (3, 3) float64
         Axes of the sole, see `_axes`.
-    tip_m : (F,) float64
-        Height of the tip, at least 0.
+    ball_m : (F,) float64
+        Height of the ball.
+    rest_m : float
+        Height of the ball at rest.
     """
     ahead, aside, up = (quaternion.rotate(foot, axis) for axis in axes)
     level = np.maximum(np.hypot(aside[:, 1], up[:, 1]), 1e-3)
     roll = np.arctan2(aside[:, 1], up[:, 1])
-    room = np.maximum(tip_m[:, None] + outline_m[:, 0] * ahead[:, 1:2], 0.0) / level[:, None]
+    # Toes in front of the ball are level while the heel is raised.
+    rise = np.where(outline_m[:, 0] > 0.0, np.maximum(ahead[:, 1:2], 0.0), ahead[:, 1:2])
+    room = np.maximum((ball_m - rest_m * level)[:, None] + outline_m[:, 0] * rise, 0.0) / level[:, None]
     bounds = []
     for sign in (1.0, -1.0):
         on = sign * outline_m[:, 1] > EDGE_M

@@ -22,12 +22,12 @@ from app.export.target import TargetSkeleton
 from app.formats.scene import Scene
 from app.rig import quaternion
 from app.rig.model import Character
-from app.rig.sole import SIDES, foot_tip_m
+from app.rig.sole import SIDES, foot_tip_m, roll_point_m
 
 
 def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, standing: BoolArray) -> DancerMeasures:
-    """Measure an exported file that was read back: sliding of standing feet, changes of bone lengths, and feet below
-    the floor.
+    """Measure an exported file that was read back: sliding of standing feet (of the point about which they roll),
+    changes of bone lengths, and tips of feet below the floor.
 
     ``standing`` (F, 2) is whether left and right foot are planned to stand.
     """
@@ -41,14 +41,18 @@ def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, s
     speeds: list[FloatArray] = []
     lowest = np.inf
     for foot, side in enumerate(SIDES):
-        bone = joints.bone(f"{side}Foot")
-        joint = character.skeleton.index(f"{side}Foot")
+        end = f"{side}Toes" if f"{side}Toes" in character.skeleton.names else f"{side}Foot"
+        bone, joint = joints.bone(end), character.skeleton.index(end)
         own = target.joint_from_bone[target.bone_of_joint[joint]]
         turned = quaternion.multiply(quaternion.from_matrix(world[:, bone, :3, :3]), quaternion.conjugate(own))
-        tip = world[:, bone, :3, 3] + quaternion.rotate(turned, foot_tip_m(character.skeleton, side))
+        roll, to_tip = roll_point_m(character.skeleton, side), foot_tip_m(character.skeleton, side)
+        if end.endswith("Toes"):
+            roll, to_tip = np.zeros(3), to_tip - roll
+        stays = world[:, bone, :3, 3] + quaternion.rotate(turned, roll)
+        tip = world[:, bone, :3, 3] + quaternion.rotate(turned, to_tip)
         lowest = min(lowest, float(tip[:, 1].min()))
         both = standing[1:frames, foot] & standing[: frames - 1, foot]
-        speeds.append(np.linalg.norm(np.diff(tip, axis=0), axis=1)[both] * rate * 1000.0)
+        speeds.append(np.linalg.norm(np.diff(stays, axis=0), axis=1)[both] * rate * 1000.0)
     slides = np.concatenate(speeds)
     return DancerMeasures(
         standing_s=round(len(slides) / rate, 2),

@@ -32,3 +32,12 @@ def sole_way_m(skeleton: Skeleton, side: Side) -> tuple[FloatArray, float]:
     ankle, toes = rest[skeleton.index(f"{side}Foot")], f"{side}Toes"
     way = rest[skeleton.index(toes)] - ankle if toes in skeleton.names else np.array([0.0, 0.0, FOOT_PART * ankle[1]])
     return way, float(ankle[1])
+
+
+def roll_point_m(skeleton: Skeleton, side: Side) -> FloatArray:
+    """Return the point (3,) about which a foot with a raised heel rolls over the floor, relative to the ankle in the
+    T-pose, in metres: the joint of the toes, or the tip of the sole if the skeleton has no such joint.
+    """
+    if f"{side}Toes" in skeleton.names:
+        return sole_way_m(skeleton, side)[0]
+    return foot_tip_m(skeleton, side)

@@ -19,7 +19,8 @@ from app.motion.model import Motion
 from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.rig.skeleton import rest_positions
-from app.rig.sole import foot_tip_m
+from app.rig.sole import roll_point_m
+from tests.support.dances import stepping
 
 FRAMES = 240
 HIPS_M, ANKLE_M = 0.95, 0.08
@@ -98,21 +99,31 @@ def test_segments_and_joints_turn_alike() -> None:
             assert off.magnitude() < (0.35 if wide else 2e-3), (name, frame)
 
 
-def test_tips_of_feet_go_their_scaled_path_and_stay_where_they_stand() -> None:
-    character, clip = character_named("man_adult"), moving()
+@pytest.mark.parametrize("end_m", [0.15, 0.2])
+def test_balls_of_feet_go_the_scaled_path_of_captured_feet_and_stay_where_they_stand(end_m: float) -> None:
+    ends = SHAPE.ends_m.copy()
+    ends[3:, 2] = end_m
+    character, clip = character_named("man_adult"), stepping(4)
+    # The dancer turns and walks on.
+    hips_m = clip.hips_m + np.linspace(0.0, 0.3, len(clip))[:, None] * (1.0, 0.0, 0.5)
+    rotations = clip.rotations.copy()
+    rotations[:, 0] = Rotation.from_rotvec(np.linspace(0.0, 1.0, len(clip))[:, None] * (0.0, 1.0, 0.0)).as_quat()
+    clip = replace(clip, shape=BodyShape.of(SHAPE.offsets_m, ends), rotations=rotations, hips_m=hips_m)
     motion, world = retarget(clip, character), clip.world()
     rest = rest_positions(character.skeleton)
     scale = rest[character.skeleton.index("leftUpperLeg"), 1] / (HIPS_M - 0.04)
     for side in ("left", "right"):
         foot = 1 + SEGMENTS.index(side + "Foot")
         turns = Rotation.from_quat(world.rotations[:, foot])
-        source = world.positions_m[:, foot] + turns.apply(SHAPE.ends_m[3 if side == "left" else 4])
-        found = [joints(character, motion, frame)[side + "Foot"] for frame in range(0, FRAMES, 40)]
+        source = scale * (world.positions_m[:, foot] + turns.apply(ends[3]))
         ankle, toes = (rest[character.skeleton.index(side + name)] for name in ("Foot", "Toes"))
-        tip = np.array([1.4 * (toes - ankle)[0], -ankle[1], 1.4 * (toes - ankle)[2]])
-        tips = np.array([place + turn.apply(tip) for place, turn in found])
-        way = np.diff(source[::40], axis=0)[:, [0, 2]] * scale
-        assert np.abs(np.diff(tips, axis=0)[:, [0, 2]] - way).max() < 1e-3
+        if end_m == 0.2:
+            # The captured foot's end is its tip, farther ahead than the ball.
+            behind_m = scale * end_m - np.hypot(*(toes - ankle)[[0, 2]])
+            ahead = turns.apply((0.0, 0.0, 1.0)) * (1.0, 0.0, 1.0)
+            source -= behind_m * ahead / np.linalg.norm(ahead, axis=1, keepdims=True)
+        balls = np.array([joints(character, motion, frame)[side + "Toes"][0] for frame in range(0, len(clip), 15)])
+        assert np.abs(np.diff(balls, axis=0) - np.diff(source[::15], axis=0))[:, [0, 2]].max() < 2e-3
 
 
 def test_no_sole_is_below_the_floor() -> None:
@@ -125,9 +136,12 @@ def test_no_sole_is_below_the_floor() -> None:
         for side in ("left", "right"):
             place, turn = found[side + "Foot"]
             ankle, toes = (rest[character.skeleton.index(side + name)] for name in ("Foot", "Toes"))
-            for part in (-0.3, 1.0, 1.4):
+            for part in (-0.3, 1.0):
                 way = part * (toes - ankle)
                 assert (place + turn.apply((way[0], -ankle[1], way[2])))[1] > -1e-3
+            place, turn = found[side + "Toes"]
+            tip = 0.4 * (toes - ankle)
+            assert (place + turn.apply((tip[0], -toes[1], tip[2])))[1] > -6e-3
 
 
 @pytest.mark.parametrize("apart_deg", [20, 40, 88])
@@ -228,21 +242,26 @@ def test_a_kneeling_knee_is_on_the_floor_and_a_standing_body_is_not_lifted() -> 
     assert motion.hips_m[FRAMES // 4, 1] == pytest.approx(lifted, abs=5e-3)
 
 
-def test_a_foot_that_rolls_over_its_toes_does_not_rise_meanwhile() -> None:
+def test_a_foot_rolls_over_its_ball_with_its_toes_flat_on_the_floor() -> None:
     character, fps = character_named("woman_adult"), 60.0
-    tip = foot_tip_m(character.skeleton, "left")
-    bend_deg = np.concatenate([np.zeros(20), np.linspace(0.0, 25.0, 20), np.full(20, 25.0)])
+    ball = roll_point_m(character.skeleton, "left")
+    rest_m = float(rest_positions(character.skeleton)[character.skeleton.index("leftToes"), 1])
+    bend_deg = np.concatenate([np.zeros(20), np.linspace(0.0, 35.0, 20), np.full(60, 35.0)])
     foot = Rotation.from_euler("x", bend_deg[:, None], degrees=True).as_quat()
-    # It stands on its tip for forty frames, and then leaves.
-    tip_m = np.outer(np.maximum(np.arange(60) - 39, 0), (0.0, 0.01, 0.005))
-    ankle_m = tip_m - Rotation.from_quat(foot).apply(tip)
-    moved_m, turned = over_the_floor(character, "left", foot, ankle_m, fps)
-    after_m = moved_m + Rotation.from_quat(turned).apply(tip)
-    assert np.ptp(after_m[:40], axis=0).max() < 5e-4
+    # It stands on its ball for forty frames, and then leaves, high enough for toes that are straight.
+    rises_m = np.minimum(np.maximum(np.arange(100) - 39, 0), 30)
+    ball_m = np.outer(rises_m, (0.0, 0.01, 0.005)) + np.array((0.0, rest_m, 0.0))
+    placed = over_the_floor(character, "left", foot, ball_m - Rotation.from_quat(foot).apply(ball), fps)
+    after_m = placed.ankle_m + Rotation.from_quat(placed.rotations).apply(ball)
+    assert np.ptp(after_m[:40], axis=0).max() < 5e-3
+    # Toes are level under the raised heel, and straight in the air.
+    level_deg = np.degrees((Rotation.from_quat(foot) * Rotation.from_quat(placed.toes)).as_rotvec()[:, 0])
+    assert np.abs(level_deg[25:39]).max() < 3.0
+    assert np.degrees(Rotation.from_quat(placed.toes[80:]).magnitude()).max() < 2.0
     hull_m = skin_around(character, [character.skeleton.index("leftFoot")])[0].rest_m
     hull_m = hull_m - rest_positions(character.skeleton)[character.skeleton.index("leftFoot")]
     lowest_m = [
         (place + Rotation.from_quat(turn).apply(hull_m))[:, 1].min()
-        for place, turn in zip(moved_m, turned, strict=True)
+        for place, turn in zip(placed.ankle_m, placed.rotations, strict=True)
     ]
-    assert min(lowest_m) > -0.005
+    assert min(lowest_m) > -0.0055

@@ -1,0 +1,74 @@
+"""Toes of characters, measured on the skin of a foot that rises onto its ball."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.arrays import FloatArray
+from app.choreography.bent_toes import MOST_RAD, toe_bend_rad
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import tips_m
+from app.choreography.feet_on_floor import legs_to
+from app.choreography.retarget import retarget
+from app.rig import quaternion
+from app.rig.characters.character_library import character_named
+from app.rig.model import Character
+from app.rig.skeleton import forward
+from tests.support.dances import still
+
+AHEAD = np.array([0.0, 0.0, 1.0])
+
+
+def on_toes(raised_deg: FloatArray) -> MotionClip:
+    """Both feet pitch about their ends, which stand, while the hips stay a little lower than at rest."""
+    clip = still(len(raised_deg))
+    ends = clip.shape.ends_m.copy()
+    ends[3:] = (0.0, -0.05, 0.14)
+    clip = replace(clip, shape=replace(clip.shape, ends_m=ends), hips_m=clip.hips_m - (0.0, 0.05, 0.0))
+    world = still(len(raised_deg)).world()
+    stood = tips_m(replace(clip, hips_m=still(len(raised_deg)).hips_m))
+    rotations = world.rotations.copy()
+    for side in ("left", "right"):
+        foot = 1 + SEGMENTS.index(f"{side}Foot")
+        rotations[:, foot] = quaternion.from_axis_angle((1.0, 0.0, 0.0), np.radians(raised_deg))
+    moved = replace(clip.world(), rotations=rotations)
+    return legs_to(clip, moved, stood, np.ones((len(clip), 2), bool))
+
+
+def shown(character: Character, clip: MotionClip) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Positions (F, 3) of the left toes' joint, and rotations (F, 4) of the foot and of the toes in the world."""
+    motion, names = retarget(clip, character), character.skeleton.names
+    world = forward(character.skeleton, motion.rotations.astype(np.float64), motion.hips_m.astype(np.float64))
+    foot, toes = (names.index(f"left{part}") for part in ("Foot", "Toes"))
+    return world.positions_m[:, toes], world.rotations[:, foot], world.rotations[:, toes]
+
+
+@pytest.mark.parametrize("name", ["woman_adult", "man_adult"])
+def test_a_foot_rises_onto_its_ball_and_its_toes_stay_flat(name: str) -> None:
+    raised_deg = 40.0 * np.sin(np.linspace(0.0, np.pi, 90)) ** 2
+    ball_m, foot, toes = shown(character_named(name), on_toes(raised_deg))
+    pitch_deg = np.degrees(-np.arcsin(quaternion.rotate(foot, AHEAD)[:, 1]))
+    assert pitch_deg.max() == pytest.approx(40.0, abs=2.0)
+    assert np.ptp(ball_m[:, 1]) < 0.006
+    assert np.ptp(ball_m[:, [0, 2]], axis=0).max() < 0.002
+    assert np.degrees(np.arcsin(quaternion.rotate(toes, AHEAD)[:, 1])) == pytest.approx(0.0, abs=2.5)
+
+
+def test_toes_of_feet_in_the_air_and_of_soles_that_face_back_are_straight() -> None:
+    heights_m = np.array([0.05, 0.05, 0.5])
+    foot = quaternion.from_axis_angle((1.0, 0.0, 0.0), np.radians([30.0, 120.0, 30.0]))
+    bends = [toe_bend_rad(foot[[at]], AHEAD, heights_m[[at]], 0.05, 0.08, 60.0)[0] for at in range(3)]
+    assert np.degrees(bends) == pytest.approx([30.0, 0.0, 0.0], abs=1.0)
+
+
+def test_toes_bend_no_farther_than_those_of_people_and_not_suddenly() -> None:
+    steep = quaternion.from_axis_angle((1.0, 0.0, 0.0), np.radians(np.minimum(80.0, 8.0 * np.arange(60))))
+    leaves_m = 0.05 + 0.02 * np.maximum(np.arange(60) - 30, 0)
+    bend = toe_bend_rad(steep, AHEAD, leaves_m, 0.05, 0.08, 60.0)
+    assert 0.7 * MOST_RAD < bend.max() < MOST_RAD
+    assert np.abs(np.diff(bend)).max() * 60.0 < 9.0
+    assert bend[-1] < 0.02
