@@ -80,8 +80,11 @@ def _sole(tailoring: Tailoring, upper: Cloth) -> Cloth:
     weights = gaussian_filter1d(upper.weights[nearest].reshape(len(rings), 72, -1), 2.0, axis=1, mode="wrap").reshape(
         len(points), -1
     )
-    weights = weights.reshape(len(rings), 72, -1)
-    return to_triangles(Cloth(points, np.tile(weights[2], (len(rings), 1)), grid_faces(len(rings), 72, closed=True)))
+    weights = np.tile(weights.reshape(len(rings), 72, -1)[2], (len(rings), 1, 1))
+    # The last ring is one point under the arch: it moves as the edge beside it, and not with the toes in front of it.
+    weights[-1] = weights[-1, 0]
+    faces = grid_faces(len(rings), 72, closed=True)
+    return to_triangles(Cloth(points, weights.reshape(len(points), -1), faces))
 
 
 def shoes(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
