@@ -132,6 +132,9 @@ def leg_of(trunk: PosedTrunk, route: BandRoute, meet_m: FloatArray, low_m: Float
     """
     widest = float(route.half_m(np.linspace(0.0, 1.0, 9)).max())
     aim_m = _aim(route, meet_m)
+    if route.around:
+        # Below, a coat's hem on a lap stands off from the body.
+        trunk = trunk.above(min(float(route.via_m[1]), float(meet_m[1])) - 2.0 * widest)
     strings = list[TautString]()
     for side in (0.0, 1.0, -1.0):
         aside = side * widest

@@ -61,6 +61,10 @@ class PosedTrunk:
         found: FloatArray = self.weights[near.reshape(len(points_m), -1)].mean(axis=1)
         return found
 
+    def above(self, height_m: float) -> PosedTrunk:
+        """Return the same trunk without triangles that reach below a height."""
+        return PosedTrunk(self.corners_m[self.corners_m[:, :, 1].min(axis=1) > height_m], self.vertices_m, self.weights)
+
 
 def posed_trunk(character: Character, joints: FloatArray, morphs: dict[str, float]) -> PosedTrunk:
     """Pose the trunk of a character.

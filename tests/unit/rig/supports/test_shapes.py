@@ -11,7 +11,7 @@ from scipy.signal import savgol_filter
 from app.formats.scene import Material
 from app.rig.mesh import Mesh
 from app.rig.supports.band import SurfaceStrip, mesh_of, tube
-from app.rig.supports.bands_on_body import BandRoute, evened, leg_of, tapering
+from app.rig.supports.bands_on_body import BandRoute, LegShape, evened, leg_of, tapering
 from app.rig.supports.chair import ChairFit, chair
 from app.rig.supports.taut_string import PosedTrunk, taut_string
 
@@ -45,8 +45,11 @@ def test_there_is_no_string_where_there_is_no_body() -> None:
     assert taut_string(_ball(), far, far + np.array([0.0, 1.0, 0.0]), far + np.array([0.0, 0.0, 1.0])) is None
 
 
-def test_a_band_around_the_ribs_stays_outside_the_body_up_to_its_end() -> None:
-    ball, meet = _ball(), RADIUS_M * np.array([-0.4, -0.2, 1.4])
+MEET_M = RADIUS_M * np.array([-0.4, -0.2, 1.4])
+
+
+def _around(trunk: PosedTrunk) -> LegShape | None:
+    """A band around a body to ``MEET_M``."""
     up = np.array([0.0, 1.0, 0.0])
     route = BandRoute(
         RADIUS_M * np.array([0.0, 0.3, -1.0]),
@@ -56,15 +59,32 @@ def test_a_band_around_the_ribs_stays_outside_the_body_up_to_its_end() -> None:
         tapering([(0.0, 0.01), (2.0, 0.01)]),
         around=True,
     )
-    leg = leg_of(ball, route, meet, meet - np.array([0.0, 0.1, 0.0]))
+    return leg_of(trunk, route, MEET_M, MEET_M - np.array([0.0, 0.1, 0.0]))
+
+
+def test_a_band_around_the_ribs_stays_outside_the_body_up_to_its_end() -> None:
+    leg = _around(_ball())
     assert leg is not None
     assert np.linalg.norm(leg.centre_m, axis=1).min() > 0.98 * RADIUS_M
-    assert np.allclose(leg.centre_m[-1], meet)
+    assert np.allclose(leg.centre_m[-1], MEET_M)
     # In front of a belly, which moves, a band needs room.
     leaves = leg.centre_m[leg.on_body - 1]
     made = np.concatenate([strip.points_m.reshape(-1, 3) for strip in leg.strips({0: 0}, 1)])
     near = made[np.linalg.norm(made - leaves, axis=1) < 0.02]
     assert np.linalg.norm(near, axis=1).min() > RADIUS_M + 0.010
+
+
+def test_a_band_around_the_ribs_does_not_go_around_a_hem_on_the_lap() -> None:
+    ball = _ball()
+    turns = np.linspace(0.0, 2.0 * np.pi, 181)
+    edge = 2.0 * RADIUS_M * np.stack([np.sin(turns), np.zeros(181), np.cos(turns)], axis=1)
+    high, low = (edge - np.array([0.0, below * RADIUS_M, 0.0]) for below in (0.34, 0.6))
+    corners = np.concatenate([np.stack([high[:-1], high[1:], low[:-1]], 1), np.stack([high[1:], low[1:], low[:-1]], 1)])
+    worn = PosedTrunk(np.concatenate([ball.corners_m, corners]), ball.vertices_m, ball.weights)
+    plain, over = _around(ball), _around(worn)
+    assert plain is not None
+    assert over is not None
+    assert np.allclose(plain.centre_m, over.centre_m)
 
 
 def _seen_from_outside(mesh: Mesh) -> float:
