@@ -31,6 +31,7 @@ from app.choreography.hands_out_of_body import out_of_body
 from app.choreography.hit_log_odds import Hearing, hearing
 from app.choreography.idling import idling_odds
 from app.choreography.joins import distances_m
+from app.choreography.joint_changes import hips_within_changes
 from app.choreography.limbs import hinged, unbroken
 from app.choreography.model import ChoreographyModel
 from app.choreography.music_motion_dependence import trust_in
@@ -42,6 +43,7 @@ from app.choreography.sized import sized
 from app.choreography.spin_times import SpinTimes
 from app.choreography.spins import without_haste
 from app.choreography.standing_feet import STEP_S, FootPlant, foot_speeds_m_s, planted, stands, steps_s
+from app.choreography.step_balance import step_balance
 from app.choreography.stitch import Frames, Stitcher, on_stage
 from app.choreography.sudden_ends import UsualAccelerations, usual_accelerations, within_limits
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
@@ -214,7 +216,8 @@ class Choreographer:
         clip = sized(clip, manner.size, self._stitcher.hinges)
         if manner.mirrored:
             clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
-        clip = out_of_body(without_haste(clip, self._spins.fastest_rad_s))
+        clip = hips_within_changes(without_haste(clip, self._spins.fastest_rad_s), self.usual_change_rad_s(fps))
+        clip = out_of_body(clip)
         clip, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
         clip = within_limits(clip, falls.standing, self._usual_accelerations(fps), self.usual_change_rad_s(fps))
         return Dance(hinged(clip), first_s, plan.steps, speeds, seams, falls.standing)
@@ -264,6 +267,7 @@ class Choreographer:
             usual=preferred - self._idle,
             returns=returning_places(rhythm, grid.times_s, manner.melody),
             takes=self._take_shares(rhythm, grid) if manner.source is None else None,
+            steps=step_balance(segments, self._fps, self._falls_s),
             initial=initial + self._standing([one.start for one in segments]),
             final=self._standing([one.end for one in segments]),
         )

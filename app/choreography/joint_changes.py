@@ -38,7 +38,7 @@ EXACT_M: Final = 1e-4
 """Distance in metres within which the tip of a standing foot stays."""
 
 
-def within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float) -> MotionClip:
+def within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float, lands_s: float = LANDS_S) -> MotionClip:
     """Return the motion with the angular velocity of each joint except the hips changing by at most ``most_rad_s`` from
     frame to frame, as far as standing feet allow; the same object if no change is greater.
 
@@ -46,14 +46,28 @@ def within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float) -> M
     ----------
     planted : (F, 2) bool
         Frames in which the left and the right foot stand; their legs stay as they are.
+    lands_s : float
+        Time in seconds before they land in which they stay too.
     """
-    rotations, held = clip.rotations, _held(planted, float(clip.fps))
+    rotations, held = clip.rotations, _held(planted, float(clip.fps), lands_s)
     for _ in range(TRIES):
         calmer = _calm(rotations, held, most_rad_s, float(clip.fps))
         if calmer is rotations:
             break
         rotations = calmer
     return clip if rotations is clip.rotations else replace(clip, rotations=quaternion.continuous(rotations))
+
+
+def hips_within_changes(clip: MotionClip, most_rad_s: float) -> MotionClip:
+    """Return the motion with the angular velocity of the hips changing by at most ``most_rad_s`` from frame to frame;
+    the same object if no change is greater. It moves the feet, so that these are planted afterwards.
+    """
+    hips = clip.rotations[:, :1]
+    calm = _calm(hips, np.zeros((len(clip), 1), bool), most_rad_s, float(clip.fps))
+    if calm is hips:
+        return clip
+    rotations = np.concatenate([calm, clip.rotations[:, 1:]], axis=1)
+    return replace(clip, rotations=quaternion.continuous(rotations))
 
 
 def feet_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float) -> MotionClip:
@@ -122,10 +136,10 @@ def _calm(rotations: FloatArray, held: BoolArray, most_rad_s: float, fps: float)
     return result
 
 
-def _held(planted: BoolArray, fps: float) -> BoolArray:
+def _held(planted: BoolArray, fps: float, lands_s: float) -> BoolArray:
     """Mark the joints (F, 16) that stay: the hips always, and the legs of feet that stand or are about to land."""
     lands = planted.copy()
-    for ahead in range(1, min(round(LANDS_S * fps), len(planted) - 1) + 1):
+    for ahead in range(1, min(round(lands_s * fps), len(planted) - 1) + 1):
         lands[:-ahead] |= planted[ahead:]
     held = np.zeros((len(planted), len(SEGMENTS)), bool)
     for part, name in enumerate(SEGMENTS):

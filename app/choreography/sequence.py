@@ -31,6 +31,7 @@ from app.choreography.accent_grid import AccentGrid
 from app.choreography.drums_of_dancers import TakeShares
 from app.choreography.hit_log_odds import HeardHits
 from app.choreography.phrases import ReturningPlaces
+from app.choreography.step_balance import StepBalance
 from app.choreography.take_turns import TakeTurns
 from app.choreography.transition_scores import NEVER, SHARES, MoveCosts, SegmentMeets, SegmentMoves, no_meets
 
@@ -65,6 +66,8 @@ class Weights:
         Value of an arrival of the body, or of a footfall, on a beat instead of between beats.
     take : float
         Value of a segment of the favoured take.
+    steps : float
+        Value of a step more than usual while the dance has fewer than the captures.
     """
 
     join_per_m: float = 55.0
@@ -77,6 +80,7 @@ class Weights:
     returns: float = 24.0
     meets: float = 8.0
     take: float = 2.5
+    steps: float = 12.0
 
 
 LATELY_S: Final = 12.0
@@ -154,6 +158,7 @@ def choose(
     final: FloatArray | None = None,
     returns: ReturningPlaces | None = None,
     takes: TakeShares | None = None,
+    steps: StepBalance | None = None,
 ) -> list[tuple[int, int]]:
     """Find the best sequence of segments for a piece.
 
@@ -169,6 +174,8 @@ def choose(
         Places at which earlier music recurs.
     takes : TakeShares, optional
         Share of each take; by drums only if omitted.
+    steps : StepBalance, optional
+        Steps of each segment; not considered if omitted.
 
     Returns
     -------
@@ -204,6 +211,8 @@ def choose(
             extra += weights.returns * again + weights.lately * lately * np.maximum(again, 0.0)
         if turns is not None:
             extra += weights.take * turns.favoured(grid, chosen, first, again)
+        if steps is not None:
+            extra += weights.steps * steps.favoured(grid, chosen, first)
         found = search.phrase(before, first, seen, extra, ends)
         chosen += [row for row in found if row[0] < stop or seen == count]
         if seen == count:

@@ -23,6 +23,7 @@ from app.choreography.clip import MotionClip
 from app.choreography.features import height_m
 from app.choreography.feet_on_floor import AHEAD, LEG, grounded
 from app.choreography.hands_out_of_body import ELBOW
+from app.choreography.heel_changes import heels_within_changes
 from app.choreography.joint_changes import feet_within_changes, within_changes
 from app.choreography.joint_speeds import within_speeds
 from app.choreography.limbs import bend
@@ -92,10 +93,11 @@ def within_limits(
     """
     on_floor = planted_frames(standing, len(clip))
     clip = within_speeds(feet_within_changes(clip, on_floor, usual_change_rad_s), on_floor)
-    clip = within_changes(clip, on_floor, usual_change_rad_s)
+    ankle_m_s2 = MOST * float(usual.feet[0]) * height_m(clip)
+    clip = _within_changes(clip, on_floor, usual_change_rad_s, ankle_m_s2)
     calm = grounded(without_twitches(clip, standing, usual), on_floor)
     # The limits of hands, feet and speeds come last and are kept exactly; they leave few changes over their own limit.
-    clip = within_speeds(within_changes(calm, on_floor, usual_change_rad_s), on_floor)
+    clip = within_speeds(_within_changes(calm, on_floor, usual_change_rad_s, ankle_m_s2), on_floor)
     for number in range(ALTERNATIONS):
         calm = without_twitches(clip, standing, usual)
         if number and calm is clip:
@@ -104,7 +106,15 @@ def within_limits(
         clip = within_speeds(grounded(calm, on_floor), on_floor)
         if clip is calm:
             break
-    return clip
+    return heels_within_changes(clip, on_floor, usual_change_rad_s, ankle_m_s2)
+
+
+def _within_changes(clip: MotionClip, on_floor: BoolArray, most_rad_s: float, ankle_m_s2: float) -> MotionClip:
+    """Limit how much the speeds of joints change: by bending legs in the air, then by heels, and what is left by
+    bending legs until they land.
+    """
+    clip = heels_within_changes(within_changes(clip, on_floor, most_rad_s), on_floor, most_rad_s, ankle_m_s2)
+    return within_changes(clip, on_floor, most_rad_s, lands_s=0.0)
 
 
 def without_twitches(clip: MotionClip, standing: Sequence[FootPlant], usual: UsualAccelerations) -> MotionClip:

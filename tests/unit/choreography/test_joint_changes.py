@@ -14,7 +14,7 @@ from app.choreography.contacts import tips_m
 from app.choreography.dance import Manner
 from app.choreography.feet_on_floor import legs_to
 from app.choreography.generate import Choreographer
-from app.choreography.joint_changes import feet_within_changes, within_changes
+from app.choreography.joint_changes import feet_within_changes, hips_within_changes, within_changes
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps
 from tests.support.dances import beaten, model, moving, still
@@ -51,6 +51,25 @@ def test_the_leg_of_a_standing_foot_stays() -> None:
     found = within_changes(clip, planted, MOST_RAD_S)
     assert found.rotations[10:20] == pytest.approx(clip.rotations[10:20])
     assert angular_jumps(found)[40:].max() <= MOST_RAD_S
+
+
+def test_a_leg_is_bent_up_to_its_landing_only_if_asked() -> None:
+    clip, planted = snapping("rightUpperLeg", 24.0), FREE.copy()
+    planted[17:22, 1] = True
+    before = angular_jumps(clip)[15:18, SEGMENTS.index("rightUpperLeg")].max()
+    held = within_changes(clip, planted, MOST_RAD_S)
+    assert held.rotations[14:22] == pytest.approx(clip.rotations[14:22])
+    found = within_changes(clip, planted, MOST_RAD_S, lands_s=0.0)
+    assert angular_jumps(found)[14:18].max() < 0.8 * before
+    assert found.rotations[17:22] == pytest.approx(clip.rotations[17:22])
+
+
+def test_hips_that_snap_start_gradually_and_all_else_stays() -> None:
+    clip = snapping("hips", 24.0)
+    found = hips_within_changes(clip, MOST_RAD_S)
+    assert angular_jumps(found).max() <= MOST_RAD_S
+    assert found.rotations[:, 1:] == pytest.approx(clip.rotations[:, 1:])
+    assert hips_within_changes(found, 2.0 * MOST_RAD_S) is found
 
 
 def world_jumps_rad_s(clip: MotionClip, name: str) -> np.ndarray:

@@ -1,0 +1,216 @@
+"""Limits sudden changes of the rotation speeds of legs where feet land or leave, by raising or lowering heels.
+
+A foot that lands earlier or later than captured stops within a frame, and with it the knee. The tip of the foot must be
+where it is, but its heel may follow a moment later: ankle, knee and hip then slow down over a few frames, and the foot
+neither moves nor skids.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+from scipy.ndimage import maximum_filter1d
+
+from app.arrays import BoolArray, FloatArray
+from app.choreography.body import ENDS, FEET, SEGMENTS
+from app.choreography.body_speeds import runs
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import tips_m
+from app.choreography.feet_on_floor import LEG, legs_to, soles_m
+from app.rig import quaternion
+from app.rig.skeleton import JointTransforms
+from app.rig.sole import SIDES
+
+ROOM: Final = 0.85
+FROM: Final = 0.9
+"""Share of the limit to which changes are reduced, since other limits change the legs again slightly, and above which
+they are.
+"""
+AROUND_S: Final = 0.1
+"""Time in seconds before and after a sudden change within which a heel is moved."""
+EDGE: Final = 2
+"""Number of unchanged frames at either end of such a span."""
+ROUNDS: Final = 100
+"""Number of steps by which the angles of heels are found."""
+TRIES: Final = 3
+"""Greatest number of passes, since legs follow heels only approximately in proportion."""
+MOST_RAD: Final = 0.35
+"""Greatest angle in radians by which a heel is raised or lowered about the tip of its foot."""
+LEAST_FOLLOW: Final = 0.1
+"""Sum of squares of the turns per radian of a heel below which a leg counts as following no less."""
+SOME_RAD: Final = 0.01
+"""Angle in radians by which heels are raised to find how legs follow."""
+EXACT_M: Final = 1e-4
+"""Distance in metres within which the tip of a standing foot stays."""
+_ACROSS: Final = np.array([1.0, 0.0, 0.0])
+
+
+@dataclass(frozen=True, eq=False)
+class _Legs:
+    """Turns of the joints of a leg from frame to frame as vectors in radians, and how they follow the heel.
+
+    Attributes
+    ----------
+    path : (F, 3, 3) float64
+        Sum of the turns of thigh, shank and foot up to each frame.
+    follow : (F, 3, 3) float64
+        Change of each turn per radian by which the heel is raised.
+    """
+
+    path: FloatArray
+    follow: FloatArray
+
+
+def heels_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float, most_m_s2: float) -> MotionClip:
+    """Return the motion with the angular velocity of each joint of the legs changing by at most ``most_rad_s`` from
+    frame to frame, as far as heels can be raised and lowered for it; tips of feet stay. The same object is returned if
+    no change is greater.
+
+    Parameters
+    ----------
+    planted : (F, 2) bool
+        Frames in which the left and the right foot stand.
+    most_m_s2 : float
+        Acceleration of ankles in m/s^2 above which none becomes greater.
+    """
+    fps = float(clip.fps)
+    for _ in range(TRIES):
+        calmer = _calmer(clip, planted, ROOM * most_rad_s / fps, most_m_s2 / fps**2)
+        if calmer is clip:
+            break
+        clip = calmer
+    return clip
+
+
+def _calmer(clip: MotionClip, planted: BoolArray, most_rad: float, most_m: float) -> MotionClip:
+    """Move heels where angular velocities of a leg change by more than ``most_rad`` a frame; the same object is
+    returned if none does, or if heels cannot help. Second differences of ankles greater than ``most_m`` do not grow.
+    """
+    around = 2 * (round(AROUND_S * float(clip.fps)) + EDGE) + 1
+    spans = [
+        (foot, slice(start, stop))
+        for foot in range(2)
+        for start, stop in runs(
+            maximum_filter1d(_excess(clip.rotations[:, _leg(foot)], FROM / ROOM * most_rad) > 0.0, around)
+        )
+    ]
+    if not spans:
+        return clip
+    world = clip.world()
+    tips, highest = tips_m(clip, world), soles_m(clip, world)[..., 1]
+    some = legs_to(clip, _heels_turned(world, np.full(planted.shape, SOME_RAD)), tips, planted)
+    lengths = [here.stop - here.start for _, here in spans]
+    legs, least = [], []
+    for foot, here in spans:
+        legs.append(_legs(clip.rotations[here, _leg(foot)], some.rotations[here, _leg(foot)]))
+        reach_m = float(np.linalg.norm(clip.shape.ends_m[ENDS.index(FEET[foot])]))
+        least.append(-np.minimum(np.maximum(highest[here, foot], 0.0) / reach_m, MOST_RAD))
+    raised = np.zeros(planted.shape)
+    # All spans are one path: the frames at which they meet stay.
+    every = _angles(_joined(legs), np.concatenate(least), _inside(lengths), most_rad)
+    for (foot, here), angles in zip(spans, np.split(every, np.cumsum(lengths)[:-1]), strict=True):
+        raised[here, foot] = angles
+    found = legs_to(clip, _heels_turned(world, raised), tips, planted)
+    moved = found.world()
+    off = planted & (np.linalg.norm(tips_m(found, moved) - tips, axis=-1) > EXACT_M)
+    rotations, changed = clip.rotations.copy(), False
+    for foot, here in spans:
+        beside, leg = slice(max(0, here.start - 2), here.stop + 2), _leg(foot)
+        inside = slice(here.start - beside.start, here.stop - beside.start)
+        new = rotations[beside].copy()
+        new[inside, leg] = found.rotations[here, leg]
+        ankle = world.positions_m[beside, leg.stop].copy()
+        before = _acceleration(ankle)
+        ankle[inside] = moved.positions_m[here, leg.stop]
+        better = _square(new[:, leg], most_rad) < _square(rotations[beside, leg], most_rad)
+        if better and _acceleration(ankle) <= max(most_m, before) and not off[here, foot].any():
+            rotations[beside] = new
+            changed = True
+    return replace(clip, rotations=quaternion.continuous(rotations)) if changed else clip
+
+
+def _leg(foot: int) -> slice:
+    """Indices of thigh, shank and foot."""
+    first = SEGMENTS.index(f"{SIDES[foot]}{LEG[0]}")
+    assert SEGMENTS[first : first + 3] == tuple(f"{SIDES[foot]}{part}" for part in LEG)
+    return slice(first, first + 3)
+
+
+def _heels_turned(world: JointTransforms, raised: FloatArray) -> JointTransforms:
+    """Turn the feet by angles (F, 2) in radians about their own axes to the left, heels up."""
+    rotations = world.rotations.copy()
+    for foot, name in enumerate(FEET):
+        at = 1 + SEGMENTS.index(name)
+        turn = quaternion.from_rotation_vector(raised[:, foot, None] * _ACROSS)
+        rotations[:, at] = quaternion.multiply(rotations[:, at], turn)
+    return replace(world, rotations=rotations)
+
+
+def _turns(rotations: FloatArray, others: FloatArray) -> FloatArray:
+    """Vectors (F, 3, 3) in radians that turn rotations (F, 3, 4) to others."""
+    return quaternion.to_rotation_vector(quaternion.multiply(others, quaternion.conjugate(rotations)))
+
+
+def _excess(rotations: FloatArray, most_rad: float) -> FloatArray:
+    """Greatest change (F,) of the turns of joints (F, 3, 4) between adjacent frame intervals beyond ``most_rad``; 0 at
+    the ends.
+    """
+    if len(rotations) < 3:
+        return np.zeros(len(rotations))
+    change = np.linalg.norm(np.diff(_turns(rotations[:-1], rotations[1:]), axis=0), axis=-1).max(axis=1)
+    return np.pad(np.maximum(change - most_rad, 0.0), 1)
+
+
+def _acceleration(path_m: FloatArray) -> float:
+    """Greatest second difference of a path (F, 3)."""
+    return float(np.linalg.norm(np.diff(path_m, 2, axis=0), axis=-1).max(initial=0.0))
+
+
+def _square(rotations: FloatArray, most_rad: float) -> float:
+    return float(np.square(_excess(rotations, most_rad)).sum())
+
+
+def _legs(rotations: FloatArray, some: FloatArray) -> _Legs:
+    """Find how joints (F, 3, 4) turn from frame to frame and, from those with heels raised by `SOME_RAD`, how they
+    follow."""
+    path = np.pad(np.cumsum(_turns(rotations[:-1], rotations[1:]), axis=0), ((1, 0), (0, 0), (0, 0)))
+    return _Legs(path, _turns(rotations, some) / SOME_RAD)
+
+
+def _joined(legs: Sequence[_Legs]) -> _Legs:
+    return _Legs(np.concatenate([one.path for one in legs]), np.concatenate([one.follow for one in legs]))
+
+
+def _inside(lengths: Sequence[int]) -> BoolArray:
+    """Mark in consecutive spans of given lengths all frames but `EDGE` at either end."""
+    inside = np.ones(sum(lengths), bool)
+    for stop in np.cumsum(lengths).tolist():
+        inside[stop - EDGE : stop + EDGE] = False
+    inside[:EDGE] = False
+    return inside
+
+
+def _angles(legs: _Legs, least_rad: FloatArray, inside: BoolArray, most_rad: float) -> FloatArray:
+    """Smallest angles (F,) in radians by which a heel is raised, from ``least_rad`` on, so that joints change their
+    turns by at most ``most_rad``; by gradient steps with Nesterov's momentum. Only frames ``inside`` (F,) change.
+    """
+    raised, before = np.zeros(len(least_rad)), np.zeros(len(least_rad))
+    step = 1.0 / (16.0 * np.maximum(np.square(legs.follow).sum(axis=(1, 2)), LEAST_FOLLOW))
+    possible = inside[:-2] | inside[1:-1] | inside[2:]
+    for number in range(ROUNDS):
+        ahead = raised + number / (number + 3.0) * (raised - before)
+        change = np.diff(legs.path + legs.follow * ahead[:, None, None], 2, axis=0)
+        size = np.linalg.norm(change, axis=-1, keepdims=True)
+        excess = change * np.maximum(0.0, 1.0 - most_rad / np.maximum(size, 1e-12))
+        if not number % 20 and size[possible].max(initial=0.0) <= 1.001 * most_rad:
+            break
+        back = np.zeros_like(legs.path)
+        back[:-2] += excess
+        back[1:-1] -= 2.0 * excess
+        back[2:] += excess
+        slope = np.einsum("fpi,fpi->f", back, legs.follow)
+        before, raised = raised, np.where(inside, np.clip(ahead - step * slope, least_rad, MOST_RAD), 0.0)
+    return raised
