@@ -26,10 +26,13 @@ ARM_MM: Final = 10.0
 """Depth in millimetres of a forearm inside cloth that is tolerated, since cloth yields."""
 _TRUNK: Final = ("hips", "spine", "chest", "upperChest", "leftUpperLeg", "rightUpperLeg")
 _THIGHS: Final = ("leftUpperLeg", "rightUpperLeg")
+_SHINS: Final = ("leftLowerLeg", "rightLowerLeg")
 _CARRIED: Final = 0.9
 """Least skin weight for the trunk, or for a forearm, of the vertices compared; those between, as in the armpit, touch
 anyway.
 """
+_MOSTLY: Final = 0.5
+"""Least weight for the trunk where shins have the rest, as on the lap in a long skirt."""
 _NEAR_M: Final = 0.06
 """Distance in metres within which surfaces are compared: about the thickness of a forearm in a sleeve."""
 _ASIDE_M: Final = 0.015
@@ -188,7 +191,8 @@ def _surfaces(joints: JointPlayback, mesh: SkinnedMesh) -> Iterator[_TrunkSurfac
     """Yield the surfaces of a mesh that move with the trunk, one for each material, such as skin, shirt and
     trousers.
     """
-    held = _share(joints, mesh, _TRUNK) >= _CARRIED
+    with_trunk = _share(joints, mesh, _TRUNK)
+    held = (with_trunk >= _MOSTLY) & (with_trunk + _share(joints, mesh, _SHINS) >= _CARRIED)
     materials = np.zeros(len(mesh.faces), np.int64) if mesh.face_materials is None else mesh.face_materials
     for material in np.unique(materials):
         faces = mesh.faces[materials == material]
