@@ -55,7 +55,9 @@ class WholeFigure:
         total = int(self._starts[-1])
         self._shape = np.zeros(total, SHAPE)
         self._surface = np.zeros(total, SURFACE)
-        thick_m = [_thickness_m(split.mesh) for split in splits]
+        # Skin that an outfit shows is part of the body's, without a gap where they meet.
+        wholes = _wholes(meshes)
+        thick_m = [_thickness_m(meshes[whole]) for whole in wholes]
         self._thickness = np.repeat(thick_m, counts)
         self._two_sided = np.zeros(total, dtype=bool)
         self._look = np.full(total, -1, np.int32)
@@ -65,7 +67,9 @@ class WholeFigure:
         """The same number for vertices of one mesh and colour. Sheets of hair have one, to be joined along their edges
         at the coarsest level: the scalp would show."""
         looks = textured_looks(meshes)
-        plain = [not mesh.morphs and own_m > PLAIN_LEAST_M for mesh, own_m in zip(meshes, thick_m, strict=True)]
+        plain = [
+            not meshes[whole].morphs and own_m > PLAIN_LEAST_M for whole, own_m in zip(wholes, thick_m, strict=True)
+        ]
         self._coarser = np.repeat(np.where(plain, plain_factor, 1.0), counts)
         known: dict[tuple[int, bytes], int] = {}
         for part, (split, start) in enumerate(zip(splits, self._starts, strict=False)):
@@ -88,6 +92,13 @@ class WholeFigure:
             self._texture(own, split, looks, plains)
             two_sided = np.array([material.double_sided for material in mesh.materials])
             self._two_sided[own] = two_sided[split.materials]
+        self._far_colored = self._colored.copy()
+        """The same, with one number for skin of the body and of an outfit."""
+        for part, whole in enumerate(wholes):
+            if whole != part:
+                number = _number_of(meshes[part].materials[0], meshes[whole])
+                first = self._starts[whole] + int((splits[whole].materials == number).argmax())
+                self._far_colored[self._starts[part] : self._starts[part + 1]] = self._colored[first]
         self._surface["a_color"][:, :3] *= self._shades
         self._head_bones = np.array(sorted(head_bones), np.float32)
 
@@ -182,7 +193,7 @@ class WholeFigure:
         cells = np.floor(places_m / wide).astype(np.int64)
         # Surfaces that face in different directions are not merged through a thin wall.
         facing, sign = _facing(self._shape["a_normal"])
-        looks = self._colored if far else self._looks
+        looks = self._far_colored if far else self._looks
         first, cluster = numbered(row_keys(*cells.T, (facing * 2 + sign) * 2 + head, looks))
         if far:
             # Triangles between the middles of cells are more regular.
@@ -284,6 +295,30 @@ class WholeFigure:
             for name, parts in found.items()
             if parts
         }
+
+
+def _wholes(meshes: Sequence[Mesh]) -> list[int]:
+    """Return for each mesh the first one with a face that it continues, or itself."""
+    return [
+        next((whole for whole in range(part) if _continues(mesh, meshes[whole])), part)
+        for part, mesh in enumerate(meshes)
+    ]
+
+
+def _continues(mesh: Mesh, whole: Mesh) -> bool:
+    """Return True if a mesh has the material of another one, which morphs, and vertices at places of its vertices."""
+    if not (mesh.is_skinned and whole.morphs and len(mesh.materials) == 1):
+        return False
+    if _number_of(mesh.materials[0], whole) is None:
+        return False
+    places_m = np.concatenate([mesh.positions_m, whole.positions_m])
+    keys = row_keys(*np.ascontiguousarray(places_m.T, np.float32).view(np.int32), size=len(places_m))
+    return bool(np.isin(keys[: len(mesh.positions_m)], keys[len(mesh.positions_m) :]).any())
+
+
+def _number_of(material: Material, mesh: Mesh) -> int | None:
+    """Return the index of the same material in a mesh; None if it has another."""
+    return next((number for number, own in enumerate(mesh.materials) if own is material), None)
 
 
 def _facing(normals: SingleArray) -> tuple[IntArray, BoolArray]:

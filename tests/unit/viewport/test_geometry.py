@@ -55,6 +55,23 @@ def test_a_skirt_that_five_bones_move_keeps_all_of_them_at_every_level() -> None
         assert max(np.abs(np.sort(one)[::-1][:5] - np.sort(other)[::-1][:5]).max() for one, other in of_skirt) < 1e-3
 
 
+@pytest.mark.parametrize("name", ["cast_elena", "cast_yumi"])
+def test_bare_skin_of_an_outfit_joins_the_body_at_the_coarsest_level(name: str) -> None:
+    """Holes in the chest would be black specks."""
+    character = character_in(name, OutfitChoice("evening"))
+    body, chest = (next(mesh for mesh in character.meshes if mesh.name == own) for own in ("body", "skin_chest"))
+    common = set(map(tuple, body.positions_m.tolist())) & set(map(tuple, chest.positions_m.tolist()))
+    seam = np.array([place for place in common if abs(place[0]) < 0.08 and place[2] > 0.03])
+    assert len(seam) > 10
+    geometry = character_levels(character)[-1]
+    corners = geometry.triangles.astype(np.int64)
+    sides = np.sort(np.concatenate([corners[:, pair] for pair in ([0, 1], [1, 2], [2, 0])]), axis=1)
+    pairs, count = np.unique(sides, axis=0, return_counts=True)
+    open_m = geometry.shape["a_position"][pairs[count == 1]].mean(axis=1)
+    far_m = np.linalg.norm(open_m[:, None] - seam, axis=2).min(axis=1)
+    assert (far_m > 0.02).all(), np.round(np.sort(far_m)[:5], 3)
+
+
 @pytest.mark.parametrize("name", CHARACTERS)
 def test_the_finest_level_is_every_triangle_where_it_was_in_its_own_colour(name: str) -> None:
     character, geometry = character_named(name), levels(name)[0]
