@@ -10,6 +10,7 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 from app.arrays import FloatArray
 from app.choreography.bent_toes import toe_bend_rad
 from app.choreography.skin_around import skin_around
+from app.choreography.sole_skin import foot_joints, lowest_m_of, lowest_vertices_m
 from app.identity_cache import IdentityCache
 from app.rig import quaternion
 from app.rig.ik import Side
@@ -30,11 +31,11 @@ HALF_WIDTH_PART: Final = 0.35
 EDGE_M: Final = 0.005
 """Distance in metres from a foot's axis from which a point can be on an edge."""
 SINKS_M: Final = 0.005
-"""Depth in metres up to which the front of a shoe may be in the floor while the foot rolls over it."""
+"""Depth in metres up to which the skin of a foot may be in the floor while the foot rolls over it."""
 FLATTENS_S: Final = 0.03
 """Standard deviation in seconds over which a foot is flattened before and after its edge would be below the floor."""
 _OUTLINES: IdentityCache[FloatArray] = IdentityCache(64)
-_HULLS: IdentityCache[tuple[FloatArray, FloatArray]] = IdentityCache(64)
+_SKINS: IdentityCache[FloatArray] = IdentityCache(64)
 _UP: Final = np.array([0.0, 1.0, 0.0])
 
 
@@ -87,12 +88,10 @@ def over_the_floor(character: Character, side: Side, foot: FloatArray, ankle_m: 
         reach_m = max(tip_m, float(outline_m[:, 0].max()))
         bend = toe_bend_rad(foot, axes[0], ball_m[:, 1], rest_m, reach_m, fps)
     toes = quaternion.from_axis_angle(axes[1], -bend)
-    # What is left: heels raised while the foot was rolled, and the backs of feet whose soles face up.
-    for turned, hull in zip(
-        (foot, quaternion.multiply(foot, toes)), _HULLS.step(_hulls_m, character, side), strict=True
-    ):
-        lowest_m = ball_m[:, 1] + quaternion.rotate(turned[:, None], hull)[..., 1].min(axis=1, initial=np.inf)
-        ball_m[:, 1] += np.maximum(-lowest_m - SINKS_M, 0.0)
+    # What is left: skin that bulges where toes bend, heels raised while the foot was rolled, and the backs of feet
+    # whose soles face up.
+    lowest_m = ball_m[:, 1] + lowest_m_of(_SKINS.step(_skin_m, character, side), foot, toes)
+    ball_m[:, 1] += np.maximum(-lowest_m - SINKS_M, 0.0)
     return PlacedFoot(ball_m - quaternion.rotate(foot, roll), foot, toes)
 
 
@@ -115,7 +114,7 @@ def _outline_m(character: Character, side: Side) -> FloatArray:
     """
     skeleton = character.skeleton
     ahead, aside, _ = _axes(skeleton, side)
-    joints = _joints(skeleton, side)
+    joints = foot_joints(skeleton, side)
     roll_m = roll_point_m(skeleton, side)
     ball = rest_positions(skeleton)[joints[0]] + roll_m
     points = np.concatenate([own.rest_m for own in skin_around(character, joints)] or [np.zeros((0, 3))])
@@ -134,28 +133,16 @@ def _outline_m(character: Character, side: Side) -> FloatArray:
     return np.asarray(sole[outermost])
 
 
-def _joints(skeleton: Skeleton, side: Side) -> list[int]:
-    """Return the joints of a foot, the ankle first."""
-    return [skeleton.names.index(name) for name in (f"{side}Foot", f"{side}Toes") if name in skeleton.names]
-
-
-def _hulls_m(character: Character, side: Side) -> tuple[FloatArray, FloatArray]:
-    """Return the outermost points (K, 3) of a foot without its toes, and of its toes, at rest relative to its ball, in
-    metres.
+def _skin_m(character: Character, side: Side) -> FloatArray:
+    """Return the vertices (K, 6) of a foot that can be the lowest, as `lowest_vertices_m` does; the outline of the sole
+    for a foot without skin.
     """
-    skeleton = character.skeleton
-    joints = _joints(skeleton, side)
-    ball = rest_positions(skeleton)[joints[0]] + roll_point_m(skeleton, side)
-
-    def hull(of: list[int]) -> FloatArray:
-        points = [own.rest_m[own.outermost(np.ones(len(own.rows), bool))] - ball for own in skin_around(character, of)]
-        return np.concatenate([*points, np.zeros((0, 3))])
-
-    foot, toes = hull(joints[:1]), hull(joints[1:])
-    if not len(foot) and not len(toes):
-        height_m = float(sole_way_m(skeleton, side)[1] + roll_point_m(skeleton, side)[1])
-        foot = _outline_m(character, side) @ _axes(skeleton, side)[:2] - height_m * _UP
-    return foot, toes
+    found, skeleton = lowest_vertices_m(character, side), character.skeleton
+    if len(found):
+        return found
+    height_m = float(sole_way_m(skeleton, side)[1] + roll_point_m(skeleton, side)[1])
+    outline = _outline_m(character, side) @ _axes(skeleton, side)[:2] - height_m * _UP
+    return np.concatenate([outline, np.zeros_like(outline)], axis=1)
 
 
 def _flattened(

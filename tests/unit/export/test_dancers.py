@@ -14,6 +14,7 @@ import pytest
 from app.choreography.model_file import write_model
 from app.choreography.performed.dancers import dancing_of
 from app.choreography.read_motion import read_motion
+from app.choreography.soles_on_floor import SINKS_M
 from app.export.dancers import measure_dancer
 from app.export.report import Report
 from app.export.request import ExportRequest
@@ -22,11 +23,12 @@ from app.export.targets import target_skeleton
 from app.formats.fbx.read import read_scene, read_scenes
 from app.messages import text
 from app.performance.ensemble import Performance
-from app.performance.span import whole_span
+from app.performance.span import cut_span, whole_span
 from app.project.casting import StagePosition
 from app.project.model import Project
 from app.project.performers import Dancer
 from tests.support.dances import model
+from tests.support.skinned import GlbFile
 from tests.unit.choreography.performed.test_dancers import played
 
 FPS = Fraction(60)
@@ -126,3 +128,24 @@ def test_a_dancer_who_was_moved_and_renamed_is_written_as_now(
     [reported] = export(request, text).dancers
     assert (reported.name, reported.stage.x_m, reported.stage.z_m) == ("Now", -2.0, 4.0)
     assert (tmp_path / "out" / "Now.bvh").is_file()
+
+
+def test_no_sole_of_a_written_file_sinks_into_the_floor_while_a_foot_rolls(tmp_path: Path) -> None:
+    """Around the ball the skin moves with the foot and the toes in parts; vertices are those of a reader of its own."""
+    dancer = Dancer("dancer:1", "One", "salsa", "woman_adult", StagePosition(0.0, 2.0, 0.0), seed=1)
+    performance = Performance(replace(played(), dancers=(dancer,)))
+    span = cut_span(performance.time_frame, Fraction(30), 6.0, 8.0)
+    export(
+        ExportRequest(
+            performance, (), tmp_path, frozenset(("glb",)), span, None, "piece.mid", "test", dancers=(dancer,)
+        ),
+        text,
+    )
+    file = GlbFile(tmp_path / "One.glb")
+    shown = [file.shown(frame) for frame in range(file.frames)]
+    lowest_mm = 10.0 * np.array([min(corners[:, 1].min() for corners in one.corners_cm.values()) for one in shown])
+    toes, foot = (file.names.index(f"left{part}") for part in ("Toes", "Foot"))
+    assert len(lowest_mm) == 60
+    assert lowest_mm.min() > -1000.0 * SINKS_M - 0.2
+    # It does roll: the ankle is raised over the ball.
+    assert max(one.joints_cm[foot, 1] - one.joints_cm[toes, 1] for one in shown) > 9.0
