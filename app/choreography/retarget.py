@@ -25,7 +25,7 @@ from app.rig import quaternion
 from app.rig.ik import Side, leg, solve_limb
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import rest_positions
-from app.rig.sole import SIDES, TIP_PART, roll_point_m, sole_way_m
+from app.rig.sole import SIDES, TIP_PART, roll_point_m, sole_way_m, without_stiff_toes
 
 TRUNK: Final[tuple[str, ...]] = ("spine", "chest", "upperChest")
 COLLAR_SHARE: Final = 0.25
@@ -75,6 +75,7 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
     Motion
         Motion of the character's body, without morphs, controls and instrument.
     """
+    character = without_stiff_toes(character)
     skeleton, frames = character.skeleton, len(clip)
     source = clip.world()
     segments = {name: source.rotations[:, 1 + at] for at, name in enumerate(SEGMENTS)}
@@ -221,8 +222,7 @@ def _ankle_path(
     end of the clip's foot.
 
     So the ball of a standing foot stays in place while the heel rises, for feet of any length: the end of a captured
-    foot is its ball in most files. Where it is farther ahead, the ball
-    is behind it.
+    foot is its ball in most files. Where it is farther ahead, the ball is behind it.
     """
     foot = f"{side}Foot"
     end, roll = shape.ends_m[ENDS.index(foot)], roll_point_m(skeleton, side)

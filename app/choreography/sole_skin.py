@@ -11,9 +11,9 @@ from app.arrays import FloatArray
 from app.choreography.skin_around import skin_around
 from app.rig import quaternion
 from app.rig.ik import Side
-from app.rig.model import Character, Skeleton
+from app.rig.model import Character
 from app.rig.skeleton import rest_positions
-from app.rig.sole import roll_point_m
+from app.rig.sole import foot_joints, roll_point_m
 
 PITCHES_DEG: Final = np.arange(-90.0, 271.0, 10.0)
 """Pitches of a foot in degrees for which its lowest vertices are found."""
@@ -38,11 +38,6 @@ def lowest_m_of(vertices_m: FloatArray, foot: FloatArray, toes: FloatArray) -> F
         Rotation of the toes relative to the foot.
     """
     return np.asarray((_upward(foot, toes) @ vertices_m.T).min(axis=1, initial=np.inf))
-
-
-def foot_joints(skeleton: Skeleton, side: Side) -> list[int]:
-    """Return the joints of a foot, the ankle first."""
-    return [skeleton.names.index(name) for name in (f"{side}Foot", f"{side}Toes") if name in skeleton.names]
 
 
 def lowest_vertices_m(character: Character, side: Side) -> FloatArray:

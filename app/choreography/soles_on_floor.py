@@ -10,13 +10,13 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 from app.arrays import FloatArray
 from app.choreography.bent_toes import toe_bend_rad
 from app.choreography.skin_around import skin_around
-from app.choreography.sole_skin import foot_joints, lowest_m_of, lowest_vertices_m
+from app.choreography.sole_skin import lowest_m_of, lowest_vertices_m
 from app.identity_cache import IdentityCache
 from app.rig import quaternion
 from app.rig.ik import Side
 from app.rig.model import Character, Skeleton
 from app.rig.skeleton import rest_positions
-from app.rig.sole import foot_tip_m, roll_point_m, sole_way_m
+from app.rig.sole import foot_joints, foot_tip_m, roll_point_m, sole_way_m
 
 HEEL_PART: Final = 0.3
 """Distance of the heel behind the ankle relative to that from ankle to toes."""

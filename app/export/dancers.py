@@ -22,7 +22,7 @@ from app.export.target import TargetSkeleton
 from app.formats.scene import Scene
 from app.rig import quaternion
 from app.rig.model import Character
-from app.rig.sole import SIDES, foot_tip_m, roll_point_m
+from app.rig.sole import SIDES, foot_tip_m, roll_point_m, without_stiff_toes
 
 
 def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, standing: BoolArray) -> DancerMeasures:
@@ -39,13 +39,13 @@ def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, s
     lengths = np.linalg.norm(playback.translations_m(0, frames), axis=-1)
     rest = np.linalg.norm(playback.rest_m, axis=-1)
     speeds: list[FloatArray] = []
-    lowest = np.inf
+    lowest, rolling = np.inf, without_stiff_toes(character).skeleton
     for foot, side in enumerate(SIDES):
-        end = f"{side}Toes" if f"{side}Toes" in character.skeleton.names else f"{side}Foot"
+        end = f"{side}Toes" if f"{side}Toes" in rolling.names else f"{side}Foot"
         bone, joint = joints.bone(end), character.skeleton.index(end)
         own = target.joint_from_bone[target.bone_of_joint[joint]]
         turned = quaternion.multiply(quaternion.from_matrix(world[:, bone, :3, :3]), quaternion.conjugate(own))
-        roll, to_tip = roll_point_m(character.skeleton, side), foot_tip_m(character.skeleton, side)
+        roll, to_tip = roll_point_m(rolling, side), foot_tip_m(rolling, side)
         if end.endswith("Toes"):
             roll, to_tip = np.zeros(3), to_tip - roll
         stays = world[:, bone, :3, 3] + quaternion.rotate(turned, roll)

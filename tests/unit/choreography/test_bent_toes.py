@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,8 +17,10 @@ from app.choreography.feet_on_floor import legs_to
 from app.choreography.retarget import retarget
 from app.rig import quaternion
 from app.rig.characters.character_library import character_named
+from app.rig.characters.load_character import load_character
 from app.rig.model import Character
 from app.rig.skeleton import forward
+from app.rig.sole import foot_tip_m
 from tests.support.dances import still
 
 AHEAD = np.array([0.0, 0.0, 1.0])
@@ -72,3 +75,13 @@ def test_toes_bend_no_farther_than_those_of_people_and_not_suddenly() -> None:
     assert 0.7 * MOST_RAD < bend.max() < MOST_RAD
     assert np.abs(np.diff(bend)).max() * 60.0 < 9.0
     assert bend[-1] < 0.02
+
+
+def test_feet_of_figures_whose_toes_move_no_skin_roll_over_their_tips() -> None:
+    character = load_character(Path(__file__).parents[2] / "data" / "characters" / "elder_vrm0.vrm")
+    motion, skeleton = retarget(on_toes(40.0 * np.sin(np.linspace(0.0, np.pi, 90)) ** 2), character), character.skeleton
+    world = forward(skeleton, motion.rotations.astype(np.float64), motion.hips_m.astype(np.float64))
+    foot = skeleton.index("leftFoot")
+    tip_m = world.positions_m[:, foot] + quaternion.rotate(world.rotations[:, foot], foot_tip_m(skeleton, "left"))
+    assert np.ptp(tip_m[:, [0, 2]], axis=0).max() < 0.005
+    assert np.ptp(tip_m[:, 1]) < 0.02
