@@ -17,6 +17,7 @@ from app.rig.mesh import Mesh
 from app.rig.model import Character, Landmark
 from app.rig.people.body_shapes import body_shapes
 from app.rig.people.bundled_people import finished_body, whole_phenotype
+from app.rig.people.laps import laid_on_lap
 from app.rig.people.make_person import SKIN, SKIN_MATERIAL, Original, carried, original_of
 from app.rig.people.person import Person, originals
 from app.rig.people.wardrobe import OutfitChoice, OutfitFacts, linear_colour, tailored_for, wardrobe
@@ -53,6 +54,7 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
     file = _garments(path, facts.body)
     finished, skin = _finished(character), next(mesh for mesh in character.meshes if mesh.name == SKIN)
     worn = carried(file, body_shapes(), whole_phenotype(person), table.hands, other)
+    worn = _seated_well(worn, facts, character)
     worn = tuple(_joined(mesh, file, finished, skin) for mesh in worn)
     own = [_uncovered(mesh, facts, finished) for mesh in character.meshes if mesh.name not in facts.hides]
     own, garments = ([_coloured(mesh, facts, choice, skin) for mesh in meshes] for meshes in (own, worn))
@@ -69,6 +71,12 @@ def _finished(character: Character) -> Character:
     while character.made_from is not None:
         character = character.made_from
     return character
+
+
+def _seated_well(worn: tuple[Mesh, ...], facts: OutfitFacts, character: Character) -> tuple[Mesh, ...]:
+    """Return garments in which coats and shirts lie on the lap of a seated player."""
+    below = [mesh for mesh in worn if facts.parts.get(mesh.name) == "bottom"]
+    return tuple(laid_on_lap(mesh, below, character) if facts.parts.get(mesh.name) == "top" else mesh for mesh in worn)
 
 
 def _joined(mesh: Mesh, file: Original, finished: Character, skin: Mesh) -> Mesh:

@@ -270,6 +270,48 @@ def test_the_front_of_a_seated_garment_lies_on_the_lap(outfit: str, upper: str, 
     assert -0.025 < np.median(over_m) < 0.05, np.round(over_m, 3)
 
 
+def heights_over(places: FloatArray, corners: FloatArray) -> FloatArray:
+    """Heights (N,) of places (N, 3) over the highest triangle (T, 3, 3) below or above them; NaN beside all."""
+    first, along, aside = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    size = along[:, 0] * aside[:, 2] - along[:, 2] * aside[:, 0]
+    size = np.where(np.abs(size) < 1e-12, 1e-12, size)
+    found = np.full(len(places), np.nan)
+    for row, place in enumerate(places):
+        off = place - first
+        u = (off[:, 0] * aside[:, 2] - off[:, 2] * aside[:, 0]) / size
+        v = (along[:, 0] * off[:, 2] - along[:, 2] * off[:, 0]) / size
+        under = (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0)
+        if under.any():
+            found[row] = place[1] - (first[:, 1] + u * along[:, 1] + v * aside[:, 1])[under].max()
+    return found
+
+
+@pytest.mark.parametrize(
+    ("outfit", "upper", "lower", "id"),
+    [
+        ("school_uniform", "tunic", "trousers", "student_kenta"),
+        ("school_uniform", "tunic", "trousers", "child_sota"),
+        ("marching", "tunic", "trousers", "cast_thomas"),
+        ("concert_black", "jacket", "trousers", "cast_henry"),
+        ("school_blazer", "jacket", "skirt", "student_mei"),
+    ],
+)
+def test_the_hem_of_a_seated_coat_lies_close_to_the_thighs_of_every_build(
+    outfit: str, upper: str, lower: str, id: str
+) -> None:
+    """It would be a stiff shelf over the lap, or let the thighs through."""
+    character = character_in(id, OutfitChoice(outfit))
+    coat, below = mesh_named(character, upper), mesh_named(character, lower)
+    x, y, z = coat.positions_m.T
+    front = (z > 0.05) & (np.abs(x) > 0.06) & (np.abs(x) < 0.14)
+    hem = front & (y < y[front].min() + 0.012)
+    cloth, legs = (posed(character, mesh, np.deg2rad(86.0), np.deg2rad(13.0)) for mesh in (coat, below))
+    over_m = heights_over(cloth[hem], legs[below.triangles])
+    assert len(over_m) >= 6
+    assert np.nanmin(over_m) > -0.003, np.round(over_m, 3)
+    assert np.nanpercentile(over_m, 25) < 0.016, np.round(over_m, 3)
+
+
 @pytest.mark.parametrize("id", ["woman_adult", "child_nia"])
 def test_a_seated_long_dress_hangs_from_the_knees(id: str) -> None:
     character = character_in(id, OutfitChoice("evening"))
