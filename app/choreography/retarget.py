@@ -222,7 +222,7 @@ def _ankle_path(
     end of the clip's foot.
 
     So the ball of a standing foot stays in place while the heel rises, for feet of any length: the end of a captured
-    foot is its ball in most files. Where it is farther ahead, the ball is behind it.
+    foot is its ball in most files. Where it is farther ahead than the character's, the ball is behind it.
     """
     foot = f"{side}Foot"
     end, roll = shape.ends_m[ENDS.index(foot)], roll_point_m(skeleton, side)
@@ -231,8 +231,8 @@ def _ankle_path(
     reach_m, own_m = scale * float(np.hypot(end[0], end[2])), float(np.hypot(roll[0], roll[2]))
     ahead = quaternion.rotate(segments[foot], end * (1.0, 0.0, 1.0) / max(reach_m / scale, 1e-9)) * (1.0, 0.0, 1.0)
     ahead /= np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), LEAST_AHEAD)
-    farther_m = reach_m - own_m
-    path -= farther_m * smooth_share(np.array(abs(farther_m)), BALL_M) * ahead
+    farther_m = max(reach_m - own_m, 0.0)
+    path -= farther_m * smooth_share(np.array(farther_m), BALL_M) * ahead
     path[:, 1] += sole_way_m(skeleton, side)[1] + roll[1]
     return np.asarray(path - quaternion.rotate(segments[foot], roll))
 

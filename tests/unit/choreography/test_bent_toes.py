@@ -26,18 +26,19 @@ from tests.support.dances import still
 AHEAD = np.array([0.0, 0.0, 1.0])
 
 
-def on_toes(raised_deg: FloatArray) -> MotionClip:
-    """Both feet pitch about their ends, which stand, while the hips stay a little lower than at rest."""
+def on_toes(raised_deg: FloatArray, swivelled_deg: float = 0.0, reach_m: float = 0.14) -> MotionClip:
+    """Both feet pitch and swivel about their ends, which stand, while the hips stay a little lower than at rest."""
     clip = still(len(raised_deg))
     ends = clip.shape.ends_m.copy()
-    ends[3:] = (0.0, -0.05, 0.14)
+    ends[3:] = (0.0, -0.05, reach_m)
     clip = replace(clip, shape=replace(clip.shape, ends_m=ends), hips_m=clip.hips_m - (0.0, 0.05, 0.0))
     world = still(len(raised_deg)).world()
     stood = tips_m(replace(clip, hips_m=still(len(raised_deg)).hips_m))
     rotations = world.rotations.copy()
+    swivel = quaternion.from_axis_angle((0.0, 1.0, 0.0), np.radians(np.linspace(0.0, swivelled_deg, len(clip))))
+    pitch = quaternion.from_axis_angle((1.0, 0.0, 0.0), np.radians(raised_deg))
     for side in ("left", "right"):
-        foot = 1 + SEGMENTS.index(f"{side}Foot")
-        rotations[:, foot] = quaternion.from_axis_angle((1.0, 0.0, 0.0), np.radians(raised_deg))
+        rotations[:, 1 + SEGMENTS.index(f"{side}Foot")] = quaternion.multiply(swivel, pitch)
     moved = replace(clip.world(), rotations=rotations)
     return legs_to(clip, moved, stood, np.ones((len(clip), 2), bool))
 
@@ -77,9 +78,11 @@ def test_toes_bend_no_farther_than_those_of_people_and_not_suddenly() -> None:
     assert bend[-1] < 0.02
 
 
-def test_feet_of_figures_whose_toes_move_no_skin_roll_over_their_tips() -> None:
+@pytest.mark.parametrize(("swivelled_deg", "reach_m"), [(0.0, 0.14), (25.0, 0.09)])
+def test_feet_of_figures_whose_toes_move_no_skin_roll_over_their_tips(swivelled_deg: float, reach_m: float) -> None:
     character = load_character(Path(__file__).parents[2] / "data" / "characters" / "elder_vrm0.vrm")
-    motion, skeleton = retarget(on_toes(40.0 * np.sin(np.linspace(0.0, np.pi, 90)) ** 2), character), character.skeleton
+    raised_deg, skeleton = 40.0 * np.sin(np.linspace(0.0, np.pi, 90)) ** 2, character.skeleton
+    motion = retarget(on_toes(raised_deg, swivelled_deg, reach_m), character)
     world = forward(skeleton, motion.rotations.astype(np.float64), motion.hips_m.astype(np.float64))
     foot = skeleton.index("leftFoot")
     tip_m = world.positions_m[:, foot] + quaternion.rotate(world.rotations[:, foot], foot_tip_m(skeleton, "left"))
