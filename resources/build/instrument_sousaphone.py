@@ -38,7 +38,10 @@ STEM = np.array([0.205, 0.0, -0.340])
 ELBOW_R = 0.125
 NECK = 0.070
 """Measure of how far left of the first valve the tube from the mouthpiece comes down."""
-GRIP_DEG = 66.0
+GRIP_DEG, ROUND_DEG = 66.0, 35.0
+"""Place of the left hand, and how far round the tube its palm is from the left to the front: from the left alone a
+thick wrist would be in the breast.
+"""
 
 
 def winding(degrees: Array) -> Array:
@@ -154,9 +157,11 @@ def grip() -> tuple[Array, Array, Array, Array]:
     a, b = winding(np.array([GRIP_DEG + 0.5, GRIP_DEG - 0.5]))
     way = unit(b - a)
     outer = np.array([unit(SHOULDER - HIP)[1], -unit(SHOULDER - HIP)[0], 0.0])
-    palm = unit(outer - way * (outer @ way))
-    ahead = np.cross(palm, way)
-    return (a + b) / 2, way, palm, ahead if ahead[2] > 0 else -ahead
+    left = unit(outer - way * (outer @ way))
+    front = np.cross(left, way)
+    front = front if front[2] > 0 else -front
+    cosine, sine = np.cos(np.radians(ROUND_DEG)), np.sin(np.radians(ROUND_DEG))
+    return (a + b) / 2, way, cosine * left + sine * front, cosine * front - sine * left
 
 
 def contacts() -> list[dict[str, object]]:

@@ -126,3 +126,9 @@ def test_curved_fingers_change_nothing_of_how_a_player_sits_and_holds(instrument
         assert one.bell_room == without.bell_room
     ends = [instrument_matrices(still_pose(one, 1.0)) for one in (made, without)]
     np.testing.assert_array_equal(*ends)
+
+
+def test_the_left_hand_holds_a_sousaphone_from_the_front() -> None:
+    """Round the tube from behind, its forearm was in thick jackets."""
+    made, _, character = seated("sousaphone_BBb", "cast_grace", "marching")
+    assert depth_mm(character, frames_of(made, out=True)) <= 0.5 * ARM_MM
