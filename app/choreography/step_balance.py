@@ -16,10 +16,10 @@ from app.arrays import FloatArray
 from app.choreography.accent_grid import AccentGrid
 from app.choreography.model import MotionSegment
 
-MORE: Final = 1.1
-"""Number of steps aimed at relative to the captures, since a phrase can only make up for those before it."""
 IGNORED: Final = 4.0
-"""Number of missing steps that is ignored."""
+"""Number of missing steps that is ignored: with fewer, or with more steps than captured as the aim, more feet land
+between beats.
+"""
 MOST: Final = 4.0
 """Number of missing steps, beyond the ignored ones, from which steps are favoured most."""
 
@@ -58,7 +58,7 @@ class StepBalance:
         if not chosen:
             return np.zeros(len(self.steps))
         danced_s = float(grid.times_s[first] - grid.times_s[chosen[0][0]])
-        missing = MORE * self.per_s * danced_s - float(self.steps[[segment for _, segment in chosen]].sum())
+        missing = self.per_s * danced_s - float(self.steps[[segment for _, segment in chosen]].sum())
         return float(np.clip((missing - IGNORED) / MOST, 0.0, 1.0)) * (self.steps - self.per_s * self.lasts_s)
 
 
