@@ -12,7 +12,7 @@ from app.arrays import BoolArray, FloatArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.body_speeds import angle
 from app.choreography.clip import MotionClip
-from app.choreography.limbs import bend, softly_within
+from app.choreography.limbs import bend, smooth_share, softly_within
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
 from app.rig.sole import SIDES
@@ -153,8 +153,7 @@ def free(planted: BoolArray, fps: float) -> FloatArray:
     next_at = stands[np.minimum(after, len(stands) - 1)]
     last_at = stands[np.maximum(after - 1, 0)]
     away = np.minimum(np.abs(next_at - frames), np.abs(frames - last_at))
-    share = np.clip(away / max(FREE_S * fps, 1.0), 0.0, 1.0)
-    return np.asarray(share * share * (3.0 - 2.0 * share))
+    return smooth_share(away, (0.0, max(FREE_S * fps, 1.0)))
 
 
 def _into_range(turned: FloatArray, foot: int) -> FloatArray:

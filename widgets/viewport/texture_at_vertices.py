@@ -38,6 +38,7 @@ class Places:
 
 
 def placed(split: SplitMesh) -> Places:
+    """Return the texture coordinates, materials and triangles of a split mesh; cached by these for skinned meshes."""
     if not split.mesh.is_skinned:
         return _places(split.vertices, split.materials, split.triangles, split.mesh.uvs)
     return _PLACES.step(_places, split.vertices, split.materials, split.triangles, split.mesh.uvs)
