@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from functools import cache
 from itertools import combinations
 from pathlib import Path
@@ -19,7 +20,7 @@ from app.rig.characters.character_library import bundled_characters, character_n
 from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character
 from app.rig.people import make_person
-from app.rig.people.body_shapes import SKIN_VERTICES, Phenotype, body_m, body_shapes, heights_m
+from app.rig.people.body_shapes import SKIN_VERTICES, Phenotype, body_m, body_shapes, heights_m, years_of
 from app.rig.people.bundled_people import (
     bundled_people,
     bundled_person,
@@ -37,6 +38,8 @@ from widgets.viewport.geometry import character_levels
 
 ANNY = Path(__file__).parents[3] / "data" / "anny_bodies.json"
 """Results of anny 0.6.2 for three people: some vertices and joints in metres, soles on the floor."""
+
+ANATOMY = Path(__file__).parents[4] / "resources" / "build" / "anatomy.toml"
 
 PARTS = ("UpperArm", "LowerArm", "Hand")
 
@@ -179,6 +182,21 @@ def test_people_differ_and_are_named() -> None:
     bodies = [(bundled_person(id).phenotype, bundled_person(id).colors["skin"]) for id in bundled_people()]
     assert len({body.height_m for body, _ in bodies}) > 10
     assert all(set(bundled_person(id).not_cast_for) <= set(bundled_maps()) for id in bundled_people())
+
+
+def test_pupils_have_bodies_of_their_own_within_the_schools_statistics() -> None:
+    table = tomllib.loads(ANATOMY.read_text(encoding="utf-8"))["stature"]
+    pupils = [bundled_person(id) for id in bundled_people() if id.startswith("student_")]
+    assert len(pupils) == 21
+    for person in pupils:
+        years = years_of(person.phenotype.age)
+        assert 15.0 <= years < 19.0
+        mean_cm, deviation_cm = table["women" if person.phenotype.sex else "men"][str(min(int(years), 17))]
+        # The survey is of pupils in Japan.
+        most = 2.0 if person.phenotype.asian > 0.9 else 2.5
+        assert abs(100.0 * person.phenotype.height_m - mean_cm) < most * deviation_cm, person.name.en
+    assert len({(one.original, one.phenotype.height_m) for one in pupils}) == len(pupils)
+    assert len({(one.phenotype.age, one.phenotype.weight) for one in pupils}) == len(pupils)
 
 
 def test_the_players_of_a_school_band_are_told_apart() -> None:
