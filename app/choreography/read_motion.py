@@ -7,25 +7,24 @@ mean over the clip of its joint's place on the parent segment.
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import permutations
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from app.arrays import FloatArray
-from app.choreography.body import ENDS, FEET, PARENT_OF, SEGMENTS
+from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.body_check import report
 from app.choreography.captured_body import captured_body
-from app.choreography.captured_floor import floor_of_all, floor_of_danced
+from app.choreography.captured_floor import floor_of_all, floors_m
 from app.choreography.cleaning import CleanedClip, cleaned, remarks
 from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.held_frames import held_frames
+from app.choreography.place_units import place_units, with_places
 from app.choreography.raw_skeleton import BodyError, RawSkeleton, raw_skeleton
 from app.errors import FileError, Message, shortened
 from app.formats.bvh.clip import BvhClip
@@ -45,23 +44,6 @@ MOST_FIGURES: Final = 16
 """Greatest number of skeletons of a file that are tried if none is requested."""
 FAR_M: Final = 0.05
 """Joints farther from their place in the file are reported."""
-HIPS_OVER_LEGS: Final = (0.5, 1.5)
-"""Height of the hips over the floor, most of the time, as a part of the legs' length."""
-FLAT_PART: Final = 0.4
-"""Share of the legs' length by which the lower foot's height may vary more with positions in another unit."""
-PLACE_UNITS_M: Final = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254}
-"""Units, in metres, that the positions and the bones of a file may have, independently of each other."""
-LEGS_M: Final = (0.6, 1.2)
-"""Plausible lengths of legs in metres."""
-NEAR_FACTOR: Final = 4.0
-"""Ratio of two units (inches and centimetres) below which the height of the hips alone does not show which one it
-is."""
-NEAR_ZERO: Final = 0.3
-"""Height above zero of the lower ankle, as a part of the legs' length, up to which the floor is at zero."""
-SLIDES_LESS: Final = 0.8
-"""Greatest step of the slower foot with such a unit, relative to its step with the unit of the bones."""
-SLIDES_AT_ZERO: Final = 1.4
-"""The same if the floor is at zero with that unit only: 0.1 to 1.23 in files with two units, 1.5 and more in others."""
 HAND_PART: Final = 0.108
 CROWN_PART: Final = 0.13
 FOOT_PART: Final = 0.12
@@ -97,6 +79,8 @@ class ReadMotion:
     apart_m : float
         Greatest distance in metres of a joint from its place in the file relative to the hips: a segment keeps its
         world rotation, but its joint has a fixed place on the parent segment, even if collars or a neck move.
+    floor_moved_m : float
+        Greatest difference in metres between two heights of the floor in the file, which was levelled.
     """
 
     cleaned: CleanedClip
@@ -111,6 +95,7 @@ class ReadMotion:
     skeleton: RawSkeleton
     rate_guess: Message | None = None
     file_guesses: tuple[Message, ...] = ()
+    floor_moved_m: float = 0.0
 
     @property
     def clip(self) -> MotionClip:
@@ -190,6 +175,8 @@ def guesses(motion: ReadMotion) -> tuple[Message, ...]:
     if not motion.unit:
         found.append(Message("motion.no_unit"))
     found += remarks(motion.cleaned)
+    if motion.floor_moved_m:
+        found.append(Message("motion.floor_moved", {"moved_cm": round(100.0 * motion.floor_moved_m)}))
     if motion.joints_doubtful:
         found.append(Message("motion.doubtful", {"joints": ", ".join(motion.joints_doubtful)}))
     if motion.apart_m > FAR_M:
@@ -207,9 +194,9 @@ def motion_of(
     file_fps, repeats, bvh = bvh.fps, *_without_held(bvh)
     fps = fps / repeats if fps else bvh.fps
     found = captured_body(bvh, file, joints)
-    units = _place_units(found.body.positions, found.body.joints)
+    units = place_units(found.body.positions, found.body.joints)
     if units is not None:
-        bvh = _with_places(bvh, found.body.joints["hips"], *units)
+        bvh = with_places(bvh, found.body.joints["hips"], *units)
         found = captured_body(bvh, file, joints)
     held = list(found.body.segments.values())
     t_pose = np.array([found.t_pose[name] for name in SEGMENTS])
@@ -230,14 +217,15 @@ def motion_of(
     before, after = (round(done.held * frames) for frames in (done.lead_in, done.trail))
     proper = slice(before, len(whole) - after)
     apart_m = _apart(whole.span(proper.start, proper.stop), (positions - positions[:, :1])[proper])
-    start_m = done.clip.hips_m[0] * (1.0, 0.0, 1.0) + (0.0, floor_of_danced(done), 0.0)
+    under_m = floors_m(done)
+    start_m = done.clip.hips_m[0] * (1.0, 0.0, 1.0) + under_m[:, None] * (0.0, 1.0, 0.0)
     clip = replace(done.clip, hips_m=done.clip.hips_m - start_m)
     first = found.body.positions[before], found.body.rotations[before]
     return ReadMotion(
         replace(done, clip=clip, held=done.held * repeats), found.profile, unit, unit_m, found.up, file_fps,
         found.doubtful, apart_m,
         report(found.checked), raw_skeleton(bvh, file, found.found, *first), bvh.rate_guess,
-        (*bvh.guesses, *found.guesses),
+        (*bvh.guesses, *found.guesses), float(np.ptp(under_m)),
     )  # fmt: skip
 
 
@@ -253,65 +241,6 @@ def _without_held(bvh: BvhClip) -> tuple[Fraction, BvhClip]:
     return count, replace(
         bvh, fps=bvh.fps / count, rotations_xyzw=rotations, root_translation_cm=root, translations_cm=moved
     )
-
-
-def _place_units(positions: FloatArray, bones: Mapping[str, int]) -> tuple[str, str] | None:
-    """Return the unit of the hips' positions and that of the bones if these are two; None if they are one.
-
-    The hips are about as high above the floor as the legs are long, and with the right unit the lower foot stays at
-    the floor.
-
-    Parameters
-    ----------
-    positions : ndarray, shape (F, J, 3)
-        World positions of J joints, Y up.
-    """
-    hips, feet = positions[:, bones["hips"]], positions[:, [bones[name] for name in FEET]]
-    leg = [bones[f"left{name}"] for name in ("UpperLeg", "LowerLeg", "Foot")]
-    length = float(np.linalg.norm(np.diff(positions[0, leg], axis=0), axis=1).sum())
-    away = feet - hips[:, None]
-
-    def height_varies(factor: float) -> float:
-        return float(np.ptp(np.percentile(factor * hips[:, 1] + away[..., 1].min(axis=1), (5, 95))))
-
-    def is_at_zero(factor: float) -> bool:
-        lowest = factor * hips[:, 1] + away[..., 1].min(axis=1)
-        return abs(float(np.percentile(lowest, 5))) < NEAR_ZERO * length
-
-    def steps(factor: float) -> float:
-        ways = np.diff(factor * hips[:, None] + away, axis=0)
-        return float(np.linalg.norm(ways, axis=-1).min(axis=1).sum())
-
-    found = []
-    likely = [name for name, unit_m in PLACE_UNITS_M.items() if LEGS_M[0] < length * unit_m < LEGS_M[1]]
-    usual = float(np.median(hips[:, 1])) / length
-    for unit, bones_unit in permutations(PLACE_UNITS_M, 2):
-        factor = PLACE_UNITS_M[unit] / PLACE_UNITS_M[bones_unit]
-        if not HIPS_OVER_LEGS[0] < factor * usual < HIPS_OVER_LEGS[1]:
-            continue
-        if max(factor, 1.0 / factor) < NEAR_FACTOR:
-            wrong = not HIPS_OVER_LEGS[0] < usual < HIPS_OVER_LEGS[1]
-            slides = steps(factor) / max(steps(1.0), 1e-9 * length)
-            fits = (wrong and slides < SLIDES_LESS) or (
-                is_at_zero(factor) and not is_at_zero(1.0) and slides < SLIDES_AT_ZERO
-            )
-        else:
-            fits = height_varies(factor) <= height_varies(1.0) + FLAT_PART * length
-        if fits:
-            found.append((bones_unit not in likely, abs(math.log(factor * usual)), unit, bones_unit))
-    return min(found)[2:] if found else None
-
-
-def _with_places(bvh: BvhClip, hips: int, unit: str, bones_unit: str) -> BvhClip:
-    """Return a clip with the positions of the hips and all their ancestors in the unit of the bones."""
-    factor = PLACE_UNITS_M[unit] / PLACE_UNITS_M[bones_unit]
-    above = {hips}
-    while (parent := bvh.parents[min(above)]) >= 0:
-        above.add(parent)
-    moved = {joint: way * factor if joint in above else way for joint, way in bvh.translations_cm.items()}
-    guess = Message("motion.place_unit", {"unit": unit, "bones": bones_unit})
-    root = bvh.root_translation_cm * factor
-    return replace(bvh, root_translation_cm=root, translations_cm=moved, guesses=(*bvh.guesses, guess))
 
 
 def _offsets(positions: FloatArray, rotations: FloatArray) -> FloatArray:
