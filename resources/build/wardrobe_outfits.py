@@ -172,7 +172,7 @@ def _school_legs(wearer: Wearer, material: str, checked: bool, socks_material: s
     """A pleated skirt to the knee, bare knees, socks below them."""
     tailoring = wearer.tailoring
     hem, sock = tailoring.knee_m - 0.025, tailoring.knee_m - 0.10
-    pleated = skirt(wearer, Skirt(tailoring.belt_m - 0.015, hem, 0.035, 0.012, 16), checked=checked)
+    pleated = skirt(wearer, Skirt(tailoring.belt_m - 0.015, hem, 0.035, 0.012, 16, other_leg=0.2), checked=checked)
     return [
         (garment("skirt", {material: [pleated]}, wearer, SKIRT_BONES), "bottom"),
         (socks(wearer, socks_material, sock), "bottom"),

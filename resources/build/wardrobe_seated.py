@@ -31,7 +31,7 @@ ALONG, KEPT_M = 0.3, 0.01
 ROUNDS = 3
 BELOW_M = 0.08
 """Depth under the knees down to which cloth is laid."""
-SAG_M = 0.015
+SAG_M = 0.035
 """Depth in the middle to which a short skirt sags between the legs."""
 OVER_KNEES_M = 0.09
 """Length of a short skirt that hangs before the knees."""
@@ -45,7 +45,7 @@ FALLS = 0.2
 """Slope of a long skirt's front beside the thighs."""
 HOLLOW_M = 0.09
 """Depth of a long skirt's hollow between the shins."""
-DROP = 0.18
+DROP = 0.06
 """Share of the hips in the hem of a short skirt, by which it hangs down at the sides."""
 SHORTER = 0.78
 """Length of a short skirt under the thighs as a share of its length over them."""

@@ -14,8 +14,14 @@ from wardrobe_pieces import Wearer, few_bones
 from wardrobe_seated import seated_weights
 
 PLEATS, PER_PLEAT = 24, 4
+WELT_M = (0.0025, 0.03)
+"""Thickness of the upper edge of socks, and height over which they become so thick."""
+EVEN_M, EVEN_OVER = 0.018, 48
+"""Radius and number of the vertices over which weights of the upper edge of socks are averaged."""
 SKIRT_BONES = 5
 """Bones that a skirt goes with between the legs: hips, thighs and shins."""
+OUTER_M, LOWER = (0.15, 0.22), (0.25, 1.0)
+"""Distances off the middle, and shares of a skirt's length, between which the other leg gets its share of a skirt."""
 INSTEP_M = 0.12
 """Height over the sole of the base mesh from which feet come before the shins."""
 FARTHEST_M = 0.030
@@ -108,7 +114,8 @@ def _about_both_legs(wearer: Wearer, low: float, high: float) -> Profile:
 @dataclass(frozen=True)
 class Skirt:
     """A skirt from waist to hem (heights, m), how much wider it becomes per metre, how deep its pleats are, how far off
-    the middle cloth goes with one leg alone, and the share of its width at the hips that a row keeps of the one above.
+    the middle cloth goes with one leg alone, the share of its width at the hips that a row keeps of the one above, and
+    the share of the other leg in the hem at the sides, which keeps it beside thighs that turn outwards.
     """
 
     top_m: float
@@ -118,6 +125,7 @@ class Skirt:
     rows: int = 12
     between_m: float = 0.09
     kept: float = 0.997
+    other_leg: float = 0.0
 
 
 def skirt(wearer: Wearer, shape: Skirt, *, checked: bool = False) -> Sewn:
@@ -158,12 +166,20 @@ def skirt(wearer: Wearer, shape: Skirt, *, checked: bool = False) -> Sewn:
             uvs.append(plain_uvs(turn * 1.6 - 0.8, np.full(columns + 1, height)))
     points = np.concatenate(rows)
     faces = grid_faces(shape.rows, columns + 1, closed=False)[:, ::-1]
-    left = smoothstep(points[:, 0], -shape.between_m, shape.between_m)
+    left = _left_share(points, shape)
     weights = seated_weights(wearer, points, _leg_weights(wearer, points, left), columns + 1, left)
     return Sewn(to_triangles(Cloth(points, weights, faces[:, ::-1])), np.concatenate(uvs))
 
 
-def _layer(suit: Cloth, out_m: float) -> Cloth:
+def _left_share(points: np.ndarray, shape: Skirt) -> np.ndarray:
+    """The left leg's share (N,) of what both legs move of a skirt."""
+    x, down = points[:, 0], shape.top_m - points[:, 1]
+    other = shape.other_leg * smoothstep(np.abs(x), *OUTER_M) * smoothstep(down / (shape.top_m - shape.hem_m), *LOWER)
+    share = smoothstep(x, -shape.between_m, shape.between_m)
+    return share + (1.0 - 2.0 * share) * other
+
+
+def _layer(suit: Cloth, out_m: float | np.ndarray) -> Cloth:
     corners = suit.points[suit.faces]
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals = np.zeros_like(suit.points)
@@ -174,11 +190,43 @@ def _layer(suit: Cloth, out_m: float) -> Cloth:
 
 
 def shell(wearer: Wearer, low_m: float, high_m: float, out_m: float) -> Sewn:
-    """A close layer over the legs between two heights: socks."""
-    layer = _layer(wearer.tailoring.suit, out_m)
+    """A close layer over the legs between two heights: socks, with a welt at their upper edge."""
+    suit = wearer.tailoring.suit
+    welt_m = WELT_M[0] * smoothstep(suit.points[:, 1], high_m - WELT_M[1], high_m)
+    layer = _layer(suit, out_m + welt_m[:, None])
     layer = cut(layer, 0.3 - _arm_share(wearer, layer))
     layer = cut(layer, high_m - layer.points[:, 1])
-    return plain(cut(layer, layer.points[:, 1] - low_m))
+    layer = cut(layer, layer.points[:, 1] - low_m)
+    # Knees bend an edge across the skin's edges in steps.
+    share = smoothstep(layer.points[:, 1], high_m - 2.0 * WELT_M[1], high_m - WELT_M[1])[:, None]
+    weights = (1.0 - share) * layer.weights + share * _even_weights(suit, layer.points)
+    return plain(_with_rim(replace(layer, weights=weights), out_m + WELT_M[0]))
+
+
+def _even_weights(cloth: Cloth, points: np.ndarray) -> np.ndarray:
+    """Skin weights (N, J) at places (N, 3) as means of a cloth's around them."""
+    far, rows = cKDTree(cloth.points).query(points, k=EVEN_OVER)
+    shares = np.exp(-((far / EVEN_M) ** 2))
+    return np.einsum("nk,nkj->nj", shares / shares.sum(axis=1, keepdims=True), cloth.weights[rows])
+
+
+def _with_rim(cloth: Cloth, in_m: float) -> Cloth:
+    """A cloth with its highest edges turned inwards to the skin, so that they are as thick as knitwear."""
+    edges = cloth.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    _, index, uses = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)
+    upper = edges[index[uses == 1]]
+    upper = upper[(cloth.points[upper, 1] > cloth.points[:, 1].max() - 1e-4).all(axis=1)]
+    rows, own = np.unique(upper, return_inverse=True)
+    own = own.reshape(-1, 2)
+    inner = cloth.points[rows].copy()
+    for side in (inner[:, 0] > 0.0, inner[:, 0] <= 0.0):
+        off = inner[side][:, [0, 2]] - inner[side][:, [0, 2]].mean(axis=0)
+        inner[np.ix_(side, [0, 2])] -= in_m * off / np.linalg.norm(off, axis=1, keepdims=True)
+    start = len(cloth.points)
+    faces = [np.column_stack([upper[:, 1], upper[:, 0], start + own[:, 0]])]
+    faces.append(np.column_stack([upper[:, 1], start + own[:, 0], start + own[:, 1]]))
+    points, weights = np.concatenate([cloth.points, inner]), np.concatenate([cloth.weights, cloth.weights[rows]])
+    return Cloth(points, weights, np.concatenate([cloth.faces, *faces]))
 
 
 def neck_band(wearer: Wearer, low_m: float, high_m: float, out_m: float, half_m: float = 0.13) -> Sewn:

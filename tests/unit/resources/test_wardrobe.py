@@ -198,6 +198,34 @@ def test_the_hem_of_a_seated_skirt_spans_from_thigh_to_thigh(outfit: str, id: st
     assert np.ptp(hem[:, 2]) < 0.03, "as far ahead between the knees as over them"
 
 
+@pytest.mark.parametrize("id", ["student_mei", "child_nia"])
+def test_the_upper_edge_of_socks_is_even_when_knees_are_bent(id: str) -> None:
+    """It was saw-toothed, by 4 mm from one vertex to the next."""
+    character = character_in(id, OutfitChoice("school_blazer"))
+    socks = mesh_named(character, "socks")
+    edge = np.isin(np.arange(len(socks.positions_m)), open_edges(socks)) & (socks.positions_m[:, 0] > 0.0)
+    edge &= socks.positions_m[:, 1] > socks.positions_m[edge, 1].max() - 0.03
+    places = posed(character, socks, np.deg2rad(86.0), np.deg2rad(13.0))[edge]
+    off = places[:, [0, 2]] - places[:, [0, 2]].mean(axis=0)
+    heights = places[np.argsort(np.arctan2(off[:, 1], off[:, 0])), 1]
+    assert len(heights) > 30
+    assert np.abs(np.diff(heights, append=heights[:1])).max() < 0.002
+
+
+@pytest.mark.parametrize("id", ["woman_adult", "student_mei", "child_nia"])
+def test_the_hem_of_a_seated_skirt_stays_beside_the_thighs(id: str) -> None:
+    """Its corners stood off beyond knees that are turned outwards, and hung down there."""
+    character = character_in(id, OutfitChoice("school_uniform"))
+    skirt, legs = mesh_named(character, "skirt"), mesh_named(character, "skin_legs")
+    low = skirt.positions_m[:, 1] < skirt.positions_m[:, 1].mean()
+    hem = np.isin(np.arange(len(skirt.positions_m)), open_edges(skirt)) & low
+    thighs = [character.skeleton.index(f"{side}UpperLeg") for side in ("left", "right")]
+    own = np.where(np.isin(legs.joints, thighs), legs.weights, 0.0).sum(axis=1) > 0.95
+    cloth, bare = (posed(character, mesh, np.deg2rad(86.0), np.deg2rad(13.0)) for mesh in (skirt, legs))
+    assert np.abs(cloth[hem, 0]).max() < np.abs(bare[own, 0]).max() + 0.063
+    assert cloth[hem, 1].min() > bare[own, 1].min() - 0.032
+
+
 def seen(camera: FloatArray, points: FloatArray, corners: FloatArray) -> FloatArray:
     """Flags (N,) of the points (N, 3) that no triangle (T, 3, 3) hides from a camera (3,), but for those at them."""
     first, along, up = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
