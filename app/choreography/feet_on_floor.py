@@ -40,6 +40,8 @@ def legs_to(
     world: JointTransforms,
     tips: FloatArray,
     planted: BoolArray,
+    *,
+    turned_back: bool = True,
 ) -> MotionClip:
     """Bend the legs of a motion so that the tips of its feet are at given positions, as far as the length of legs, the
     range of ankles and the floor allow.
@@ -52,6 +54,9 @@ def legs_to(
         World positions in metres of the left and the right tip.
     planted : (F, 2) bool
         Frames in which the foot stands, so that its tip is not lifted from the floor.
+    turned_back : bool
+        Turn feet that are beyond the range of their ankles back into it; softly, so that those turned back before
+        would be turned again.
     """
     rotations = clip.rotations.copy()
     for foot, side in enumerate(SIDES):
@@ -62,7 +67,7 @@ def legs_to(
         bend(clip, world, limb, tip - quaternion.rotate(world.rotations[:, at], end), AHEAD, rotations)
         _move(clip, world, limb, rotations)
         was, fps = world.rotations[:, at], float(clip.fps)
-        turned = quaternion.multiply(was, _into_range(rotations[:, at - 1], foot))
+        turned = quaternion.multiply(was, _into_range(rotations[:, at - 1], foot)) if turned_back else was
         # In the air a foot is turned about its ankle, on the floor about its tip.
         way = quaternion.rotate(turned, end) - quaternion.rotate(was, end)
         tip += free(planted[:, foot], fps)[:, None] * way
@@ -116,7 +121,7 @@ def grounded(clip: MotionClip, planted: BoolArray) -> MotionClip:
         return clip
     ends = [(1 + SEGMENTS.index(name), clip.shape.ends_m[ENDS.index(name)]) for name in FEET]
     tips = [world.positions_m[:, at] + quaternion.rotate(world.rotations[:, at], end) for at, end in ends]
-    return legs_to(clip, world, np.stack(tips, axis=1), planted)
+    return legs_to(clip, world, np.stack(tips, axis=1), planted, turned_back=False)
 
 
 def _over_floor(tip: FloatArray, rest_m: float, planted: BoolArray, fps: float) -> FloatArray:

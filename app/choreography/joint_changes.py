@@ -89,7 +89,7 @@ def feet_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float)
             break
         rotations = world.rotations.copy()
         rotations[:, at] = calm
-        found = legs_to(clip, replace(world, rotations=rotations), tips, planted)
+        found = legs_to(clip, replace(world, rotations=rotations), tips, planted, turned_back=False)
         # A leg that does not reach as far keeps its foot as it was.
         off = planted & (np.linalg.norm(tips_m(found) - tips, axis=-1) > EXACT_M)
         if not off.any():

@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Final
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray
 from app.choreography.bent_paths import bent
@@ -40,12 +40,19 @@ AROUND_S: Final = 0.2
 """Time in seconds before and after within which a path is bent."""
 TRIES: Final = 6
 """Greatest number of passes over a motion, since corrections may leave an excess beside them."""
-ALTERNATIONS: Final = 8
+ALTERNATIONS: Final = 4
 """Greatest number of alternations between limits of acceleration, of joints' speeds and of their changes."""
+ARM_ROUNDS: Final = 8
+"""Greatest number of times that arms which still snap are smoothed and their hands calmed."""
 PASSES: Final = 12
 """Greatest number of alternations between two points, since bending one path moves the other slightly."""
 _ROOM: Final = 0.93
 """Share of the bound to which paths are corrected, leaving a margin for later steps."""
+FROM: Final = 0.9
+"""Share of the usual change of a joint's speed above which an arm is smoothed."""
+SMOOTHS_S: Final = 0.01
+EDGES_S: Final = 0.08
+"""Standard deviations in seconds of an arm's smoothing, and of how it begins and ends."""
 _ARM: Final = ("UpperArm", "LowerArm", "Hand")
 
 
@@ -106,6 +113,12 @@ def within_limits(
         if number and calm is clip:
             break
         clip = within_speeds(grounded(calm, on_floor), on_floor)
+    for _ in range(ARM_ROUNDS):
+        # What is left are arms swung through straight, which snap whenever their hands are calmed.
+        calm = _arms_smoothed(clip, FROM * usual_change_rad_s)
+        if calm is clip:
+            break
+        clip = without_twitches(calm, standing, usual)
     return heels_within_changes(clip, on_floor, usual_change_rad_s, ankle_m_s2)
 
 
@@ -115,6 +128,27 @@ def _within_changes(clip: MotionClip, on_floor: BoolArray, most_rad_s: float, an
     """
     clip = heels_within_changes(within_changes(clip, on_floor, most_rad_s), on_floor, most_rad_s, ankle_m_s2)
     return within_changes(clip, on_floor, most_rad_s, lands_s=0.0)
+
+
+def _arms_smoothed(clip: MotionClip, most_rad_s: float) -> MotionClip:
+    """Smooth the rotations of arms slightly about the frames in which the angular velocity of one of their joints
+    changes by more than ``most_rad_s`` from frame to frame; the same object if there are none.
+    """
+    fps, rotations = float(clip.fps), clip.rotations
+    around = 2 * round(AROUND_S * fps) + 1
+    for side in SIDES:
+        first = SEGMENTS.index(f"{side}{_ARM[0]}")
+        arm = slice(first, first + len(_ARM))
+        turns = quaternion.continuous(clip.rotations[:, arm])
+        steps = quaternion.to_rotation_vector(quaternion.multiply(turns[1:], quaternion.conjugate(turns[:-1])))
+        sudden = np.linalg.norm(np.diff(steps, axis=0), axis=-1).max(axis=1) * fps > most_rad_s
+        if sudden.any():
+            near = maximum_filter1d(np.pad(sudden, 1).astype(np.float64), around)
+            share = gaussian_filter1d(near, EDGES_S * fps)[:, None, None]
+            smooth = gaussian_filter1d(turns, SMOOTHS_S * fps, axis=0, mode="nearest")
+            rotations = rotations.copy() if rotations is clip.rotations else rotations
+            rotations[:, arm] = quaternion.normalize(turns + share * (smooth - turns))
+    return clip if rotations is clip.rotations else replace(clip, rotations=quaternion.continuous(rotations))
 
 
 def without_twitches(clip: MotionClip, standing: Sequence[FootPlant], usual: UsualAccelerations) -> MotionClip:

@@ -74,6 +74,21 @@ def test_a_foot_is_turned_about_its_ankle_no_farther_than_ankles_go(axis: int, f
     assert np.abs(ankles[0] - ankles[1]).max() < 0.02
 
 
+def test_a_foot_that_was_turned_back_is_not_turned_again_when_the_other_is_lifted_from_the_floor() -> None:
+    """A foot turned beyond the range of its ankle would be turned a little farther back each time, and jerk."""
+    clip = still(60)
+    left, right = (SEGMENTS.index(name) for name in ("leftFoot", "rightFoot"))
+    turned_rad = 1.3 * np.clip((np.arange(60) - 20) / 10.0, 0.0, 1.0)
+    clip.rotations[:, left] = quaternion.from_rotation_vector(np.array([0.0, 1.0, 0.0]) * turned_rad[:, None])
+    in_air, plants = replace(clip, hips_m=clip.hips_m + np.array((0.0, 0.05, 0.0))), np.zeros((60, 2), bool)
+    clip = legs_to(in_air, in_air.world(), tips_m(in_air), plants)
+    clip.rotations[:, right] = quaternion.from_axis_angle(X, np.full(60, 1.0))
+    assert soles_m(clip, clip.world())[:, 1].min() < -0.02
+    found = grounded(clip, plants)
+    assert soles_m(found, found.world()).min() >= -SINKS_M - 1e-9
+    assert np.abs(found.rotations[:, left] - clip.rotations[:, left]).max() < 1e-6
+
+
 def test_what_is_above_the_floor_is_left_as_it_is() -> None:
     clip = still(30)
     assert grounded(clip, np.ones((30, 2), bool)) is clip
