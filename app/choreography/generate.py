@@ -32,6 +32,7 @@ from app.choreography.hit_log_odds import Hearing, hearing
 from app.choreography.idling import idling_odds
 from app.choreography.joins import distances_m
 from app.choreography.joint_changes import hips_within_changes
+from app.choreography.legs_apart import with_legs_apart
 from app.choreography.limbs import hinged, unbroken
 from app.choreography.model import ChoreographyModel
 from app.choreography.music_motion_dependence import trust_in
@@ -218,9 +219,10 @@ class Choreographer:
             clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
         clip = hips_within_changes(without_haste(clip, self._spins.fastest_rad_s), self.usual_change_rad_s(fps))
         clip = out_of_body(clip)
-        clip, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
-        clip = within_limits(clip, falls.standing, self._usual_accelerations(fps), self.usual_change_rad_s(fps))
-        return Dance(hinged(clip), first_s, plan.steps, speeds, seams, falls.standing)
+        shown, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
+        clip, standing = with_legs_apart(clip, shown, falls, manner.weight)
+        clip = within_limits(clip, standing, self._usual_accelerations(fps), self.usual_change_rad_s(fps))
+        return Dance(hinged(clip), first_s, plan.steps, speeds, seams, standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:
         """Usual change of motion in the model's captures, for a frame rate (see

@@ -148,6 +148,7 @@ def planted(
     standing: tuple[FootPlant, ...],
     weight: float = 0.0,
     shown: FloatArray | None = None,
+    aside_m: FloatArray | None = None,
 ) -> MotionClip:
     """Solve the legs again so that feet do not move while they are planted; between two plants the corrections are
     blended.
@@ -158,6 +159,8 @@ def planted(
         Weight of the dancer, -1 to 1: heavy dancers have lower hips with the same steps, light ones higher.
     shown : (F, 2) float64, optional
         Frame of the motion used for each foot in each frame; by default the same.
+    aside_m : (F, 2, 3) float64, optional
+        Displacements in metres of feet that do not stand.
     """
     if not standing and not weight:
         return clip
@@ -165,7 +168,7 @@ def planted(
     tips = tips_m(clip, world)
     if shown is not None:
         tips, world = _feet_at(tips, world, shown)
-    targets = tips.copy()
+    targets = tips.copy() if aside_m is None else tips + aside_m
     for foot in range(2):
         own = [stand for stand in standing if stand.foot == foot]
         targets[:, foot] += _correction(tips[:, foot], own, float(clip.fps))

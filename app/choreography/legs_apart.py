@@ -1,0 +1,373 @@
+"""Keeps the legs of a dance apart: feet are placed and swung around each other, and knees turned outwards.
+
+Steps moved to beats and feet kept in place let legs pass through each other that go around each other in the capture.
+Each time they would, one direction is chosen in which the legs are soonest apart, so that a foot passes on one side and
+never snaps to the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Final, NamedTuple
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
+
+from app.arrays import FloatArray, IntArray
+from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.body_speeds import runs
+from app.choreography.capsules import Capsules, depth_m
+from app.choreography.clip import MotionClip
+from app.choreography.features import facing, height_m
+from app.choreography.feet_on_floor import FREE_S, free
+from app.choreography.footfalls import Footfalls
+from app.choreography.limbs import smooth_share
+from app.choreography.standing_feet import FootPlant, planted, planted_frames
+from app.rig import quaternion
+from app.rig.skeleton import JointTransforms
+from app.rig.sole import SIDES
+
+RADII: Final = {"thigh": 0.034, "shank": 0.024, "foot": 0.023}
+"""Radius of each part of a leg relative to the body's height: captured legs are hardly ever nearer, since soft parts
+give way.
+"""
+PAIRS: Final = ((0, 0), (0, 1), (1, 0), (1, 1), (1, 2), (2, 1), (2, 2))
+"""Parts of the left and the right leg that are kept apart, as indices in `RADII`; a foot does not reach a thigh."""
+THIGH_FROM: Final = 0.5
+"""Share of the thigh from the hip joint from which it is kept away from the other leg."""
+PASSES: Final = 3
+"""Greatest number of times that feet are planted again, since one displacement may cause another overlap."""
+LEAST_M: Final = 0.003
+"""Depth in metres below which legs stay as they are."""
+BRIDGED_S: Final = 0.1
+"""Longest time in seconds between two overlaps that are mended as one."""
+WAYS: Final = 12
+"""Number of compared directions over the floor."""
+STEPS_M: Final = np.array([0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.09, 0.12, 0.15, 0.19, 0.24])
+"""Compared distances in metres by which a foot is moved."""
+STRIDE: Final = 2
+"""Every how many frames ways are compared."""
+KNEE_SHARE: Final = 0.5
+"""Share of a foot's way by which its knee moves along."""
+TURNED: Final = 0.05
+"""Cost of a direction at right angles to that in which the feet have been moved already, in metres."""
+UNSOLVED: Final = 4.0
+AROUND: Final = 1.5
+"""Costs of a metre of depth that remains, and of one before or after, relative to a metre of way."""
+SMOOTH_S: Final = 0.06
+"""Standard deviation in seconds over which a foot in the air moves aside."""
+TURNS_RAD: Final = np.array([0.0, 0.06, 0.12, 0.2, 0.3, 0.42, 0.55])
+"""Compared angles in radians by which a knee turns about the line between hip joint and ankle."""
+TURNING: Final = ((1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
+"""Compared shares of such a turn of the left and the right knee; positive ones turn knees outwards."""
+TURN_SMOOTH_S: Final = 0.1
+"""Standard deviation in seconds over which knees turn."""
+
+
+class FeetApart(NamedTuple):
+    """Foot plants, and displacements (F, 2, 3) in metres of feet in the air, with which the legs are apart."""
+
+    standing: tuple[FootPlant, ...]
+    aside_m: FloatArray
+
+
+def with_legs_apart(
+    clip: MotionClip, shown: MotionClip, falls: Footfalls, weight: float
+) -> tuple[MotionClip, tuple[FootPlant, ...]]:
+    """Plant the feet of a motion again where its legs would enter each other, and turn its knees.
+
+    Parameters
+    ----------
+    clip, shown : MotionClip
+        The motion before and after its feet were planted as in ``falls``.
+    weight : float
+        See `app.choreography.standing_feet.planted`.
+
+    Returns
+    -------
+    clip : MotionClip
+        The motion with planted feet and legs apart.
+    standing : tuple of FootPlant
+        Foot plants, at the same times.
+    """
+    standing, aside_m = falls.standing, np.zeros((len(clip), 2, 3))
+    for _ in range(PASSES):
+        apart = feet_apart(shown, standing, aside_m)
+        if apart is None:
+            return shown, standing
+        standing, aside_m = apart
+        shown = planted(clip, standing, weight, falls.shown, aside_m)
+    return knees_apart(shown), standing
+
+
+class _Legs(NamedTuple):
+    """Positions (2, N, 3) in metres of the joints of the left and the right leg, and of the feet's ends."""
+
+    hips: FloatArray
+    knees: FloatArray
+    ankles: FloatArray
+    toes: FloatArray
+
+    @classmethod
+    def of(cls, clip: MotionClip, world: JointTransforms, frames: slice | IntArray) -> _Legs:
+        """Return the legs of a motion with the world transforms ``world`` in some of its frames."""
+        rows = [[1 + SEGMENTS.index(f"{side}{part}") for side in SIDES] for part in ("UpperLeg", "LowerLeg", "Foot")]
+        joints = [np.moveaxis(world.positions_m[frames][:, row], 1, 0) for row in rows]
+        ends_m = clip.shape.ends_m[[ENDS.index(f"{side}Foot") for side in SIDES]]
+        way = quaternion.rotate(np.moveaxis(world.rotations[frames][:, rows[2]], 1, 0), ends_m[:, None])
+        return cls(joints[0], joints[1], joints[2], joints[2] + way)
+
+    def moved(self, way: FloatArray) -> _Legs:
+        """Return legs with ankles and ends of the feet moved by ``way`` (2, ..., 3); further axes are added."""
+        more = (slice(None),) * 2 + (None,) * (way.ndim - 3)
+        hips, knees, ankles, toes = (np.broadcast_to(points[more], way.shape) for points in self)
+        return _Legs(hips, knees + KNEE_SHARE * way, ankles + way, toes + way)
+
+    def turned(self, angles_rad: FloatArray) -> _Legs:
+        """Return legs with knees turned about the line between hip joint and ankle by ``angles_rad`` (2, ...)."""
+        more = (slice(None),) * 2 + (None,) * (angles_rad.ndim - 2)
+        hips, knees, ankles, toes = (points[more] for points in self)
+        turn = _turns(hips, ankles, angles_rad)
+        knees = hips + quaternion.rotate(turn, np.broadcast_to(knees - hips, (*angles_rad.shape, 3)))
+        hips, ankles, toes = (np.broadcast_to(points, knees.shape) for points in (hips, ankles, toes))
+        return _Legs(hips, knees, ankles, toes)
+
+    def depth_m(self, height: float) -> FloatArray:
+        """Return the depth (N, ...) in metres in which the legs of a body of some height enter each other."""
+        starts = np.array([self.hips + THIGH_FROM * (self.knees - self.hips), self.knees, self.ankles])
+        ends = np.array([self.knees, self.ankles, self.toes])
+        radii = height * np.array(list(RADII.values()))
+        left, right = (Capsules(starts[:, side], ends[:, side], radii) for side in range(2))
+        return depth_m(left, right, PAIRS)
+
+
+def depths_m(clip: MotionClip, world: JointTransforms | None = None) -> FloatArray:
+    """Return the depth (F,) in metres in which the legs of a motion enter each other; 0 or less if they are apart."""
+    world, height = clip.world() if world is None else world, height_m(clip)
+    legs = _Legs.of(clip, world, slice(None))
+    # Legs on two sides of a plane between them are apart.
+    points = np.array([0.5 * (legs.hips + legs.knees), *legs[1:]])
+    across = (points[:, 0] - points[:, 1]).mean(axis=0)
+    across /= np.maximum(np.linalg.norm(across, axis=-1, keepdims=True), 1e-9)
+    along = np.einsum("psfi,fi->psf", points, across)
+    room = along[:, 0].min(axis=0) - along[:, 1].max(axis=0)
+    near = np.flatnonzero(room < 2.0 * height * max(RADII.values()))
+    result = np.zeros(len(clip))
+    if len(near):
+        result[near] = np.maximum(_Legs.of(clip, world, near).depth_m(height), 0.0)
+    return result
+
+
+def feet_apart(clip: MotionClip, standing: Sequence[FootPlant], aside_m: FloatArray) -> FeetApart | None:
+    """Return foot plants, moved as a whole, and displacements of feet in the air that keep the legs of a motion apart;
+    None if they are. ``aside_m`` (F, 2, 3) are the displacements that the motion already has.
+    """
+    world, fps = clip.world(), float(clip.fps)
+    spans = _overlaps(depths_m(clip, world), fps)
+    if not spans:
+        return None
+    on_floor = planted_frames(standing, len(clip))
+    may = np.stack([free(on_floor[:, foot], fps) for foot in range(2)], axis=1)
+    aside, places = aside_m.copy(), [np.array(stand.place_m) for stand in standing]
+    for start, stop in spans:
+        before = np.subtract(*np.moveaxis(aside_m[start:stop], 1, 0)).sum(axis=0)
+        feet = _Feet(standing, may, _shares(standing, may, start, stop), fps)
+        way, frames, size_m = _way_apart(clip, world, (start, stop), before)
+        for foot, sign in enumerate((1.0, -1.0)):
+            own = sign * feet.shares[foot] * way
+            for at in feet.near(foot, frames):
+                places[at] = places[at] + feet.held(standing[at], frames, size_m) * own
+            aside[frames, foot] += (size_m * may[frames, foot])[:, None] * own
+    moved = (
+        replace(stand, place_m=(float(place[0]), stand.place_m[1], float(place[2])))
+        for stand, place in zip(standing, places, strict=True)
+    )
+    return FeetApart(tuple(moved), aside)
+
+
+class _Feet(NamedTuple):
+    """Feet that share a displacement: those in the air are moved aside, and the places at which others stand are moved.
+
+    Attributes
+    ----------
+    may : (F, 2) float64
+        Factor of the displacement in the air, 0 while a foot stands.
+    shares : tuple of float
+        Share of each foot.
+    """
+
+    standing: Sequence[FootPlant]
+    may: FloatArray
+    shares: tuple[float, float]
+    fps: float
+
+    def near(self, foot: int, frames: IntArray) -> list[int]:
+        """Return the indices of a foot's plants in a span of frames (N,), if it is moved."""
+        return [
+            at
+            for at, stand in enumerate(self.standing)
+            if stand.foot == foot and self.shares[foot] and stand.start <= frames[-1] and stand.stop > frames[0]
+        ]
+
+    def held(self, stand: FootPlant, frames: IntArray, sizes_m: FloatArray) -> float:
+        """Return the distance in metres that the place of a stand is moved by, for distances (N,) in some frames."""
+        away = np.maximum(np.maximum(stand.start - frames, frames - stand.stop + 1), 0)
+        near = 1.0 - smooth_share(away, (0.0, max(FREE_S * self.fps, 1.0)))
+        return float((sizes_m * near).max(initial=0.0))
+
+
+def _shares(standing: Sequence[FootPlant], may: FloatArray, start: int, stop: int) -> tuple[float, float]:
+    """Return the shares of a displacement that each foot takes in some frames: half if both are in the air, all if the
+    other one stands; of two standing feet, that takes it which landed last.
+    """
+    left, right = may[start:stop].min(axis=0)
+    if left + right > 1e-6:
+        return float(left / (left + right)), float(right / (left + right))
+    landed = [
+        max((stand.start for stand in standing if stand.foot == foot and stand.start < stop), default=0)
+        for foot in range(2)
+    ]
+    return (1.0, 0.0) if landed[0] >= landed[1] else (0.0, 1.0)
+
+
+def _way_apart(
+    clip: MotionClip, world: JointTransforms, span: tuple[int, int], before: FloatArray
+) -> tuple[FloatArray, IntArray, FloatArray]:
+    """Return the direction (3,) over the floor in which the left foot of a motion is moved from the right one to keep
+    the legs apart in a span of frames, and the frames (N,) with the distances (N,) in metres; ``before`` (3,) is the
+    direction in which it has been moved already.
+    """
+    middle = sum(span) // 2
+    angles = 2.0 * np.pi * np.arange(WAYS) / WAYS
+    ways = np.stack([np.cos(angles), np.zeros(WAYS), np.sin(angles)], axis=1)
+    ways = quaternion.rotate(facing(clip.span(middle, middle + 1)), ways)
+    far = float(np.linalg.norm(before))
+    turned = TURNED * (1.0 - ways @ before / far) if far > 0.0 else np.zeros(WAYS)
+
+    def moved(legs: _Legs) -> _Legs:
+        steps = np.zeros((2, legs.hips.shape[1], WAYS, len(STEPS_M), 3))
+        steps[0] = ways[:, None] * STEPS_M[:, None]
+        return legs.moved(steps)
+
+    best, frames, size_m = _least(clip, world, span, moved, STEPS_M, SMOOTH_S, turned)
+    return ways[best], frames, size_m
+
+
+def _least(
+    clip: MotionClip,
+    world: JointTransforms,
+    span: tuple[int, int],
+    changed: Callable[[_Legs], _Legs],
+    sizes: FloatArray,
+    smooth_s: float,
+    more: FloatArray,
+) -> tuple[int, IntArray, FloatArray]:
+    """Choose one of W ways to keep legs apart in a span of frames, so that they stay apart with its size smoothed over
+    ``smooth_s`` seconds.
+
+    Parameters
+    ----------
+    changed : callable
+        Legs with each way and each of the K ascending ``sizes``.
+    more : (W,) float64
+        Additional cost of each way.
+
+    Returns
+    -------
+    way : int
+        Index of the way with the least cost.
+    frames : (N,) int64
+        The span with frames before and after.
+    size : (N,) float64
+        Size of that way in each frame, 0 at the ends.
+    """
+    fps, tail = float(clip.fps), round(5.0 * smooth_s * float(clip.fps))
+    frames = np.arange(max(0, span[0] - tail), min(len(clip), span[1] + tail))
+    some = frames[::STRIDE]
+    depths = changed(_Legs.of(clip, world, some)).depth_m(height_m(clip))
+    inside = (some >= span[0] - STRIDE) & (some < span[1] + STRIDE)
+    needed = np.where(inside[:, None], _needed(depths, sizes), 0.0)
+    wide = 2 * round(2.0 * smooth_s * fps / STRIDE) + 1
+    smooth = gaussian_filter1d(
+        maximum_filter1d(needed, wide, axis=0, mode="nearest"), smooth_s * fps / STRIDE, axis=0, mode="nearest"
+    )
+    left = np.maximum(_between(depths, sizes, needed), 0.0)[inside].max(axis=0)
+    around = np.maximum(_between(depths, sizes, smooth), 0.0).max(axis=0)
+    cost = needed.max(axis=0) + needed[inside].mean(axis=0) + UNSOLVED * left + AROUND * around + more
+    best = int(cost.argmin())
+    return best, frames, np.interp(frames, some, smooth[:, best])
+
+
+def _needed(depths: FloatArray, sizes: FloatArray) -> FloatArray:
+    """Return the least size (N, W) of each of W ways after which legs are apart in each of N frames, or least deep in
+    each other, from the depths (N, W, K) with each of K ascending sizes.
+    """
+    apart = depths <= 0.0
+    first = np.where(apart.any(axis=-1), apart.argmax(axis=-1), depths.argmin(axis=-1))
+    before = np.maximum(first - 1, 0)
+    deep, over = (np.take_along_axis(depths, at[..., None], axis=-1)[..., 0] for at in (before, first))
+    # Between two sizes the depth is about linear.
+    deep, over = np.maximum(deep, 0.0), np.maximum(-over, 0.0)
+    return np.asarray(sizes[first] - (sizes[first] - sizes[before]) * over / np.maximum(deep + over, 1e-9))
+
+
+def _between(depths: FloatArray, sizes: FloatArray, size: FloatArray) -> FloatArray:
+    """Interpolate depths (N, W, K) with each of K ascending sizes at other sizes (N, W)."""
+    after = np.clip(np.searchsorted(sizes, size), 1, len(sizes) - 1)
+    share = (size - sizes[after - 1]) / (sizes[after] - sizes[after - 1])
+    low, high = (np.take_along_axis(depths, at[..., None], axis=-1)[..., 0] for at in (after - 1, after))
+    return np.asarray(low + share * (high - low))
+
+
+def _overlaps(depths: FloatArray, fps: float) -> list[tuple[int, int]]:
+    """Return the spans (start, stop) of frames in which legs enter each other, joined if there is little between."""
+    found: list[tuple[int, int]] = []
+    for start, stop in runs(depths > 0.0):
+        if depths[start:stop].max() < LEAST_M:
+            continue
+        if found and start - found[-1][1] < BRIDGED_S * fps:
+            found[-1] = found[-1][0], stop
+        else:
+            found.append((start, stop))
+    return found
+
+
+def knees_apart(clip: MotionClip) -> MotionClip:
+    """Return the motion with knees turned about the lines between hip joints and ankles where its legs enter each
+    other; feet stay as they are. The same object is returned if legs are apart.
+    """
+    world = clip.world()
+    angles = np.zeros((2, len(clip)))
+    outwards = np.array([[-1.0], [1.0]]) * np.array(TURNING).T
+    for span in _overlaps(depths_m(clip, world), float(clip.fps)):
+
+        def turned(legs: _Legs) -> _Legs:
+            compared = outwards[:, None, :, None] * TURNS_RAD
+            return legs.turned(np.broadcast_to(compared, (2, legs.hips.shape[1], *compared.shape[2:])))
+
+        best, frames, size = _least(clip, world, span, turned, TURNS_RAD, TURN_SMOOTH_S, np.zeros(len(TURNING)))
+        angles[:, frames] += outwards[:, best, None] * size
+    return _knees_turned(clip, world, angles) if angles.any() else clip
+
+
+def _knees_turned(clip: MotionClip, world: JointTransforms, angles_rad: FloatArray) -> MotionClip:
+    """Turn the knees of a motion about the lines between hip joints and ankles by ``angles_rad`` (2, F)."""
+    rotations = clip.rotations.copy()
+    hips = world.rotations[:, 1]
+    for foot, side in enumerate(SIDES):
+        thigh_at, shank_at, foot_at = (1 + SEGMENTS.index(f"{side}{part}") for part in ("UpperLeg", "LowerLeg", "Foot"))
+        some = np.flatnonzero(angles_rad[foot])
+        turn = _turns(world.positions_m[some, thigh_at], world.positions_m[some, foot_at], angles_rad[foot, some])
+        thigh = quaternion.multiply(turn, world.rotations[some, thigh_at])
+        shank = quaternion.multiply(turn, world.rotations[some, shank_at])
+        rotations[some, thigh_at - 1] = quaternion.multiply(quaternion.conjugate(hips[some]), thigh)
+        rotations[some, foot_at - 1] = quaternion.multiply(quaternion.conjugate(shank), world.rotations[some, foot_at])
+    return replace(clip, rotations=quaternion.continuous(rotations))
+
+
+def _turns(starts: FloatArray, ends: FloatArray, angles_rad: FloatArray) -> FloatArray:
+    """Return rotations (..., 4) by angles (...) about the lines from starts to ends (..., 3)."""
+    axis = ends - starts
+    axis = axis / np.maximum(np.linalg.norm(axis, axis=-1, keepdims=True), 1e-9)
+    return quaternion.from_rotation_vector(axis * angles_rad[..., None])
