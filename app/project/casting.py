@@ -1,10 +1,9 @@
-"""Casting: assigns characters, stage places and amplitudes to players, reproducibly."""
+"""Places on the stage and amplitudes of players, reproducibly."""
 
 from __future__ import annotations
 
 import math
-from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 import msgspec
@@ -38,14 +37,6 @@ AMPLITUDE_SPREAD = 0.12
 """Greatest random difference of a player's amplitude from the natural one (T7: random values so that players
 differ).
 """
-
-
-FAR_REACH_M = 0.4
-"""Travel in metres of a hand that works at the end of an arm."""
-STUDENT_YEARS = (14.0, 28.0)
-"""Ages of people who are cast in a school's band."""
-LONG_ARMS = 0.9
-"""Length of arms that count as long, relative to the longest."""
 
 
 class StagePosition(msgspec.Struct, frozen=True):
@@ -169,36 +160,3 @@ def amplitude(seed: int, player_id: str) -> float:
 def player_seed(seed: int, player_id: str) -> int:
     """Return the random seed of one player, derived from the piece's seed and the player's id."""
     return seed_of("player", seed, player_id)
-
-
-def choose_characters(
-    travels_m: Sequence[float], arms_m: Mapping[str, float], left_out: Sequence[Collection[str]] = ()
-) -> tuple[str, ...]:
-    """Choose a character for every player: long arms for instruments with a long reach, otherwise the least used one.
-
-    Parameters
-    ----------
-    travels_m : sequence of float
-        Distance in metres that a hand must travel on each player's instrument.
-    arms_m : mapping of str to float
-        Arm length in metres of every available character, by id; at least one.
-    left_out : sequence of collection of str, optional
-        Characters too small for each player's instrument.
-
-    Returns
-    -------
-    tuple of str
-        Ids, in the order of the players.
-    """
-    longest_m = max(arms_m.values())
-    long = [character for character, arm_m in arms_m.items() if arm_m >= LONG_ARMS * longest_m]
-    counts: Counter[str] = Counter()
-    result = dict.fromkeys(range(len(travels_m)), "")
-    # Instruments that need long arms choose first from the cast.
-    for place in sorted(result, key=lambda place: travels_m[place] <= FAR_REACH_M):
-        possible = long if travels_m[place] > FAR_REACH_M else list(arms_m)
-        small = left_out[place] if left_out else ()
-        suited = [character for character in possible if character not in small] or possible
-        result[place] = min(suited, key=lambda candidate: counts[candidate])
-        counts[result[place]] += 1
-    return tuple(result.values())

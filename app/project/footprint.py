@@ -1,7 +1,8 @@
-"""Space that an instrument needs on the stage, and place of its section, from its map and the vocabulary."""
+"""Space that an instrument needs on the stage, place of its section, and volume, from its map and the vocabulary."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 
 import numpy as np
@@ -10,7 +11,7 @@ from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.project.casting import Footprint
 from app.rig import quaternion
-from instrument_maps.hold import Box, Carriage, Cone, Ring
+from instrument_maps.hold import Box, Carriage, Cone, Proxy, Ring
 from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import ROOT, InstrumentMap
 
@@ -39,6 +40,20 @@ def together(footprints: Iterable[Footprint]) -> Footprint:
         max(first.right_m, *(one.right_m for one in others)),
         max(first.ahead_m, *(one.ahead_m for one in others)),
     )
+
+
+def solid_m3(instrument: InstrumentMap) -> float:
+    """Return the volume in cubic metres of an instrument's collision bodies, a measure of how much is carried."""
+    return math.fsum(_volume_m3(body) for body in instrument.proxy)
+
+
+def _volume_m3(body: Proxy) -> float:
+    if isinstance(body, Box):
+        return 8.0 * math.prod(body.half_m)
+    if isinstance(body, Ring):
+        return 2.0 * math.pi**2 * body.radius_m * body.tube_radius_m**2
+    first_m, last_m = (body.radius_a_m, body.radius_b_m) if isinstance(body, Cone) else (body.radius_m, body.radius_m)
+    return math.pi * math.dist(body.a_m, body.b_m) * (first_m**2 + first_m * last_m + last_m**2) / 3.0
 
 
 def _footprint(instrument: InstrumentMap) -> Footprint:

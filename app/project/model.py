@@ -16,16 +16,8 @@ from app.plan.generate import PREROLL_BEATS, usual_preroll
 from app.plan.parameters import Parameter, PlayerParameters, declared
 from app.project.band_in_title import plays_at_school
 from app.project.camera_bookmarks import CameraBookmark
-from app.project.casting import (
-    FAR_REACH_M,
-    STUDENT_YEARS,
-    ConductorPlace,
-    amplitude,
-    choose_characters,
-    player_seed,
-    stage_seats,
-    usual_posture,
-)
+from app.project.casting import ConductorPlace, amplitude, player_seed, stage_seats, usual_posture
+from app.project.character_choice import characters_for
 from app.project.dance_corrections import DanceCorrection
 from app.project.doubling import common_postures, doubled_parts, embodied
 from app.project.footprint import footprint, together
@@ -38,13 +30,11 @@ from app.project.parameters import with_settings as parameters_with
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
-from app.rig.characters.character_library import our_arm_m, our_characters
-from app.rig.people.bundled_people import not_cast_for, our_years
 from app.score.instrument_choice import MapChoice
 from app.score.metre_map import MetreMap
 from app.score.model import ControllerCurve, Note, Part, Score
 from app.score.take import Take
-from instrument_maps.model import Control, InstrumentMap
+from instrument_maps.model import InstrumentMap
 from metadata.model import Expression
 
 DANCER_PARAMETERS: Final[Mapping[str, Parameter]] = declared(Dancer, "dancer_parameter")
@@ -270,8 +260,8 @@ def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed:
         if part.id in doubled:
             played[doubled[part.id]].append(part)
     mapped = [[maps[one.map_id] for one in played[part.id]] for part in musicians]
-    cast = characters_for([max(each, key=_hand_travel_m) for each in mapped], plays_at_school(score.title))
     places = stage_seats([together(footprint(one) for one in each) for each in mapped])
+    cast = characters_for(mapped, places, plays_at_school(score.title))
     bodies = {part.id: (body, place) for part, body, place in zip(musicians, cast, places, strict=True)}
     players = []
     for part, name, instrument in zip(parts, names, instruments, strict=True):
@@ -376,29 +366,3 @@ def _require_posture(player: Player, instrument: InstrumentMap) -> None:
             value=player.parameters.posture,
             possible=", ".join(possible),
         )
-
-
-def characters_for(instruments: Sequence[InstrumentMap], students: bool = False) -> tuple[str, ...]:
-    """Choose a character for each instrument, by the reach it requires; only people of `STUDENT_YEARS` if
-    ``students``, otherwise children when there are no others left.
-    """
-    travels_m = [_hand_travel_m(instrument) for instrument in instruments]
-    # Measuring arms takes a moment, and few instruments need it.
-    asked = any(travel_m > FAR_REACH_M for travel_m in travels_m)
-    youngest, oldest = STUDENT_YEARS
-    everyone = sorted(our_characters(), key=lambda id: our_years(id) < youngest)
-    people = [id for id in everyone if not students or youngest <= our_years(id) <= oldest]
-    arms_m = {id: our_arm_m(id) if asked else 0.0 for id in people}
-    small = {id: not_cast_for(id) for id in arms_m}
-    left_out = [{id for id, names in small.items() if instrument.id in names} for instrument in instruments]
-    return choose_characters(travels_m, arms_m, left_out)
-
-
-def _hand_travel_m(instrument: InstrumentMap) -> float:
-    """Return the longest distance in metres that a hand travels on an instrument."""
-    return max((control.travel_m for control in instrument.controls if _by_hand(control)), default=0.0)
-
-
-def _by_hand(control: Control) -> bool:
-    """Return whether the whole hand moves along with a control, as with a slide."""
-    return control.finger.endswith(".hand")

@@ -47,6 +47,7 @@ from app.project.kept_parts import keeping, moved_part, read_curves_of
 from app.project.model import Project, map_choices
 from app.project.moved_ticks import place_map
 from app.project.orphans import Orphan, orphaned
+from app.project.performers import Player
 from app.project.recording import with_places
 from app.project.rereading import MidiReading, characters_of, read_as_decided
 from app.score.model import Part, Score, UnplayedPart
@@ -320,7 +321,7 @@ def _with_new_players(
     """Add a player for every new part, cast as in a new piece; ``characters`` has the chosen ones."""
     names = project.performer_names()
     playing = [maps[player.instrument_id] for player in project.players if player.instrument_id in maps]
-    newcomers = []
+    newcomers: list[Player] = []
     doubled = doubled_parts(project.score.parts, maps, project.score.tempo_map)
     players = {player.part_id: player.id for player in reversed(project.players)}
     ids = fresh_player_ids(project, len(parts))
@@ -329,7 +330,8 @@ def _with_new_players(
         names.append(free_name(part.name, names))
         playing.append(maps[part.map_id])
         doubles = _musician(project, players.get(doubled.get(part.id, ""), ""))
-        player = newcomer(project, player_id, part, names[-1], playing, doubles)
+        with_those_before = replace(project, players=(*project.players, *newcomers))
+        player = newcomer(with_those_before, player_id, part, names[-1], playing, doubles)
         character = characters.get(part.place, player.character_id)
         newcomers.append(msgspec.structs.replace(player, character_id=character))
     return with_newcomers(project, tuple(newcomers))

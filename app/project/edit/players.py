@@ -13,6 +13,7 @@ from app.errors import AppError, MapError
 from app.plan.parameters import PARAMETERS, PlayerParameters, Value
 from app.project import limits
 from app.project.anchors import moved_correction
+from app.project.band_in_title import plays_at_school
 from app.project.casting import (
     DANCER_ROOM_M,
     SPACING_M,
@@ -22,10 +23,11 @@ from app.project.casting import (
     stage_seats,
     usual_posture,
 )
+from app.project.character_choice import newcomers_character
 from app.project.doubling import TOGETHER_S, promote_remaining, together_s
 from app.project.footprint import footprint, together
 from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_player_ids
-from app.project.model import Project, characters_for
+from app.project.model import Project
 from app.project.names import clean_name
 from app.project.performers import Dancer, Player
 from app.project.usual_outfits import common_outfit
@@ -324,12 +326,13 @@ def newcomer(
     ``playing`` has the instrument maps of all players, the new one's last; ``doubles`` is the player whose body also
     plays this part, if any.
     """
+    there = [(player.character_id, player.stage) for player in project.bodies]
     return Player(
         id=player_id,
         name=name,
         part_id=part.id,
         instrument_id=require_map(part.map_id, [instrument.id for instrument in playing]),
-        character_id=characters_for(playing)[-1],
+        character_id=newcomers_character(playing[-1], there, plays_at_school(project.score.title)),
         parameters=cast_parameters(project, player_id, playing[-1]),
         stage=StagePosition(0.0, 0.0, 0.0),
         doubles=doubles,

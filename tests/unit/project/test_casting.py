@@ -1,4 +1,4 @@
-"""Characters, places and amplitudes are reproducible and differ between players."""
+"""Places and amplitudes are reproducible and differ between players."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from app.project.casting import (
     SPACING_M,
     Footprint,
     amplitude,
-    choose_characters,
     player_seed,
     stage_arc,
     stage_seats,
@@ -48,13 +47,6 @@ def test_a_band_sits_in_rows(count: int) -> None:
     # A square block, not a ring: everyone is within the side of a square with five times the room a player needs.
     assert max(radii) < 2.0 * math.sqrt(5.0 * count)
     assert all(place.x_m * place.turn_rad <= 1e-12 and abs(place.turn_rad) < math.pi / 2 for place in places)
-
-
-def test_the_longest_arms_take_the_far_reach() -> None:
-    arms_m = {"a": 0.5, "b": 0.6}
-    assert choose_characters([0.0, 0.03, 0.62, 0.62], arms_m) == ("a", "a", "b", "b")
-    assert choose_characters([0.0, 0.0, 0.0], arms_m) == ("a", "b", "a")
-    assert choose_characters([], arms_m) == ()
 
 
 def test_players_differ_and_repeat() -> None:

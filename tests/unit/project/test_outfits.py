@@ -10,11 +10,13 @@ import msgspec
 import pytest
 
 from app.errors import UsageError
+from app.project.casting import stage_arc
+from app.project.character_choice import characters_for
 from app.project.edit.outfits import colour_outfit, dress_everyone, give_outfit, with_outfits
 from app.project.edit.players import add_player
 from app.project.importing import import_project, usual_rows
-from app.project.model import characters_for
 from app.project.usual_outfits import common_outfit, outfit_of_piece
+from app.rig.characters.character_library import our_characters
 from app.rig.people.bundled_people import our_years
 from app.rig.people.wardrobe import OutfitChoice
 from app.score.contents import PieceContents
@@ -96,12 +98,14 @@ def test_a_schools_band_is_cast_with_young_people() -> None:
         return [our_years(player.character_id) for player in project.players]
 
     assert 14 <= min(ages("県立西高等学校吹奏楽部 定期演奏会")) <= max(ages("県立西高等学校吹奏楽部 定期演奏会")) < 28
-    everyone = characters_for([MAPS["flute"]] * 40, students=True)
+    everyone = characters_for([[MAPS["flute"]]] * 40, stage_arc(40), students=True)
     assert {14 <= our_years(id) < 28 for id in everyone} == {True}
-    assert len({*everyone[:27]}) == 27
-    anyone = characters_for([MAPS["trumpet_Bb"]] * 40)
+    assert len({*everyone}) >= 27
+    anyone = characters_for([[MAPS["trumpet_Bb"]]] * 40, stage_arc(40))
     assert max(our_years(id) for id in anyone) > 60
-    assert min(our_years(id) for id in anyone[:30]) >= 14 > our_years(anyone[-1])
+    children = [id for id in our_characters() if our_years(id) < 14]
+    assert len({*anyone}) == 40
+    assert len({*anyone} & {*children}) == 40 - (len(our_characters()) - len(children))
 
 
 def test_who_comes_later_wears_what_most_do() -> None:

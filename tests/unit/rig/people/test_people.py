@@ -14,7 +14,8 @@ import pytest
 
 from app.errors import MapError
 from app.formats.toml import toml
-from app.project.model import characters_for
+from app.project.casting import stage_arc
+from app.project.character_choice import characters_for
 from app.rig import quaternion
 from app.rig.characters.character_library import bundled_characters, character_named, our_arm_m, our_characters
 from app.rig.mesh import Mesh, Morph
@@ -201,7 +202,9 @@ def test_pupils_have_bodies_of_their_own_within_the_schools_statistics() -> None
 
 def test_the_players_of_a_school_band_are_told_apart() -> None:
     shapes = body_shapes()
-    people = [bundled_person(id) for id in characters_for([bundled_maps()["flute"]] * 27, students=True)]
+    people = [
+        bundled_person(id) for id in characters_for([[bundled_maps()["flute"]]] * 27, stage_arc(27), students=True)
+    ]
     faces = []
     for person in people:
         skin_m = body_m(shapes, whole_phenotype(person))[: np.searchsorted(shapes.vertices, SKIN_VERTICES)]
