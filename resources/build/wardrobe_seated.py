@@ -52,6 +52,9 @@ SHORTER = 0.78
 BETWEEN_M = 0.09
 """Distance off the middle beyond which a coat goes with one leg alone."""
 
+OTHER_LEG, OUTER_M = 0.2, (0.14, 0.20)
+"""Share of the other leg in the sides of a coat, and distances off the middle between which it gets it."""
+
 
 def _seated(wearer: Wearer, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Positions (N, 3) in a seated pose of points that move with the thighs, and with the shins."""
@@ -220,7 +223,10 @@ def on_lap(
     wanted[(under == 0.0) | (ahead < 0.0)] = np.nan
     share = smoothstep(ahead, 0.0, 0.06)[:, None]
     found = before + share * (_smoothed(_laid(wearer, points, before, wanted), columns) - before)
-    return _with_legs(wearer, weights, found, smoothstep(points[:, 0], -BETWEEN_M, BETWEEN_M))
+    left = smoothstep(points[:, 0], -BETWEEN_M, BETWEEN_M)
+    # Knees that are turned outwards would take the sides of the coat off the thighs.
+    other = OTHER_LEG * smoothstep(np.abs(points[:, 0]), *OUTER_M)
+    return _with_legs(wearer, weights, found, left + (1.0 - 2.0 * left) * other)
 
 
 def _with_legs(wearer: Wearer, weights: np.ndarray, legs: np.ndarray, left: np.ndarray) -> np.ndarray:

@@ -39,6 +39,8 @@ _LEAST_RISE_M: Final = 0.05
 """Height by which raised thighs lift a place at least, if it is laid."""
 _GOES_WITH_LEGS: Final = (0.12, 0.4)
 """Shares of the legs in the weights, from those of cloth that stays to those of cloth that is laid."""
+_SAG: Final = 0.07
+"""Depth to which cloth sags between the thighs as a share of their distance."""
 _SOFT_CELLS: Final = 1.0
 _CROSS: Final = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]], np.bool_)
 """A cell and its neighbours."""
@@ -142,7 +144,7 @@ def _cells(places: FloatArray, ahead_m: float) -> tuple[IntArray, IntArray]:
 
 
 def _lap(parts: Sequence[FloatArray], ahead_m: float) -> FloatArray:
-    """Return heights (`_CELLS`, `_CELLS` / 2) over x and z of the lap made by triangles (T, 3, 3): it spans from thigh
+    """Return heights (`_CELLS`, `_CELLS` / 2) over x and z of the lap made by triangles (T, 3, 3): it sags from thigh
     to thigh and falls at their sides.
     """
     from scipy.ndimage import gaussian_filter, maximum_filter  # slow to import; needed for few outfits
@@ -162,7 +164,9 @@ def _lap(parts: Sequence[FloatArray], ahead_m: float) -> FloatArray:
             continue
         heights[:] = np.interp(across, found, heights[found])
         right, left = int(heights[:middle].argmax()), middle + int(heights[middle:].argmax())
-        span = np.interp(across[right : left + 1], [right, left], heights[[right, left]])
+        between = np.linspace(0.0, 1.0, left - right + 1)
+        sag_m = _SAG * _CELL_M * (left - right) * np.sin(np.pi * between)
+        span = heights[right] + (heights[left] - heights[right]) * between - sag_m
         heights[right : left + 1] = np.maximum(heights[right : left + 1], span)
         beside = np.maximum(np.maximum(found[0] - across, across - found[-1]), 0) * _CELL_M
         heights -= np.minimum(_FALLS * beside, _DEEPEST_M)

@@ -340,6 +340,28 @@ def test_the_hem_of_a_seated_coat_lies_close_to_the_thighs_of_every_build(
     assert np.nanpercentile(over_m, 25) < 0.016, np.round(over_m, 3)
 
 
+@pytest.mark.parametrize(
+    ("outfit", "upper", "id"),
+    [
+        ("school_uniform", "tunic", "student_kenta"),
+        ("school_uniform", "tunic", "child_sota"),
+        ("marching", "tunic", "cast_yumi"),
+        ("concert_black", "jacket", "cast_henry"),
+    ],
+)
+def test_the_hem_of_a_seated_coat_sags_between_the_thighs(outfit: str, upper: str, id: str) -> None:
+    """It was level from side to side, like a board with a slot under it."""
+    character = character_in(id, OutfitChoice(outfit))
+    coat, legs = mesh_named(character, upper), mesh_named(character, "trousers")
+    low = coat.positions_m[:, 1] < coat.positions_m[:, 1].min() + 0.25
+    hem = np.isin(np.arange(len(coat.positions_m)), open_edges(coat)) & low
+    cloth, below = (posed(character, mesh, np.deg2rad(86.0), np.deg2rad(13.0)) for mesh in (coat, legs))
+    front = hem & (cloth[:, 2] > cloth[hem, 2].max() - 0.10)
+    middle = front & (np.abs(cloth[:, 0]) < 0.06)
+    assert cloth[front, 1].max() - cloth[middle, 1].min() > 0.018
+    assert np.nanmin(heights_over(cloth[front], below[legs.triangles])) > -0.003
+
+
 @pytest.mark.parametrize("id", ["woman_adult", "child_nia"])
 def test_a_seated_long_dress_hangs_from_the_knees(id: str) -> None:
     character = character_in(id, OutfitChoice("evening"))
