@@ -17,6 +17,7 @@ from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import legs_to, rest_tip_m
+from app.choreography.hovering_feet import hover_m, supporting
 from app.rig import quaternion
 from app.rig.ik import leg
 from app.rig.skeleton import JointTransforms
@@ -169,15 +170,20 @@ def planted(
     if shown is not None:
         tips, world = _feet_at(tips, world, shown)
     targets = tips.copy() if aside_m is None else tips + aside_m
+    own = [[stand for stand in standing if stand.foot == foot] for foot in range(2)]
     for foot in range(2):
-        own = [stand for stand in standing if stand.foot == foot]
-        targets[:, foot] += _correction(tips[:, foot], own, float(clip.fps))
-        targets[:, foot, 1] = _cleared(targets[:, foot], own, rest_tip_m(clip, foot))
+        targets[:, foot] += _correction(tips[:, foot], own[foot], float(clip.fps))
+    hover = hover_m(clip, world, targets)
+    targets[..., 1] -= hover[:, None]
+    for foot in range(2):
+        targets[:, foot, 1] = _cleared(targets[:, foot], own[foot], rest_tip_m(clip, foot))
+    carried = [FootPlant(*span, (0.0, 0.0, 0.0)) for span in supporting(hover, targets)]
     length_m = leg(clip.shape.skeleton, "left").length_m
     lower_m = weight * length_m * (DEEPER if weight > 0.0 else HIGHER)
     towards = _towards_m(clip, world, targets, standing, lower_m)
     world = replace(world, positions_m=world.positions_m + towards[:, None])
-    lower = (lower_m + _sink_m(clip, world, targets, standing, lower_m))[:, None] * np.array((0.0, 1.0, 0.0))
+    lower = lower_m + _sink_m(clip, world, targets, (*standing, *carried), lower_m)
+    lower = lower[:, None] * np.array((0.0, 1.0, 0.0))
     clip = replace(clip, hips_m=clip.hips_m + towards - lower)
     world = replace(world, positions_m=world.positions_m - lower[:, None])
     return legs_to(clip, world, targets, planted_frames(standing, len(clip)))
