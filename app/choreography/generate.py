@@ -59,8 +59,6 @@ STANDING: Final = 4.0
 """Log odds of a first and last segment with both feet on the floor against none."""
 PREFERRED: Final = 12.0
 """Log odds of a segment of the preferred source."""
-BEAT_S: Final = 0.5
-"""Time in seconds between footfalls for a capture without steps."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +110,7 @@ class Choreographer:
     def _beat_s(self) -> float:
         """Usual time in seconds between footfalls in the captures."""
         gaps_s = np.concatenate([np.diff(falls) for falls in self._falls_s])
-        return own_beat_s(gaps_s) if len(gaps_s) else BEAT_S
+        return own_beat_s(gaps_s)
 
     @cached_property
     def _stands(self) -> list[tuple[FootPlant, ...]]:

@@ -84,10 +84,15 @@ FAR: Final = 1.96
 """Ratio between a tempo and a dancer's own from which the beat is felt at half or double time; slightly below 2, so
 that a piece at exactly half or double the tempo is treated equally despite rounding.
 """
+BEAT_S: Final = 0.5
+"""Beat in seconds of a dancer without steps."""
+LONGEST_BEAT_S: Final = 2.0
+"""Longest beat in seconds of a dancer; with a longer time between them, footfalls are no steps."""
 
 
 def own_beat_s(gaps_s: FloatArray) -> float:
-    """Return a dancer's own beat in seconds: the mean of the middle half of the times between footfalls.
+    """Return a dancer's own beat in seconds: the mean of the middle half of the times between footfalls, or `BEAT_S` if
+    that is longer than `LONGEST_BEAT_S`.
 
     A footfall found a frame earlier or later changes it by a small part of a frame; it would change a median by a whole
     frame.
@@ -95,10 +100,13 @@ def own_beat_s(gaps_s: FloatArray) -> float:
     Parameters
     ----------
     gaps_s : (N,) float64
-        Times between footfalls in seconds, at least one.
+        Times between footfalls in seconds.
     """
+    if not len(gaps_s):
+        return BEAT_S
     quarter = len(gaps_s) // 4
-    return float(np.mean(np.sort(gaps_s)[quarter : len(gaps_s) - quarter]))
+    beat_s = float(np.mean(np.sort(gaps_s)[quarter : len(gaps_s) - quarter]))
+    return beat_s if beat_s <= LONGEST_BEAT_S else BEAT_S
 
 
 def felt_at(rhythm: Rhythm, beat_s: float) -> Rhythm:

@@ -128,6 +128,11 @@ def test_a_footfall_found_a_frame_later_changes_no_felt_tempo(gaps: tuple[int, .
         assert len(felt) == 1
 
 
+def test_a_dancer_who_hardly_steps_dances_to_usual_beats() -> None:
+    for gaps_s in ([], [8.5]):
+        assert own_beat_s(np.array(gaps_s)) == 0.5
+
+
 def test_between_the_beats_of_a_slow_piece_feet_come_down_but_bodies_do_not_arrive() -> None:
     rhythm = played("A", 2.0)
     grid = grid_of(felt_at(rhythm, 0.5))
