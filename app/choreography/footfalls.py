@@ -20,7 +20,7 @@ from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts
 from app.choreography.standing_feet import SAME_M, FootPlant
 
-REACH_S: Final = 0.15
+REACH_S: Final = 0.2
 """Greatest shift of a footfall in seconds."""
 FAR_M: Final = 0.6
 """Greatest distance in metres between a foot and its place in the motion while its landing is shifted, at its greatest

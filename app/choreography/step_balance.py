@@ -16,12 +16,11 @@ from app.arrays import FloatArray
 from app.choreography.accent_grid import AccentGrid
 from app.choreography.model import MotionSegment
 
-IGNORED: Final = 4.0
-"""Number of missing steps that is ignored: with fewer, or with more steps than captured as the aim, more feet land
-between beats.
+AHEAD: Final = 2.0
+"""Number of steps that the dance should be ahead of the captures, since a phrase can only make up for those before it.
 """
 MOST: Final = 4.0
-"""Number of missing steps, beyond the ignored ones, from which steps are favoured most."""
+"""Number of steps missing to that number from which steps are favoured most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +58,7 @@ class StepBalance:
             return np.zeros(len(self.steps))
         danced_s = float(grid.times_s[first] - grid.times_s[chosen[0][0]])
         missing = self.per_s * danced_s - float(self.steps[[segment for _, segment in chosen]].sum())
-        return float(np.clip((missing - IGNORED) / MOST, 0.0, 1.0)) * (self.steps - self.per_s * self.lasts_s)
+        return float(np.clip((missing + AHEAD) / MOST, 0.0, 1.0)) * (self.steps - self.per_s * self.lasts_s)
 
 
 def step_balance(segments: Sequence[MotionSegment], fps: Sequence[float], lands_s: Sequence[FloatArray]) -> StepBalance:

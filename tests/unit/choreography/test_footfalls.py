@@ -50,7 +50,7 @@ def test_feet_that_land_one_right_after_the_other_come_onto_the_beat_together(la
 
 
 def test_footfalls_far_from_beats_stay() -> None:
-    standing = walking(0.2)
+    standing = walking(0.23)
     assert on_beats(standing, 420, FPS, 0.0, grid_of(beaten(14)), 0.3).standing == tuple(standing)
 
 
