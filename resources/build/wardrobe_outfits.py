@@ -296,7 +296,7 @@ def _polo(wearer: Wearer) -> Pieces:
 def _dress(wearer: Wearer) -> Pieces:
     tailoring = wearer.tailoring
     waist = tailoring.belt_m + 0.01
-    long = skirt(wearer, Skirt(waist + 0.012, tailoring.foot_m + 0.06, 0.090, 0.010, 22, 0.15, 0.977))
+    long = skirt(wearer, Skirt(waist + 0.012, tailoring.foot_m + 0.06, 0.090, 0.010, 22, 0.15, 0.977, other_leg=0.25))
     bodice = plain(close_dress(wearer, waist - 0.01))
     start = (tailoring.wrist_m - tailoring.shoulder[0]) * 0.60 + tailoring.shoulder[0]
     return [

@@ -41,6 +41,8 @@ RAISED_M = 0.02
 """Height by which sitting down raises the hem of a long skirt in front."""
 BEFORE, BEHIND = 0.16, 0.20
 """Slopes by which a long skirt comes away from the knees before the shins, and behind the calves."""
+DRESS_ASIDE_M = 0.004
+"""`ASIDE_M` of a long dress, which goes over the thighs' sides in a curve."""
 FALLS = 0.2
 """Slope of a long skirt's front beside the thighs."""
 HOLLOW_M = 0.09
@@ -80,7 +82,9 @@ def _blend(wearer: Wearer, points: np.ndarray, legs: np.ndarray) -> np.ndarray:
     return points + legs[:, :1] * (thigh - points) + legs[:, 1:] * (shin - points)
 
 
-def _spanned(body: np.ndarray, places: np.ndarray, sign: float, falls: float | None = None) -> np.ndarray:
+def _spanned(
+    body: np.ndarray, places: np.ndarray, sign: float, falls: float | None = None, aside_m: float = ASIDE_M
+) -> np.ndarray:
     """Heights (N,) of a cloth spanned over the tops (`sign` 1) or undersides (-1) of both legs at places (N, 3), before
     the knees those of the knees; NaN where there is no body, or at its sides those of cloth that `falls` with this
     slope."""
@@ -89,13 +93,13 @@ def _spanned(body: np.ndarray, places: np.ndarray, sign: float, falls: float | N
         near = body[np.abs(body[:, 2] - place[2]) < SLICE_M]
         if len(near) < 3:
             continue
-        least, most = near[:, 0].min() - ASIDE_M, near[:, 0].max() + ASIDE_M
+        least, most = near[:, 0].min() - aside_m, near[:, 0].max() + aside_m
         beside = max(least - place[0], place[0] - most)
         if beside >= 0.0:
             if falls is not None:
                 found[row] = (near[:, 1].min() + near[:, 1].max()) / 2.0 - sign * falls * beside
             continue
-        wide = np.concatenate([near[:, :2] + [aside, 0.0] for aside in (-ASIDE_M, ASIDE_M)])
+        wide = np.concatenate([near[:, :2] + [aside, 0.0] for aside in (-aside_m, aside_m)])
         corners = wide[ConvexHull(wide).vertices]
         corners = np.concatenate([corners, corners[:1]])
         heights = [
@@ -118,7 +122,8 @@ def _over_knees(wearer: Wearer, body: np.ndarray, points: np.ndarray, hem_m: flo
     length = down * (edge - hip[2] + fall) / down.max()
     along = np.minimum(hip[2] + length, edge)
     places = np.column_stack([points[:, :2], along])
-    height = _spanned(body, places, 1.0, None if hem_m is None else FALLS) + LIES_M
+    close = (None, ASIDE_M) if hem_m is None else (FALLS, DRESS_ASIDE_M)
+    height = _spanned(body, places, 1.0, *close) + LIES_M
     knee = np.abs(wearer.fit.positions_t[wearer.fit.index("leftLowerLeg")][0])
     between = np.maximum(1.0 - (points[:, 0] / knee) ** 2, 0.0)
     height -= (SAG_M if hem_m is None else HOLLOW_M) * between * smoothstep(down, 0.15, 0.35)

@@ -177,7 +177,7 @@ def close_dress(wearer: Wearer, waist_m: float) -> Cloth:
     cloth = cut(cloth, along - np.abs(cloth.points[:, 0]))
     ahead = smoothstep(cloth.points[:, 2], tailoring.collar_point[2] + 0.02, tailoring.collar_point[2] + 0.12)
     aside = np.clip(np.abs(cloth.points[:, 0]) / 0.13, 0.0, 1.0)
-    depth = 0.030 + 0.065 * ahead * np.sqrt(1.0 - aside**2)
+    depth = 0.030 + 0.042 * ahead * np.sqrt(1.0 - aside**2)
     neck = np.maximum(-above_collar(tailoring, cloth.points) - depth, np.abs(cloth.points[:, 0]) - NECKLINE_M)
     return cut(cloth, neck)
 

@@ -376,6 +376,19 @@ def test_a_seated_long_dress_hangs_from_the_knees(id: str) -> None:
     assert 0.0 < cloth[level, 2].max() - shins[:, 2].max() < 0.08, "close to the shins"
 
 
+@pytest.mark.parametrize("id", ["cast_grace", "cast_marie", "child_nia"])
+def test_a_seated_long_dress_is_no_box_about_the_knees(id: str) -> None:
+    """It stood off the knees and feet of legs that are turned outwards, by 7 cm, under a flat and square lap."""
+    character = character_in(id, OutfitChoice("evening"))
+    dress, shoes = mesh_named(character, "dress"), mesh_named(character, "shoes")
+    cloth, soles = (posed(character, mesh, np.deg2rad(86.0), np.deg2rad(13.0)) for mesh in (dress, shoes))
+    feet_m, low = np.abs(soles[:, 0]).max(), dress.positions_m[:, 1]
+    assert np.abs(cloth[low < low.min() + 0.05, 0]).max() < feet_m + 0.05
+    knees = cloth[cloth[:, 2] > cloth[:, 2].max() - 0.15]
+    top = knees[knees[:, 1] > knees[:, 1].max() - 0.02]
+    assert np.abs(top[:, 0]).max() < feet_m - 0.03
+
+
 def test_a_child_s_long_dress_does_not_fold_through_its_middle() -> None:
     character = character_in("child_nia", OutfitChoice("evening"))
     dress = mesh_named(character, "dress")
