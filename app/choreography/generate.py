@@ -31,18 +31,17 @@ from app.choreography.hands_out_of_body import out_of_body
 from app.choreography.hit_log_odds import Hearing, hearing
 from app.choreography.idling import idling_odds
 from app.choreography.joins import distances_m
-from app.choreography.joint_changes import hips_within_changes
 from app.choreography.legs_apart import with_legs_apart
-from app.choreography.limbs import hinged, unbroken
+from app.choreography.limbs import hinged, unbroken, wrists_within
 from app.choreography.model import ChoreographyModel
 from app.choreography.music_motion_dependence import trust_in
 from app.choreography.phrases import returning_places
 from app.choreography.rhythm import Rhythm, felt_at, own_beat_s
 from app.choreography.segment_arrivals import accents_s, meets_of
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
+from app.choreography.shortest_times import ShortestTimes
 from app.choreography.sized import sized
-from app.choreography.spin_times import SpinTimes
-from app.choreography.spins import without_haste
+from app.choreography.spins import hips_within
 from app.choreography.standing_feet import STEP_S, FootPlant, foot_speeds_m_s, planted, stands, steps_s
 from app.choreography.step_balance import step_balance
 from app.choreography.stitch import Frames, Stitcher, on_stage
@@ -130,8 +129,8 @@ class Choreographer:
         return [float(clip.fps) for clip in self.model.clips]
 
     @cached_property
-    def _spins(self) -> SpinTimes:
-        return SpinTimes(self.model, self._hits_s)
+    def _shortest(self) -> ShortestTimes:
+        return ShortestTimes(self.model, self._hits_s)
 
     @cached_property
     def _arrivals(self) -> list[IntArray]:
@@ -174,8 +173,8 @@ class Choreographer:
             joins_m=joins,
             log_transition=log_a[states[:, None], states[None, :]],
             meets=meets_of(segments, fps, self._arrivals, self._falls_s, self._hits_s),
-            least_before_s=self._spins.before_s,
-            least_after_s=self._spins.after_s,
+            least_before_s=self._shortest.before_s,
+            least_after_s=self._shortest.after_s,
         )
 
     @cached_property
@@ -215,11 +214,11 @@ class Choreographer:
         clip = sized(clip, manner.size, self._stitcher.hinges)
         if manner.mirrored:
             clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
-        clip = hips_within_changes(without_haste(clip, self._spins.fastest_rad_s), self.usual_change_rad_s(fps))
-        clip = out_of_body(clip)
+        clip = hips_within(clip, self._shortest.hips_rad_s, usual := self.usual_change_rad_s(fps))
+        clip, fastest = wrists_within(out_of_body(clip)), self._shortest.fastest_rad_s(manner)
         shown, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
         clip, standing = with_legs_apart(clip, shown, falls, manner.weight)
-        clip = within_limits(clip, standing, self._usual_accelerations(fps), self.usual_change_rad_s(fps))
+        clip = within_limits(clip, standing, self._usual_accelerations(fps), usual, fastest)
         return Dance(hinged(clip), first_s, plan.steps, speeds, seams, standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:
@@ -317,7 +316,7 @@ class Choreographer:
         best, best_worth = plain, -np.inf
         for with_falls in (False, True):
             shown = map_with_arrivals(plain, arrivals, grid, falls, with_falls=with_falls)
-            shown = self._spins.calmed(shown, segments, hits, hits + after)
+            shown = self._shortest.calmed(shown, segments, hits, hits + after)
             if len(draft_s) < 2:
                 return planned(shown)
             for _ in range(DRAFTS):
@@ -328,7 +327,7 @@ class Choreographer:
                 following = best_arrival_map(clip, first_s, shown, plain, grid, falls_s, with_falls=with_falls)
                 if following is shown:
                     break
-                shown = self._spins.calmed(following, segments, hits, hits + after)
+                shown = self._shortest.calmed(following, segments, hits, hits + after)
         return planned(best)
 
     def _draft(

@@ -16,7 +16,7 @@ from scipy.ndimage import maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray
 from app.choreography.bent_paths import bent
-from app.choreography.body import FEET, SEGMENTS
+from app.choreography.body import FEET, PARENT_OF, SEGMENTS
 from app.choreography.body_speeds import runs
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
@@ -29,6 +29,8 @@ AROUND_S: Final = 0.1
 """Time in seconds before and after a sudden change within which rotations are bent."""
 EDGE: Final = 2
 """Number of unchanged frames at either end of such a span, between which its first and last speed are kept."""
+HANDS: Final = 1.25
+"""Greatest change of a hand's angular velocity in the world relative to the limit for a joint."""
 TRIES: Final = 2
 """Greatest number of passes, since rotations about different axes add up only approximately."""
 ROUNDS: Final = 60
@@ -36,6 +38,7 @@ LANDS_S: Final = 0.05
 """Time in seconds before a landing in which a leg is unchanged, so that its foot descends steeply and does not skid."""
 EXACT_M: Final = 1e-4
 """Distance in metres within which the tip of a standing foot stays."""
+_HANDS: Final = ("leftHand", "rightHand")
 
 
 def within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float, lands_s: float = LANDS_S) -> MotionClip:
@@ -96,6 +99,23 @@ def feet_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float)
             return found
         held |= maximum_filter1d(off, 4 * round(AROUND_S * float(clip.fps)) + 1, axis=0)
     return clip
+
+
+def hands_within_changes(clip: MotionClip, most_rad_s: float) -> MotionClip:
+    """Return the motion with the angular velocity of each hand in the world changing by at most `HANDS` times
+    ``most_rad_s`` from frame to frame, by bending wrists, since the changes of shoulder, elbow and wrist add up. The
+    same object is returned if no change is greater.
+    """
+    parts = [SEGMENTS.index(name) for name in _HANDS]
+    world = clip.world().rotations[:, 1:]
+    turns = world[:, parts]
+    calm = _calm(turns, np.zeros((len(clip), 2), bool), HANDS * most_rad_s, float(clip.fps))
+    if calm is turns:
+        return clip
+    rotations = clip.rotations.copy()
+    arms = [SEGMENTS.index(PARENT_OF[name]) for name in _HANDS]
+    rotations[:, parts] = quaternion.multiply(quaternion.conjugate(world[:, arms]), calm)
+    return replace(clip, rotations=quaternion.continuous(rotations))
 
 
 def _calm(rotations: FloatArray, held: BoolArray, most_rad_s: float, fps: float) -> FloatArray:

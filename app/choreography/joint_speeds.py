@@ -1,4 +1,4 @@
-"""Limits the rotation speeds of joints in a dance to the highest ones in captures of people.
+"""Limits the rotation speeds of joints in a dance, and of segments in the world, to those in captures of people.
 
 Where a joint rotates faster, its rotations are smoothed over the adjacent frames. Standing feet stay in place.
 """
@@ -12,7 +12,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray
-from app.choreography.body import SEGMENTS
+from app.choreography.body import PARENT_OF, SEGMENTS
 from app.choreography.body_speeds import angle, runs
 from app.choreography.clip import MotionClip
 from app.choreography.damage import FASTEST
@@ -43,14 +43,43 @@ def within_speeds(clip: MotionClip, planted: BoolArray) -> MotionClip:
             continue
         name, fps = SEGMENTS[part], float(clip.fps)
         turns = rotations[:, part]
-        may = np.ones(len(clip))
-        if name.endswith(("Leg", "Foot")):
-            may = free(planted[:, int(name.startswith("right"))], fps)
-        calm = _calm(turns, ROOM * float(fastest_rad_s) / fps, fps, may)
+        calm = _calm(turns, ROOM * float(fastest_rad_s) / fps, fps, _may_change(name, planted, fps))
         if calm is not turns:
             rotations = rotations.copy() if rotations is clip.rotations else rotations
             rotations[:, part] = calm
     return clip if rotations is clip.rotations else replace(clip, rotations=quaternion.continuous(rotations))
+
+
+def turns_within_speeds(clip: MotionClip, planted: BoolArray, fastest_rad_s: FloatArray) -> MotionClip:
+    """Return the motion with the speeds with which segments turn in the world limited, from the trunk to the ends; the
+    hips stay. The same object is returned if nothing is faster.
+
+    Parameters
+    ----------
+    planted : (F, 2) bool
+        Frames in which the left and the right foot stand; their legs stay as they are.
+    fastest_rad_s : (16,) float64
+        Greatest speed of each segment in rad/s.
+    """
+    if len(clip) < 2:
+        return clip
+    fps, world = float(clip.fps), clip.world().rotations[:, 1:]
+    if (angle(world[:-1], world[1:]) * fps <= fastest_rad_s)[:, 1:].all():
+        return clip
+    rotations, found = clip.rotations.copy(), {SEGMENTS[0]: world[:, 0]}
+    for part, (name, parent) in list(enumerate(PARENT_OF.items()))[1:]:
+        turns = quaternion.multiply(found[parent], rotations[:, part])
+        found[name] = _calm(turns, ROOM * float(fastest_rad_s[part]) / fps, fps, _may_change(name, planted, fps))
+        if found[name] is not turns:
+            rotations[:, part] = quaternion.multiply(quaternion.conjugate(found[parent]), found[name])
+    return replace(clip, rotations=quaternion.continuous(rotations))
+
+
+def _may_change(name: str, planted: BoolArray, fps: float) -> FloatArray:
+    """Share (F,) of a change that a segment of the body may make in each frame; 0 for legs of standing feet."""
+    if name.endswith(("Leg", "Foot")):
+        return free(planted[:, int(name.startswith("right"))], fps)
+    return np.ones(len(planted))
 
 
 def _calm(turns: FloatArray, most_rad: float, fps: float, may: FloatArray) -> FloatArray:

@@ -23,6 +23,9 @@ STRETCHED_RAD: Final = 0.15
 """Greatest angle in radians of a knee that would bend backwards, as in a blend of two motions."""
 FOLDED_RAD: Final = 2.6
 """Angle in radians that the bend of a knee exceeds by at most `STRETCHED_RAD`, also in a blend of a kick."""
+WRIST_RAD: Final = 1.5
+"""Angle in radians between hand and forearm from the T-pose, with the pronation of the forearm: 1.1 to 1.5 in captures,
+more where two of them are blended."""
 SIDEWAYS_RAD: Final = (0.05, 0.04)
 """Angle in radians of a shank from the plane in which its knee bends that is unchanged, and the most that a greater one
 exceeds it by; 0 to 0.07 in captures.
@@ -85,6 +88,21 @@ def softly_within(values: FloatArray, least: float, most: float) -> FloatArray:
     under, over = np.minimum(values - least, 0.0), np.minimum(most - values, 0.0)
     inside = values - under + over
     return np.asarray(inside + STRETCHED_RAD * (np.expm1(under / STRETCHED_RAD) - np.expm1(over / STRETCHED_RAD)))
+
+
+def wrists_within(clip: MotionClip) -> MotionClip:
+    """Return the motion with hands turned relative to forearms by at most `WRIST_RAD`, exceeded softly by at most
+    `STRETCHED_RAD`; the same object if none is.
+    """
+    hands = [SEGMENTS.index(f"{side}Hand") for side in SIDES]
+    turned = quaternion.to_rotation_vector(clip.rotations[:, hands])
+    angles = np.linalg.norm(turned, axis=-1, keepdims=True)
+    if angles.max(initial=0.0) <= WRIST_RAD:
+        return clip
+    rotations = clip.rotations.copy()
+    share = softly_within(angles, 0.0, WRIST_RAD) / np.maximum(angles, 1e-9)
+    rotations[:, hands] = quaternion.from_rotation_vector(share * turned)
+    return replace(clip, rotations=quaternion.continuous(rotations))
 
 
 def unbroken(clip: MotionClip) -> MotionClip:

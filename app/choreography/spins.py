@@ -15,11 +15,14 @@ from scipy.ndimage import gaussian_filter1d
 from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
 from app.choreography.damage import FASTEST_HIPS_RAD_S
+from app.choreography.joint_changes import hips_within_changes
 from app.rig import quaternion
 
 AROUND_S: Final = 0.06
 """Standard deviation in seconds of the distribution of the excess."""
 ROUNDS: Final = 60
+TRIES: Final = 3
+"""Greatest number of alternations between limits of the speed and of its changes."""
 ROOM: Final = 0.97
 """Share of the limit that is used, since placing the feet moves the hips slightly again."""
 _UP: Final = (0.0, 1.0, 0.0)
@@ -43,6 +46,18 @@ def without_haste(clip: MotionClip, fastest_rad_s: float = FASTEST_HIPS_RAD_S) -
     rotations = clip.rotations.copy()
     rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle(_UP, changed), turns)
     return replace(clip, rotations=quaternion.continuous(rotations))
+
+
+def hips_within(clip: MotionClip, fastest_rad_s: float, most_change_rad_s: float) -> MotionClip:
+    """Return the motion with the rotation speed of the hips within a limit, and changing by at most
+    ``most_change_rad_s`` from frame to frame, as far as the first limit allows; the same object if it does already.
+    """
+    for _ in range(TRIES):
+        calm = hips_within_changes(without_haste(clip, fastest_rad_s), most_change_rad_s)
+        if calm is clip:
+            break
+        clip = calm
+    return without_haste(clip, fastest_rad_s)
 
 
 def hips_rad(clip: MotionClip) -> FloatArray:

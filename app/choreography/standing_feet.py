@@ -16,7 +16,7 @@ from app.arrays import BoolArray, FloatArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
-from app.choreography.feet_on_floor import legs_to, rest_tip_m
+from app.choreography.feet_on_floor import free, legs_to, rest_tip_m
 from app.choreography.hovering_feet import hover_m, supporting
 from app.rig import quaternion
 from app.rig.ik import leg
@@ -61,6 +61,8 @@ HIGHER: Final = 0.02
 lightest dancer."""
 SINK_S: Final = 0.12
 """Standard deviation in seconds of the hips' lowering and of their way towards a foot."""
+
+_UP: Final = np.array([0.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True)
@@ -168,7 +170,7 @@ def planted(
     world = clip.world()
     tips = tips_m(clip, world)
     if shown is not None:
-        tips, world = _feet_at(tips, world, shown)
+        tips, world = _feet_at(tips, world, shown, planted_frames(standing, len(clip)), float(clip.fps))
     targets = tips.copy() if aside_m is None else tips + aside_m
     own = [[stand for stand in standing if stand.foot == foot] for foot in range(2)]
     for foot in range(2):
@@ -197,18 +199,23 @@ def planted_frames(standing: Sequence[FootPlant], frames: int) -> BoolArray:
     return found
 
 
-def _feet_at(tips: FloatArray, world: JointTransforms, shown: FloatArray) -> tuple[FloatArray, JointTransforms]:
+def _feet_at(
+    tips: FloatArray, world: JointTransforms, shown: FloatArray, on_floor: BoolArray, fps: float
+) -> tuple[FloatArray, JointTransforms]:
     """World positions of foot tips (F, feet, 3) and world transforms of the feet, taken for each foot from the frame
-    ``shown`` (F, feet), which may be fractional.
+    ``shown`` (F, feet), which may be fractional; a foot in the air turns along with the hips, as it does in a spin.
     """
     frames = np.arange(len(tips))
     tips, rotations = tips.copy(), world.rotations.copy()
+    facing = np.unwrap(quaternion.twist_angle(rotations[:, 1 + SEGMENTS.index("hips")], _UP))
     for foot, name in enumerate(FEET):
         tips[:, foot] = CubicSpline(frames, tips[:, foot])(shown[:, foot])
         at = 1 + SEGMENTS.index(name)
-        rotations[:, at] = quaternion.normalize(
+        turned = quaternion.normalize(
             CubicSpline(frames, quaternion.continuous(rotations[:, at, None])[:, 0])(shown[:, foot])
         )
+        along = free(on_floor[:, foot], fps) * (facing - np.interp(shown[:, foot], frames, facing))
+        rotations[:, at] = quaternion.multiply(quaternion.from_axis_angle(_UP, along), turned)
     return tips, replace(world, rotations=rotations)
 
 

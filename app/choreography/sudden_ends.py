@@ -24,8 +24,8 @@ from app.choreography.features import height_m
 from app.choreography.feet_on_floor import AHEAD, LEG, grounded
 from app.choreography.hands_out_of_body import ELBOW
 from app.choreography.heel_changes import heels_within_changes
-from app.choreography.joint_changes import feet_within_changes, within_changes
-from app.choreography.joint_speeds import within_speeds
+from app.choreography.joint_changes import feet_within_changes, hands_within_changes, within_changes
+from app.choreography.joint_speeds import turns_within_speeds, within_speeds
 from app.choreography.limbs import bend
 from app.choreography.resample import resampled
 from app.choreography.standing_feet import FootPlant, planted_frames
@@ -85,7 +85,11 @@ def usual_accelerations(clips: Sequence[MotionClip], fps: Fraction) -> UsualAcce
 
 
 def within_limits(
-    clip: MotionClip, standing: Sequence[FootPlant], usual: UsualAccelerations, usual_change_rad_s: float
+    clip: MotionClip,
+    standing: Sequence[FootPlant],
+    usual: UsualAccelerations,
+    usual_change_rad_s: float,
+    fastest_rad_s: FloatArray | None = None,
 ) -> MotionClip:
     """Return the motion with joints no faster than `app.choreography.joint_speeds.within_speeds` allows and changing
     their speeds no more than usual, hands and feet accelerated as `without_twitches` allows, and soles on or above the
@@ -97,9 +101,14 @@ def within_limits(
     ----------
     usual_change_rad_s : float
         See `app.choreography.dance_flaws.usual_change_rad_s`.
+    fastest_rad_s : (16,) float64, optional
+        Greatest speed in rad/s with which each segment but the hips turns in the world; unlimited by default.
     """
     on_floor = planted_frames(standing, len(clip))
-    clip = within_speeds(feet_within_changes(clip, on_floor, usual_change_rad_s), on_floor)
+    clip = feet_within_changes(clip, on_floor, usual_change_rad_s)
+    if fastest_rad_s is not None:
+        clip = turns_within_speeds(clip, on_floor, fastest_rad_s)
+    clip = within_speeds(clip, on_floor)
     ankle_m_s2 = MOST * float(usual.feet[0]) * height_m(clip)
     clip = _within_changes(clip, on_floor, usual_change_rad_s, ankle_m_s2)
     calm = grounded(without_twitches(clip, standing, usual), on_floor)
@@ -119,6 +128,9 @@ def within_limits(
         if calm is clip:
             break
         clip = without_twitches(calm, standing, usual)
+    if fastest_rad_s is not None:
+        clip = turns_within_speeds(clip, on_floor, fastest_rad_s)
+    clip = hands_within_changes(clip, usual_change_rad_s)
     return heels_within_changes(clip, on_floor, usual_change_rad_s, ankle_m_s2)
 
 

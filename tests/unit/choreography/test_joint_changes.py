@@ -14,7 +14,13 @@ from app.choreography.contacts import tips_m
 from app.choreography.dance import Manner
 from app.choreography.feet_on_floor import legs_to
 from app.choreography.generate import Choreographer
-from app.choreography.joint_changes import feet_within_changes, hips_within_changes, within_changes
+from app.choreography.joint_changes import (
+    HANDS,
+    feet_within_changes,
+    hands_within_changes,
+    hips_within_changes,
+    within_changes,
+)
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps
 from tests.support.dances import beaten, model, moving, still
@@ -43,6 +49,25 @@ def test_a_joint_that_snaps_starts_gradually_and_all_else_stays(name: str) -> No
     away = [0, 6, 24, 30, 36, 54, 59]
     assert found.rotations[away, part] == pytest.approx(clip.rotations[away, part], abs=1e-9)
     assert np.degrees(np.abs(found.rotations - clip.rotations)).max() < 3.0
+
+
+def test_a_hand_starts_gradually_although_all_joints_of_its_arm_snap_at_once() -> None:
+    clip = still(60)
+    arm = [SEGMENTS.index(f"left{part}") for part in ("UpperArm", "LowerArm", "Hand")]
+    clip.rotations[:, arm] = snapping("leftHand").rotations[:, arm[2:]]
+    upper = list(range(arm[2]))
+    assert angular_jumps(clip).max() < MOST_RAD_S < HANDS * MOST_RAD_S < 6.0 < hand_jumps(clip).max()
+    found = hands_within_changes(clip, MOST_RAD_S)
+    assert hand_jumps(found).max() <= HANDS * MOST_RAD_S
+    assert found.rotations[:, upper] == pytest.approx(clip.rotations[:, upper])
+    assert hands_within_changes(found, MOST_RAD_S) is found
+
+
+def hand_jumps(clip: MotionClip) -> np.ndarray:
+    """Change (F - 2,) of the left hand's angular velocity in the world in rad/s."""
+    turns = clip.world().rotations[:, 1 + SEGMENTS.index("leftHand")]
+    steps = quaternion.to_rotation_vector(quaternion.multiply(turns[1:], quaternion.conjugate(turns[:-1])))
+    return np.linalg.norm(np.diff(steps, axis=0), axis=-1) * float(clip.fps)
 
 
 def test_the_leg_of_a_standing_foot_stays() -> None:

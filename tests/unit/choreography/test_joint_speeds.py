@@ -14,8 +14,9 @@ from app.choreography.clip import MotionClip
 from app.choreography.damage import FASTEST, FASTEST_RAD_S
 from app.choreography.dance import Manner
 from app.choreography.generate import Choreographer
-from app.choreography.joint_speeds import within_speeds
-from app.choreography.limbs import HINGES, hinge_ranges
+from app.choreography.joint_speeds import turns_within_speeds, within_speeds
+from app.choreography.limbs import HINGES, STRETCHED_RAD, WRIST_RAD, hinge_ranges, wrists_within
+from app.choreography.shortest_times import turns_rad_s
 from app.choreography.sized import sized
 from app.rig import quaternion
 from tests.support.dances import beaten, model, moving, still
@@ -52,6 +53,39 @@ def test_the_leg_of_a_standing_foot_stays() -> None:
 def test_what_is_slow_enough_is_left_as_it_is() -> None:
     clip = moving(60)
     assert within_speeds(clip, np.zeros((60, 2), bool)) is clip
+
+
+def test_joints_of_an_arm_that_turn_together_do_not_add_up_to_a_faster_hand() -> None:
+    clip, most = still(90), np.full(len(SEGMENTS), 10.0)
+    angles = 0.5 * np.tanh((np.arange(90) - 45) / 4.0)
+    arm = [SEGMENTS.index(f"left{part}") for part in ("UpperArm", "LowerArm", "Hand")]
+    for part in arm:
+        clip.rotations[:, part] = quaternion.from_axis_angle((0.0, 1.0, 0.0), angles)
+    before = turns_rad_s(clip)
+    assert before[:, arm[0]].max() < 10.0 < 20.0 < before[:, arm[2]].max()
+    found = turns_within_speeds(clip, np.zeros((90, 2), bool), most)
+    assert turns_rad_s(found).max() <= 10.0
+    assert found.rotations[:, : arm[0] + 1] == pytest.approx(clip.rotations[:, : arm[0] + 1])
+    assert found.rotations[[0, -1]] == pytest.approx(clip.rotations[[0, -1]], abs=2e-3)
+    assert turns_within_speeds(found, np.zeros((90, 2), bool), most) is found
+
+
+def test_standing_legs_stay_however_fast_they_turn() -> None:
+    clip, planted = flipping("rightUpperLeg"), np.ones((60, 2), bool)
+    found = turns_within_speeds(clip, planted, np.full(len(SEGMENTS), 10.0))
+    assert found.rotations == pytest.approx(clip.rotations)
+
+
+def test_wrists_turn_no_farther_than_those_of_people() -> None:
+    clip = waving(2.2)
+    part = SEGMENTS.index("leftHand")
+    found = wrists_within(clip)
+    angles = np.linalg.norm(quaternion.to_rotation_vector(found.rotations[:, part]), axis=-1)
+    assert WRIST_RAD < angles.max() <= WRIST_RAD + STRETCHED_RAD
+    inside = np.linalg.norm(quaternion.to_rotation_vector(clip.rotations[:, part]), axis=-1) < WRIST_RAD
+    assert found.rotations[inside, part] == pytest.approx(clip.rotations[inside, part])
+    usual = waving(1.2)
+    assert wrists_within(usual) is usual
 
 
 def waving(reach_rad: float) -> MotionClip:

@@ -11,8 +11,10 @@ from hypothesis import strategies as st
 
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
-from app.choreography.spins import hips_rad, without_haste
+from app.choreography.joint_changes import hips_within_changes
+from app.choreography.spins import hips_rad, hips_within, without_haste
 from app.rig import quaternion
+from tests.support.dance_measures import angular_jumps
 from tests.support.dances import stepping
 
 
@@ -41,6 +43,19 @@ def test_no_spin_is_faster_than_a_bodys(fps: int, peak: float, turn: float) -> N
     assert ends == pytest.approx(1.0, abs=1e-3)
     up = [quaternion.rotate(one.rotations[:, SEGMENTS.index("hips")], (0.0, 1.0, 0.0))[:, 1] for one in (calm, clip)]
     assert up[0] == pytest.approx(up[1], abs=1e-6)
+
+
+def test_a_spin_that_begins_at_once_keeps_within_both_limits() -> None:
+    clip = spinning(60, 26.0, 3.0)
+    # Bending the sudden beginning of a spin makes its middle faster.
+    assert hips_rad(hips_within_changes(without_haste(clip), 2.0)).max() * 60.0 > 15.0
+    calm = hips_within(clip, 15.0, 2.0)
+    assert hips_rad(calm).max() * 60.0 <= 15.0
+    assert angular_jumps(calm)[:, 0].max() <= 2.2
+    ends = np.abs(np.einsum("fi,fi->f", calm.rotations[:, 0], clip.rotations[:, 0]))[[0, -1]]
+    assert ends == pytest.approx(1.0, abs=1e-3)
+    usual = spinning(60, 13.0, 6.0)
+    assert hips_within(usual, 15.0, 100.0) is usual
 
 
 def test_an_ordinary_dance_is_the_same_value() -> None:

@@ -16,6 +16,7 @@ from app.choreography.standing_feet import DEEPER, HIGHER, STEP_S, FootPlant, pl
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps
 from tests.support.dances import SHANK_M, THIGH_M, stepping, still
+from tests.unit.choreography.test_spins import spinning
 
 
 def carried(way_m: float) -> tuple[MotionClip, BoolArray]:
@@ -197,3 +198,14 @@ def test_a_fade_that_carries_a_hinge_beyond_half_a_turn_keeps_it_in_range(name: 
     assert np.abs(np.diff(bends_rad)).max() <= np.abs(np.diff(off_rad)).max() + 1e-9
     ahead = 0.4 + off_rad >= 0.0
     assert bends_rad[ahead] == pytest.approx((0.4 + off_rad)[ahead])
+
+
+def test_a_foot_that_steps_later_in_a_spin_turns_with_its_body() -> None:
+    clip = spinning(60, 14.0, 6.0)
+    frames = np.arange(len(clip), dtype=np.float64)
+    late = np.clip(np.stack([frames - 14.0, frames], axis=1), 0.0, None)
+    found = planted(clip, (FootPlant(0, 0, 20, (0.1, 0.0, 0.15)),), shown=late)
+    at = SEGMENTS.index("leftFoot")
+    turned, own = (quaternion.to_rotation_vector(one.rotations[60:180, at])[:, 1] for one in (found, clip))
+    # The body turns by more than 2 radians in 14 frames.
+    assert np.abs(turned - own).max() < 0.6
