@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -109,6 +110,27 @@ def returning_places(rhythm: Rhythm, times_s: FloatArray, melody: float = USUAL_
     earlier[inside] = np.where(np.abs(beats[at] - asked) < _NEAR_BEATS, at, -1)
     own = np.where(inside, bar, -1)
     return ReturningPlaces(own, earlier, np.where(inside[:, None], worths[own], 0.0))
+
+
+def danced_again(
+    returns: ReturningPlaces, chosen: Sequence[tuple[int, int]], places: range, segments: int
+) -> FloatArray:
+    """Return for each of P places of the music and each of S segments the similarity (P, S) of the place to earlier
+    places where the segment was danced, minus that to the other earlier places.
+    """
+    danced = np.full(returns.earlier.shape[0] + 1, -1, np.int64)
+    for place, segment in chosen:
+        danced[place] = segment
+    again = np.zeros((len(places), segments))
+    rows = slice(places.start, places.stop)
+    # Index -1 is the row after the last accent, in which no segment is danced.
+    own = danced[returns.earlier[rows]]
+    row, bar = np.nonzero((own >= 0) & (returns.worths[rows] != 0.0))
+    worths = returns.worths[rows][row, bar]
+    least = np.zeros_like(again)
+    np.maximum.at(again, (row, own[row, bar]), worths)
+    np.minimum.at(least, (row, own[row, bar]), worths)
+    return np.where(again > 0.0, again, least)
 
 
 def _along_passages(alike: FloatArray) -> FloatArray:

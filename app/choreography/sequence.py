@@ -30,7 +30,7 @@ from app.arrays import FloatArray, IntArray, SingleArray
 from app.choreography.accent_grid import AccentGrid
 from app.choreography.drums_of_dancers import TakeShares
 from app.choreography.hit_log_odds import HeardHits
-from app.choreography.phrases import ReturningPlaces
+from app.choreography.phrases import ReturningPlaces, danced_again
 from app.choreography.step_balance import StepBalance
 from app.choreography.take_turns import TakeTurns
 from app.choreography.transition_scores import NEVER, SHARES, MoveCosts, SegmentMeets, SegmentMoves, no_meets
@@ -60,6 +60,8 @@ class Weights:
     lately : float
         Cost of each time that a segment was danced within `LATELY_S`, unless the music recurs; also of a segment that
         follows itself.
+    repeats : float
+        Cost of a segment that was one of the last `RECENT` + 1.
     returns : float
         Value of a segment that was danced where the music was the same.
     meets : float
@@ -77,6 +79,7 @@ class Weights:
     heard: float = 2.4
     chance: float = 0.6
     lately: float = 4.5
+    repeats: float = 12.0
     returns: float = 24.0
     meets: float = 8.0
     take: float = 2.5
@@ -84,6 +87,8 @@ class Weights:
 
 
 LATELY_S: Final = 12.0
+RECENT: Final = 3
+"""Number of motions before the last one that are not soon danced again."""
 FEW: Final = 24.0
 """Number of segments in which each counts half as danced recently, since few segments must repeat."""
 ANEW: Final = 0.05
@@ -207,13 +212,14 @@ def choose(
         extra = noise - weights.lately * lately
         again = np.zeros((seen - first, segments))
         if returns is not None:
-            again = _danced_again(returns, chosen, range(first, seen), segments)
+            again = danced_again(returns, chosen, range(first, seen), segments)
             extra += weights.returns * again + weights.lately * lately * np.maximum(again, 0.0)
         if turns is not None:
             extra += weights.take * turns.favoured(grid, chosen, first, again)
         if steps is not None:
             extra += weights.steps * steps.favoured(grid, chosen, first)
-        found = search.phrase(before, first, seen, extra, ends)
+        recent = [segment for _, segment in chosen[: -RECENT - 2 : -1]]
+        found = search.phrase(before, first, seen, extra, ends, recent)
         chosen += [row for row in found if row[0] < stop or seen == count]
         if seen == count:
             break
@@ -226,27 +232,6 @@ def _varied(returns: ReturningPlaces, random: np.random.Generator) -> ReturningP
     return replace(
         returns, worths=np.where(anew[returns.bars][:, None], np.minimum(returns.worths, 0.0), returns.worths)
     )
-
-
-def _danced_again(
-    returns: ReturningPlaces, chosen: Sequence[tuple[int, int]], places: range, segments: int
-) -> FloatArray:
-    """For each of P places of the music and each of S segments: similarity (P, S) of the place to earlier places where
-    the segment was danced, minus that to the other earlier places.
-    """
-    danced = np.full(returns.earlier.shape[0] + 1, -1, np.int64)
-    for place, segment in chosen:
-        danced[place] = segment
-    again = np.zeros((len(places), segments))
-    rows = slice(places.start, places.stop)
-    # Index -1 is the row after the last accent, in which no segment is danced.
-    own = danced[returns.earlier[rows]]
-    row, bar = np.nonzero((own >= 0) & (returns.worths[rows] != 0.0))
-    worths = returns.worths[rows][row, bar]
-    least = np.zeros_like(again)
-    np.maximum.at(again, (row, own[row, bar]), worths)
-    np.minimum.at(least, (row, own[row, bar]), worths)
-    return np.where(again > 0.0, again, least)
 
 
 class _Search:
@@ -293,11 +278,18 @@ class _Search:
         )
 
     def phrase(
-        self, before: tuple[int, int] | None, first: int, stop: int, extra: FloatArray, ends: FloatArray
+        self,
+        before: tuple[int, int] | None,
+        first: int,
+        stop: int,
+        extra: FloatArray,
+        ends: FloatArray,
+        recent: Sequence[int],
     ) -> list[tuple[int, int]]:
         """Find the best path through the places ``first`` to ``stop`` of the grid, continuing from an earlier accent.
 
-        ``extra`` (stop - first, S) is added to the score of each accent, ``ends`` (S,) to that of the last one.
+        ``extra`` (stop - first, S) is added to the score of each accent, ``ends`` (S,) to that of the last one;
+        ``recent`` are the segments before, from the last one back, as many as `RECENT` + 1.
         """
         times = self._grid.times_s
         count = stop - first
@@ -305,6 +297,8 @@ class _Search:
         segments = len(self._initial)
         # Preceding accent and segment of each entry, encoded as one number.
         came = np.full((count, segments), -1, np.int64)
+        # The segments before each entry, from the last one back.
+        danced = np.full((count, segments, RECENT), -1, np.int64)
         for place in range(first, stop):
             row = place - first
             own = self._usual + self._off_beat[place] + self._at_accent[place] + extra[row] + self._allowed(place)
@@ -315,17 +309,22 @@ class _Search:
                 table = self._moves.table_from(before[1], before[0], place)
                 heard, total = self._struck(before[0], place)
                 reached = table.best(np.zeros(len(own), np.float32), heard)[1] + own + total
+                reached[list(recent[1:])] -= self._weights.repeats
+                danced[row, :, : len(recent)] = recent[:RECENT]
                 np.maximum(best[row], reached, out=best[row])
             for earlier in range(max(first, self._earliest[place]), place):
                 if not self._moves.possible(times[place] - times[earlier]) or self._skips(earlier, place):
                     continue
                 table = self._moves.table(earlier, place, every=self._is_constrained(earlier))
                 heard, total = self._struck(earlier, place)
-                from_segment, reached = table.best(best[earlier - first].astype(np.float32), heard)
+                so_far = best[earlier - first].astype(np.float32)
+                from_segment, reached = table.best(so_far, heard, danced[earlier - first], self._weights.repeats)
                 reached = reached + own + total
                 better = reached > best[row]
                 np.copyto(best[row], reached, where=better)
                 np.copyto(came[row], earlier * segments + from_segment, where=better)
+                danced[row, better, 0] = from_segment[better]
+                danced[row, better, 1:] = danced[earlier - first, from_segment[better], :-1]
         return self._way_back(best + ends, came, first, stop)
 
     def latest(self, place: int) -> int:

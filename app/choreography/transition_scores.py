@@ -89,7 +89,9 @@ class MoveTable:
         """Index (S,) of the first element of each row in the flattened table."""
         return np.asarray(np.arange(len(self.starts)) * self.starts.shape[1])
 
-    def best(self, before: SingleArray, heard: SingleArray | None) -> tuple[IntArray, SingleArray]:
+    def best(
+        self, before: SingleArray, heard: SingleArray | None, danced: IntArray | None = None, repeats: float = 0.0
+    ) -> tuple[IntArray, SingleArray]:
         """Return the best predecessor (S,) of each segment, and its score.
 
         Parameters
@@ -99,12 +101,18 @@ class MoveTable:
         heard : (SHARES, S) float32, optional
             Log odds of hits until the change of segments. The total log odds of hits, which are equal for all
             predecessors, are not included.
+        danced : (S, N) int64, optional
+            Segments danced before each segment as predecessor; one of them that is danced again costs ``repeats``.
         """
         scores = before.take(self.starts, mode="clip")
         scores += self.scores
         if heard is not None:
             scores += heard.take(self.of_start, out=self.taken, mode="clip")
             scores -= heard.take(self.of_end, out=self.taken, mode="clip")
+        if danced is not None:
+            own = np.arange(len(self.starts))[:, None]
+            for earlier in danced.T:
+                scores -= np.float32(repeats) * (earlier.take(self.starts) == own)
         chosen = scores.argmax(axis=1) + self.rows
         return np.asarray(self.starts.take(chosen)), np.asarray(scores.take(chosen))
 

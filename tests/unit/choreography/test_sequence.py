@@ -25,7 +25,7 @@ class Scored(BaseHMM):
         return scores
 
 
-PLAIN = Weights(join_per_m=0.0, speed=0.0, off_beat=0.0, chance=0.0, lately=0.0, heard=1.0)
+PLAIN = Weights(join_per_m=0.0, speed=0.0, off_beat=0.0, chance=0.0, lately=0.0, repeats=0.0, heard=1.0)
 
 
 def candidates(count: int, seed: int, spread: float = 0.0) -> SegmentCandidates:
@@ -144,7 +144,7 @@ def test_no_way_through_a_small_grid_is_better(seed: int, arrive: bool) -> None:
         )
     times_s, scores = np.sort(random.uniform(-0.3, 1.9, 12)), random.normal(size=(12, 3))
     hits = list(zip(times_s.tolist(), scores, strict=True))
-    weights = Weights(chance=0.0, lately=0.0, join_per_m=5.0)
+    weights = Weights(chance=0.0, lately=0.0, repeats=0.0, join_per_m=5.0)
     found = choose(grid, own, struck(times_s, scores), seed=0, weights=weights)
     assert found[0][0] == 0
     # All sequences from the first place to the final one.
@@ -246,6 +246,22 @@ def test_constraints_are_met_and_solved_around() -> None:
     )
     both = Constraints(pinned={place: 2}, forbidden=banned)
     assert dict(choose(grid, own, heard, seed=5, constraints=both))[place] == 2
+
+
+def test_no_motion_is_danced_again_at_once_even_if_it_fits_best() -> None:
+    own = candidates(12, 2)
+    # After each other, two segments fit best.
+    loop = np.zeros((12, 12))
+    loop[0, 1] = loop[1, 0] = 4.0
+    own = replace(own, log_transition=loop)
+    grid, heard = grid_of(beaten(64)), struck(np.zeros(0), np.zeros((0, 12)))
+
+    def soon_again(repeats: float) -> int:
+        danced = [segment for _, segment in choose(grid, own, heard, seed=1, weights=Weights(repeats=repeats))]
+        return sum(segment in danced[max(0, at - 4) : at] for at, segment in enumerate(danced))
+
+    assert soon_again(0.0) > 5
+    assert soon_again(12.0) == 0
 
 
 def test_the_same_seed_is_the_same_dance_and_another_is_another() -> None:
