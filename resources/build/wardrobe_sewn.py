@@ -24,6 +24,8 @@ OUTER_M, LOWER = (0.15, 0.22), (0.25, 1.0)
 """Distances off the middle, and shares of a skirt's length, between which the other leg gets its share of a skirt."""
 INSTEP_M = 0.12
 """Height over the sole of the base mesh from which feet come before the shins."""
+LEAST_SLICE = 8
+"""Least number of vertices in a slice of a garment."""
 FARTHEST_M = 0.030
 """Greatest distance in metres by which a garment is widened to cover another one."""
 
@@ -244,6 +246,12 @@ def _arm_share(wearer: Wearer, cloth: Cloth) -> np.ndarray:
     return cloth.weights[:, arms].sum(axis=1)
 
 
+def _surround(points: np.ndarray, middle_m: float) -> bool:
+    """True if a slice (N, 3) of a garment goes around the body's middle: the hull of a part of it would not."""
+    angles = np.sort(np.arctan2(points[:, 2] - middle_m, points[:, 0]))
+    return len(points) >= LEAST_SLICE and np.diff(angles, append=angles[:1] + 2.0 * np.pi).max() < np.pi
+
+
 def over(
     wearer: Wearer, outer: Cloth, inner: Cloth, from_m: float, margin_m: float, farthest_m: float = FARTHEST_M
 ) -> Cloth:
@@ -256,6 +264,7 @@ def over(
     arm = _arm_share(wearer, inner) < 0.3
     points = inner.points[arm]
     middle = wearer.fit.positions_t[wearer.fit.index("hips")][2]
+    levels = levels[[_surround(points[np.abs(points[:, 1] - level) < 0.02], middle) for level in levels]]
     centres = np.tile([0.0, middle], (len(levels), 1))
     profile = smoothed(hull_profile(points[:, 1], points[:, [0, 2]], levels, centres, 0.02), 1.0, 1.0)
     angle, radius, _ = profile.polar(outer.points[:, 1], outer.points[:, [0, 2]])
