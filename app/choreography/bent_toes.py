@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -19,8 +20,9 @@ SOFT_RAD: Final = 0.02
 SOLE_DOWN: Final = 0.35
 """Cosine of the angle between sole and floor from which toes bend fully; those of a foot with its sole upright are
 straight."""
-FASTEST_RAD_S: Final = 7.0
-"""Angular velocity in rad/s above which the toes begin to bend earlier, or straighten later, than the floor needs."""
+SWINGS_RAD_S2: Final = 32.0
+"""Angular acceleration in rad/s^2 with which toes bend before, and straighten after, the greatest bend that the floor
+needs; they begin earlier, or end later, where it needs more."""
 SMOOTH_S: Final = 0.015
 """Standard deviation in seconds over which the bend begins and ends."""
 
@@ -50,7 +52,7 @@ def toe_bend_rad(
     bend = smooth_share(upward, (0.0, SOLE_DOWN)) * SOFT_RAD * np.logaddexp(0.0, needed / SOFT_RAD)
     end = 5.0 * SOFT_RAD
     bend = bend - end * (np.logaddexp(0.0, (bend - MOST_RAD) / end) - np.logaddexp(0.0, -MOST_RAD / end))
-    step = FASTEST_RAD_S / fps * np.arange(len(bend))
-    later = np.maximum.accumulate(bend + step) - step
-    earlier = np.maximum.accumulate((bend - step)[::-1])[::-1] + step
-    return np.asarray(gaussian_filter1d(np.maximum(later, earlier), SMOOTH_S * fps, mode="nearest"))
+    beside = np.arange(-(reach := math.ceil(math.sqrt(2.0 * MOST_RAD / SWINGS_RAD_S2) * fps)), reach + 1) / fps
+    around = np.lib.stride_tricks.sliding_window_view(np.pad(bend, reach, mode="edge"), len(beside))
+    bend = (around - 0.5 * SWINGS_RAD_S2 * beside**2).max(axis=1)
+    return np.asarray(gaussian_filter1d(bend, SMOOTH_S * fps, mode="nearest"))
