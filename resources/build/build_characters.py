@@ -174,7 +174,7 @@ CHARACTERS = (
 )
 
 
-MORE_HAIR = {"woman_adult": ("afro01", "bob02", "braid01", "long01"), "man_adult": ("short02", "short04")}
+MORE_HAIR = {"woman_adult": ("afro01", "bob02", "braid01", "fringe01", "long01"), "man_adult": ("short02", "short04")}
 """Additional hair styles of people made from a character, each in a separate file."""
 MORE_SKINS = (
     "middleage_lightskinned_female_diffuse",

@@ -52,7 +52,8 @@ class Loose:
 
 
 STRAIGHT: Final = Loose(0.011, 110, (0.0015, 0.0045))
-CURLY: Final = Loose(0.006, 420, (0.003, 0.009))
+CURLY: Final = Loose(0.006, 0, (0.0, 0.0))
+"""None of curls: cards of them are dark leaves on the hair, and ragged scraps at its edge."""
 
 
 @dataclass(frozen=True)
@@ -151,11 +152,11 @@ def _apart(places: np.ndarray, spacing_m: float, most: int, rng: np.random.Gener
     order = rng.permutation(len(places))
     tree, taken, blocked = cKDTree(places), [], np.zeros(len(places), dtype=bool)
     for row in order:
+        if len(taken) == most:
+            break
         if not blocked[row]:
             taken.append(row)
             blocked[tree.query_ball_point(places[row], spacing_m)] = True
-            if len(taken) == most:
-                break
     return np.array(taken, dtype=np.int64)
 
 

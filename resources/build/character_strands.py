@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from character_assets import Asset, asset_surface, read_asset, read_material
 from character_fine_hair import CURLY, PATCH_PX, STRAIGHT, drawn_hairs, free_patch, skin_of, with_fine_hairs
+from character_fringe import FRINGED, strips, with_fringe
 from character_skin import read_picture
 from character_surface import Surface, parts_of, smooth_normals, triangulate, vertex_normals, weld
 from character_textures import Texture, jpeg, noise, normals_of, png, sampled, spread, to_linear, to_srgb
@@ -54,7 +55,7 @@ the end of a lock is its root, and the width over which roots dissolve.
 """
 CURLED = frozenset({"afro01"})
 """Styles of curls, whose painted lace has the grid of a repeated tile; curls are drawn instead."""
-CAP_ALONE, CAP_FACES = frozenset({"afro01", "short04"}), 100
+CAP_ALONE, CAP_FACES = frozenset({"afro01", "short01", "short04"}), 100
 """Styles without their locks, half of which are lit from behind or end bluntly on the forehead, and the least number
 of faces of a cap.
 """
@@ -321,7 +322,8 @@ def hair_textures(style: str, strands: Strands) -> tuple[Texture, Texture]:
 
 def hair(folder: Path, style: str, source: Source, fit: SkeletonFit) -> tuple[Surface, Texture, Texture]:
     """A style of hair on a body, its colour and its normals."""
-    asset = read_asset(folder / "hair" / style / f"{style}.mhclo")
+    base, boxes = FRINGED.get(style, (style, ()))
+    asset = read_asset(folder / "hair" / base / f"{base}.mhclo")
     if asset.material is None:
         raise ValueError(f"{style} has no material")
     painted = read_picture(read_material(asset.material).textures["diffuseTexture"])
@@ -342,7 +344,12 @@ def hair(folder: Path, style: str, source: Source, fit: SkeletonFit) -> tuple[Su
     if corner is None:
         raise ValueError(f"the picture of {style} has no room for single hairs")
     standing = CURLY if curled else STRAIGHT
-    surface = with_fine_hairs(surface, skin_of(source), made.along, made.scalp, made.bare, corner, standing)
+    skin = skin_of(source)
+    surface = with_fine_hairs(surface, skin, made.along, made.scalp, made.bare, corner, standing)
+    if boxes:
+        surface = with_fringe(
+            surface, skin.points, fit.world_from_joint_rest[fit.index("rightEye"), :3, 3], strips(painted, boxes)
+        )
     return surface, *hair_textures(style, with_single_hairs(made, corner, curled))
 
 
