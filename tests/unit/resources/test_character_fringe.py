@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ EYE = np.array([-0.03, 1.5, 0.07])
 RADIUS_M, CAP_M, CAP_FROM_M = 0.08, 0.004, 0.02
 
 
-def head(surface: ModuleType) -> tuple[object, NDArray[np.float64]]:
+def head(surface: ModuleType) -> tuple[Any, NDArray[np.float64]]:
     """A cap of hair that begins over the eyes of an upright cylinder, and points of the cylinder."""
     angles, heights = np.meshgrid(np.radians(np.arange(-90.0, 91.0, 2.0)), np.arange(0.0, 0.121, 0.004))
     sides = np.stack([-np.sin(angles), np.zeros_like(angles), np.cos(angles)], axis=-1)
