@@ -27,8 +27,11 @@ _DEEPEST_M: Final = 0.15
 _ASIDE_M: Final = 0.02
 """Sideways distance in metres from the nearest vertex beyond which a point, such as one under a hem, counts less and
 less as inside."""
+_SHINS: Final = ("leftLowerLeg", "rightLowerLeg")
 _HELD: Final = 0.9
 """Least weight of the trunk, or of the forearm, on a vertex that counts as its own."""
+_MOSTLY: Final = 0.7
+"""Least weight of the trunk where shins have the rest, as on the lap in a long skirt."""
 _OWN: Final = 0.3
 """Least weight of a single joint on a vertex that counts as its own."""
 _OUTWARDS: Final = 0.3
@@ -65,6 +68,11 @@ class TrunkShape:
     grids_m: tuple[SingleArray, ...]
     radii_m: dict[Side, FloatArray]
     room_m: float
+
+    @property
+    def tight(self) -> bool:
+        """True if arms leave little room, as before an outfit, so that it matters where they are in nods and sways."""
+        return self.room_m < _OUTFIT_M
 
     @cached_property
     def bounds_m(self) -> tuple[FloatArray, FloatArray]:
@@ -176,7 +184,8 @@ def _surfaces(character: Character, mesh: Mesh, parts: Sequence[IndexArray]) -> 
     """Return the surfaces on the trunk of parts of a mesh, each given by its vertices."""
     names = _names(character)
     shares = np.stack([_share(mesh, _holders(character, (name,), TRUNK)) for name in names], axis=1)
-    held = shares.sum(axis=1) >= _HELD
+    trunks, shins = shares.sum(axis=1), _share(mesh, _holders(character, _SHINS))
+    held = (trunks >= _MOSTLY) & (trunks + shins >= _HELD)
     found = []
     for rows in parts:
         surface = _surface(character, names, mesh, shares, rows[held[rows]])

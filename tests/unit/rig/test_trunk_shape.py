@@ -9,6 +9,7 @@ import pytest
 
 from app.rig.characters.character_library import character_named
 from app.rig.characters.dressed_characters import character_in
+from app.rig.mesh import Mesh
 from app.rig.people.wardrobe import OutfitChoice
 from app.rig.trunk_shape import ALONG, BEYOND_M, TrunkShape, dressed_shape, trunk_shape
 
@@ -73,3 +74,26 @@ def test_room_before_worn_clothes_is_never_less_and_more_for_a_tunic() -> None:
     assert np.percentile(np.concatenate(more_m), 90) > 0.005
     for side, radii_m in own.radii_m.items():
         assert (worn.radii_m[side] + worn.room_m >= radii_m + own.room_m - 1e-9).all()
+
+
+def test_the_lap_of_a_long_skirt_that_goes_with_the_shins_too_is_part_of_the_shape() -> None:
+    """A centimetre below the cloth is inside, also where shins have a fifth of its weight."""
+    character = character_in("cast_sachiko", OutfitChoice("evening"))
+    shape, names = dressed_shape(character), character.skeleton.names
+    assert shape is not None
+    depths_m = []
+    for mesh in character.meshes:
+
+        def share(*joints: str, mesh: Mesh = mesh) -> np.ndarray:
+            held = np.isin(mesh.joints, [names.index(joint) for joint in joints])
+            return np.where(held, mesh.weights, 0.0).sum(axis=1)
+
+        trunk, shins = share("hips", "leftUpperLeg", "rightUpperLeg"), share("leftLowerLeg", "rightLowerLeg")
+        front = (trunk > 0.7) & (trunk < 0.88) & (trunk + shins > 0.9) & (mesh.normals[:, 2] > 0.5)
+        for thigh in ("leftUpperLeg", "rightUpperLeg"):
+            lap = front & (share(thigh) > 0.4)
+            to_thigh = character.joint_from_mesh[names.index(thigh)]
+            points_m = (mesh.positions_m[lap] - 0.01 * mesh.normals[lap]) @ to_thigh[:3, :3].T + to_thigh[:3, 3]
+            depths_m.extend(shape.depths_m(shape.joints.index(names.index(thigh)), points_m))
+    assert len(depths_m) > 20
+    assert np.median(depths_m) > 0.0
