@@ -35,6 +35,10 @@ SLACK_M = 0.006
 """Depth beyond the least possible one that is accepted."""
 BENT_RAD = float(np.deg2rad(4.0))
 """Angle before the end of its range over which a wrist lets the elbow go less and less."""
+TIGHT_POWER = 3
+"""Power of the used share of its room that a wrist keeps from an elbow before thick clothes; 1 before others."""
+IN_MOTION = 0.75
+"""Share of what wrists of a still body allow that they allow all through its motion, before thick clothes."""
 PALM, PALM_M = np.array([0.5, 1.0]), 0.02
 """Places between wrist and knuckles, and about how thick the hand is there."""
 LEAST_ROOM_RAD = float(np.deg2rad(0.5))
@@ -195,7 +199,8 @@ def remaining(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> R
     hands_m = depth_m
     for side, solved in solved_arms(player, curves, upper, None, player.away(curves.body, upper.carried)).items():
         forearm = _Forearm.of(side, solved, posed)
-        turn_rad = np.minimum(*_outward_rad(forearm, side, solved, player.wrists[side], 0))
+        needed_rad, most_rad = _outward_rad(forearm, side, solved, player.wrists[side], 0)
+        turn_rad = np.minimum(needed_rad, (IN_MOTION if player.shape.tight else 1.0) * most_rad)
         turn_rad = turn_rad if side == "left" else -turn_rad
         inside_m = forearm.inside_m(frames, turn_rad)
         depth_m = np.maximum(depth_m, inside_m.max(axis=1))
@@ -290,7 +295,8 @@ def _outward_rad(
     np.add.at(around, np.maximum(frames - within, 0), 1.0)
     np.add.at(around, np.minimum(frames + within + 1, count), -1.0)
     out = np.flatnonzero(np.cumsum(around[:count]) > 0.5)
-    most_rad[out] = _within_room(_used_room(solved, wrist, out, sign * angles), angles)
+    power = TIGHT_POWER if forearm.shape.tight else 1
+    most_rad[out] = _within_room(_used_room(solved, wrist, out, sign * angles), angles, power)
     return needed_rad, most_rad
 
 
@@ -324,13 +330,14 @@ def _used_room(solved: SolvedArm, wrist: Wrist, frames: IndexArray, angles: Floa
     return used
 
 
-def _within_room(used: FloatArray, angles: FloatArray) -> FloatArray:
-    """Return the turn (F,) whose rate at each of A angles is what a share ``used`` (A, F) leaves of 1, integrated over
-    the angles; the share is linear between them."""
+def _within_room(used: FloatArray, angles: FloatArray, power: int) -> FloatArray:
+    """Return the turn (F,) whose rate at each of A angles is what a power of a share ``used`` (A, F) leaves of 1,
+    integrated over the angles; the share is linear between them."""
     below, above = used[:-1], used[1:]
-    partly = np.square(1.0 - np.minimum(below, 1.0)) / np.maximum(2.0 * (above - below), 1e-9)
-    going = np.where(above > 1.0, partly, 1.0 - 0.5 * (below + above))
-    turned: FloatArray = going.sum(axis=0) * (angles[1] - angles[0])
+    ways, share = power + 1, np.minimum(below, 1.0)
+    partly = (1.0 - share - (1.0 - share**ways) / ways) / np.maximum(above - below, 1e-9)
+    mean = sum(below**number * above ** (power - number) for number in range(ways)) / ways
+    turned: FloatArray = np.where(above > 1.0, partly, 1.0 - mean).sum(axis=0) * (angles[1] - angles[0])
     return turned
 
 

@@ -25,6 +25,8 @@ SETTLED = 0.6
 """Factor for the amplitude of players whose instrument lies on the lap; applied twice to their sway."""
 FREE_DEG = 10.0
 """Least total range in degrees of a carriage from which the instrument follows the head."""
+TIPS_DEG = 5.0
+"""Least range in degrees of its pitch from which it is seen how far an instrument tips before thick clothes."""
 
 
 @dataclass(frozen=True)
@@ -78,12 +80,12 @@ def freedom(carriage: Carriage) -> float:
     return min(1.0, min(high - low for low, _, high in ranges) / FREE_DEG)
 
 
-def tips_freely(carriage: Carriage) -> bool:
+def tips_freely(carriage: Carriage, *, thickly_dressed: bool = False) -> bool:
     """Return whether an instrument can tilt up and down with the head; False if it lies on the lap or stands on the
-    floor.
+    floor. Before thick clothes it matters from a smaller range on.
     """
     low_deg, _, high_deg = carriage.pitch_down_deg
-    return high_deg - low_deg >= FREE_DEG
+    return high_deg - low_deg >= (TIPS_DEG if thickly_dressed else FREE_DEG)
 
 
 def going_along(with_head: FloatArray, carriage: Carriage) -> FloatArray:

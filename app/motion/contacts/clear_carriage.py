@@ -16,6 +16,7 @@ from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import SIDES, neck_m
 from app.motion.contacts.upper_body import UpperBody, upper_body
 from app.rig import quaternion
+from app.rig.grip.grip_pose import StationBlend, giving_for
 from app.rig.supports.model import FROM_NECK_M, GROWN_UP_M
 from instrument_maps.hold import LoweredPlace, Support
 from instrument_maps.map_table import Vector
@@ -26,14 +27,30 @@ AHEAD_M = np.linspace(0.0, 0.10, 6)
 """Distances ahead of its usual place at which a lowered instrument is tried."""
 RAISED_M = np.linspace(0.0, 0.20, 5)
 """Heights above its usual place at which a lowered instrument without straps is tried, as by the thighs of who sits."""
+LESS_STEEP_DEG = np.array([8.0, 16.0])
+"""Angles by which a lowered instrument is tried less steep."""
+LACKING_M = 0.005
+"""Lacking room of a lowered instrument for which that is tried."""
 ROOM_M, LOW_ROOM_M = 0.008, 0.004
 """Room that a still body leaves for the motion: with the instrument at the lips, and lowered."""
-LAP_ROOM_M = 0.025
-"""Room that hands leave over the lap of a seated player, who leans forward in rests."""
+NOD_DEG = {"spine": 1.6, "chest": 1.4, "upperChest": 1.0, "neck": 2.9, "head": 3.5}
+"""Forward bend of the joints in a large nod, as for an entry, in which forearms and hands stay out of the body too."""
+HEAD_NODS_DEG = NOD_DEG["neck"] + NOD_DEG["head"]
+"""... and of the head beside the chest."""
+BELL_NODS_DEG = 3.0
+"""Angle by which the bell sinks in it beside the head."""
+SWAY_DEG = {"spine": 2.2, "chest": 1.9, "upperChest": 1.4}
+"""Sideways lean of a seated player's trunk to which hands stay off the lap in it."""
+SWAY_M = 0.020
+"""Room that they leave over the lap besides."""
+LAP_ROOM_M = 0.040
+"""Room that hands leave over the lap of a seated player, who leans forward in rests, and before thick clothes."""
 BENT_M_PER_RAD = float(0.010 / np.deg2rad(1.0))
 """A wrist beyond its range is as bad as so deep an arm."""
 OFF_M = 0.006
 """Depth that counts as much as an instrument at the end of a range."""
+WORTH_M = 0.002
+"""Depth that another angle than the usual one has to save."""
 
 
 def played_clear(player: PlayerBody) -> PlayerBody:
@@ -43,16 +60,19 @@ def played_clear(player: PlayerBody) -> PlayerBody:
         return player
     carriage = player.carriage
     ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
-    usual = _left(player, np.zeros((1, 3)), ranges)
+    nods = player.shape.tight
+    usual = _left(player, np.zeros((1, 3)), ranges, nods=nods)
     if usual is None or usual.depth_m[0] <= -ROOM_M:
         return player
     best = np.zeros(3)
     for axis in range(3):
         tried = np.tile(best, (len(SHARES), 1))
         tried[:, axis] = SHARES
-        left = _left(player, tried, ranges)
+        left = _left(player, tried, ranges, nods=nods)
         assert left is not None
-        best = tried[int(np.argmin(_cost_m(left, ROOM_M) + OFF_M * np.abs(tried).sum(axis=1)))]
+        cost_m = _cost_m(left, ROOM_M) + OFF_M * np.abs(tried).sum(axis=1)
+        cost_m[0] -= WORTH_M if nods else 0.0
+        best = tried[int(np.argmin(cost_m))]
     if not best.any():
         return player
     pitch, yaw, roll = (_shifted(one, share) for one, share in zip(ranges, best.tolist(), strict=True))
@@ -74,6 +94,15 @@ def lacking_m(player: PlayerBody, room_m: float) -> float:
     return float(np.maximum(_cost_m(left, ROOM_M), left.hands_m + room_m).max(initial=0.0))
 
 
+def lacking_in_nod_m(player: PlayerBody) -> float:
+    """Return the room in metres, 0 or more, that forearms and hands lack as the instrument is held, also in a large
+    nod."""
+    carriage = player.carriage
+    ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
+    left = _left(player, np.zeros((1, 3)), ranges, nods=True)
+    return 0.0 if left is None else max(0.0, float(_cost_m(left, ROOM_M)[0]))
+
+
 def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> PlayerBody:
     """Return the player with an instrument that is lowered farther ahead, and without straps higher, where that leaves
     room between arms and body; unchanged where the instrument stands on the floor.
@@ -84,13 +113,12 @@ def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> Playe
         Straps on which the instrument hangs: it goes ahead about the neck, as far as they reach, and not at all on a
         strap that is fastened to the seat.
     """
-    unknown = player.shape is None or player.stand is not None
-    if unknown or any(support.kind not in FROM_NECK_M for support in supports):
+    if player.shape is None or player.stand is not None or any(support.kind not in FROM_NECK_M for support in supports):
         return player
     low = ContactCurves(replace(player.still, lowered=np.ones(1)), {}, {}, np.zeros(1))
     usual = upper_body(player, low)
     left = _remaining(player, low, usual)
-    lap_m = LAP_ROOM_M if player.place.seated else LOW_ROOM_M
+    lap_m = LAP_ROOM_M if player.place.seated or player.shape.tight else LOW_ROOM_M
     if left is None or (left.depth_m[0] <= -LOW_ROOM_M and left.hands_m[0] <= -lap_m):
         return player
     straps_m = _straps_m(player, usual.carried, supports)
@@ -107,8 +135,30 @@ def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> Playe
     ways_m = np.array([place.offset_m for place in places]) - np.array(player.lowered.offset_m)
     left = _remaining(player, *_lowered_by(player, low, usual, ways_m))
     assert left is not None
-    best = int(np.argmin(np.maximum(_cost_m(left, LOW_ROOM_M), left.hands_m + lap_m) + costs_m))
-    return replace(player, lowered=places[best]) if best else player
+    lacking_m = np.maximum(_cost_m(left, LOW_ROOM_M), left.hands_m + lap_m)
+    best = int(np.argmin(lacking_m + costs_m))
+    moved = replace(player, lowered=places[best])
+    if lacking_m[best] <= LACKING_M:
+        return moved
+    return _less_steep(player, moved, low, lap_m, float(lacking_m[best] + costs_m[best]))
+
+
+def _less_steep(usual: PlayerBody, moved: PlayerBody, low: ContactCurves, lap_m: float, least_m: float) -> PlayerBody:
+    """Return the player with the lowered instrument less steep, at its usual place or where it was moved to, if that
+    costs less than ``least_m`` metres; otherwise ``moved``."""
+    best = moved
+    for player in (usual, moved):
+        off_m = np.array(player.lowered.offset_m) - np.array(usual.lowered.offset_m)
+        for less_deg in LESS_STEEP_DEG.tolist():
+            pitch_deg = player.lowered.pitch_down_deg - less_deg
+            tried = replace(player, lowered=msgspec.structs.replace(player.lowered, pitch_down_deg=pitch_deg))
+            left = _remaining(tried, low, upper_body(tried, low))
+            assert left is not None
+            lacking_m = max(_cost_m(left, LOW_ROOM_M)[0], left.hands_m[0] + lap_m)
+            cost_m = float(lacking_m + OFF_M * (less_deg / LESS_STEEP_DEG[-1] + np.abs(off_m).sum() / AHEAD_M[-1]))
+            if cost_m < least_m:
+                best, least_m = tried, cost_m
+    return best
 
 
 def _lowered_by(
@@ -153,25 +203,62 @@ def _moved_ahead(place: LoweredPlace, ahead_m: float, straps_m: FloatArray) -> L
     return msgspec.structs.replace(place, offset_m=(left_m, up_m + raised_m, forward_m + ahead_m))
 
 
-def _left(player: PlayerBody, shares: FloatArray, ranges: tuple[Vector, Vector, Vector]) -> Remaining | None:
-    """Return depth and bend of N poses with the instrument held at given shares (N, 3) of its ranges of angles."""
+def _left(
+    player: PlayerBody, shares: FloatArray, ranges: tuple[Vector, Vector, Vector], *, nods: bool = False
+) -> Remaining | None:
+    """Return depth and bend of N poses with the instrument held at given shares (N, 3) of its ranges of angles; with
+    ``nods`` also in a large nod, for which less room is left."""
     added_rad = {}
     for name, values, (low, usual, high), sign in zip(
         ("pitch", "yaw", "roll"), shares.T, ranges, (-1.0, 1.0, 1.0), strict=True
     ):
         added_rad[name] = sign * np.deg2rad(np.where(values > 0.0, high - usual, usual - low) * values)
-    # A hand that its control moves: near, and far.
+    # A hand that its control moves: near, and far; in nods hands as placed, and as they yield to each finger.
     moving = [hand.motion.control for hand in player.grip.hands if hand.motion is not None]
-    times = 2 if moving else 1
-    count = times * len(shares)
-    still = replace(
-        player.still.for_frames(count), bell_held_rad={name: np.tile(rad, times) for name, rad in added_rad.items()}
+    usual = 1 + bool(moving)
+    sways = _nods(player) if nods else []
+    swaying, nodding = np.r_[np.zeros(usual), sways], np.r_[np.zeros(usual), np.ones(len(sways))]
+    states, each = len(nodding), len(shares)
+    still, in_nod, to_left = player.still.for_frames(states * each), np.repeat(nodding, each), np.repeat(swaying, each)
+    forward_rad, left_rad = (
+        {joint: rad + np.deg2rad(most_deg.get(joint, 0.0)) * share for joint, rad in bends.items()}
+        for bends, most_deg, share in ((still.forward_rad, NOD_DEG, in_nod), (still.left_rad, SWAY_DEG, to_left))
     )
-    far = {control: np.repeat([0.0, 1.0], len(shares)) for control in moving}
-    left = _remaining(player, ContactCurves(still, far, {}, np.zeros(count)))
-    if left is None or not moving:
-        return left
-    return Remaining(*(np.maximum(*values.reshape(2, -1)) for values in (left.depth_m, left.bent_rad, left.hands_m)))
+    held_rad = {name: np.tile(rad, states) for name, rad in added_rad.items()}
+    cue_rad = -np.deg2rad(BELL_NODS_DEG) * in_nod
+    still = replace(still, forward_rad=forward_rad, left_rad=left_rad, bell_cue_rad=cue_rad, bell_held_rad=held_rad)
+    far = {control: np.repeat((np.arange(states) == 1).astype(np.float64), each) for control in moving}
+    placed = yielding(player, states - yields(player), each) if nods else {}
+    left = _remaining(player, ContactCurves(still, far, {}, np.zeros(states * each), placed))
+    if left is None:
+        return None
+    hands_m = left.hands_m + in_nod * ((SWAY_M if player.place.seated else 0.0) - ROOM_M)
+    depth_m = np.maximum(left.depth_m - in_nod * ROOM_M, hands_m)
+    return Remaining(*(values.reshape(states, -1).max(axis=0) for values in (depth_m, left.bent_rad, hands_m)))
+
+
+def _nods(player: PlayerBody) -> list[float]:
+    """Return the sways to the left of the nods in which room is left: to both sides with hands as placed, and with each
+    hand that yields to a finger to its own side; a standing player's hands have no lap below them."""
+    own = [1.0 if hand.side == "left" else -1.0 for hand in player.grip.hands for _ in hand.leans]
+    return [-1.0, 1.0, *own] if player.place.seated else [0.0, *[0.0] * len(own)]
+
+
+def yields(player: PlayerBody) -> int:
+    """Return the number of places to which hands yield for fingers."""
+    return sum(len(hand.leans) for hand in player.grip.hands)
+
+
+def yielding(player: PlayerBody, usual: int, each: int) -> dict[str, StationBlend]:
+    """Return the hands' offsets, by `giving_for` a finger, in rows of frames: ``usual`` rows as placed, then one for
+    each place that they yield to, of ``each`` frames."""
+    leans = [lean for hand in player.grip.hands for lean in hand.leans]
+    placed: dict[str, StationBlend] = {}
+    for finger in sorted({finger for lean in leans for finger, _ in lean.places}):
+        stations = [dict(lean.places).get(finger, 0) for lean in leans]
+        there = np.repeat([*[0.0] * usual, *stations], each)
+        placed[giving_for(finger)] = StationBlend(np.zeros(len(there)), there, (there > 0.0).astype(np.float64))
+    return placed
 
 
 def _remaining(player: PlayerBody, curves: ContactCurves, upper: UpperBody | None = None) -> Remaining | None:

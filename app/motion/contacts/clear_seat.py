@@ -12,12 +12,12 @@ from dataclasses import replace
 import msgspec
 import numpy as np
 
-from app.motion.contacts.clear_carriage import lacking_m
+from app.motion.contacts.clear_carriage import lacking_in_nod_m, lacking_m
 from app.motion.contacts.solve import PlayerBody
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.trunk_and_legs import Stance, hips_path, stance, trunk
 from app.motion.contacts.upper_body import upper_body
-from instrument_maps.hold import Support
+from instrument_maps.hold import Carriage, Support
 from instrument_maps.model import Endpin
 from metadata.model import Posture
 
@@ -34,25 +34,31 @@ ACCEPTED_M = 0.01
 
 
 def seated_clear(
-    player: PlayerBody, posture: Posture, endpin: Endpin | None, supports: Sequence[Support] = ()
+    player: PlayerBody, posture: Posture, usual: Carriage, endpin: Endpin | None, supports: Sequence[Support] = ()
 ) -> PlayerBody:
     """Return the player on a seat that leaves room between arms and body and above the floor.
 
-    Unchanged where there is room, for a standing player, and for an instrument in the hands alone, which has room to be
-    held elsewhere, or on the lap.
+    Unchanged where there is room, for a standing player, and for an instrument on the lap, or in the hands alone if it
+    is held as usual or the player wears own clothes.
 
     Parameters
     ----------
     posture : Posture
         Posture of the player on the usual seat.
+    usual : Carriage
+        Usual carriage of the instrument.
     endpin : Endpin or None
         Pin of the instrument, which stays on the floor if it is there on the usual seat.
     supports : sequence of Support
         Straps on which the instrument hangs.
     """
-    if (endpin is None and not supports) or player.shape is None or not player.place.seated:
+    if player.shape is None or not player.place.seated:
         return player
-    best, least_m, from_deg = player, _lacking_m(player), 0.0
+    hung = endpin is not None or bool(supports)
+    if not hung and (player.carriage == usual or not player.shape.tight):
+        return player
+    lacking = _lacking_m if hung else lacking_in_nod_m
+    best, least_m, from_deg = player, lacking(player), 0.0
     if least_m <= ACCEPTED_M:
         return player
     for lower_deg in LOWER_DEG[1:].tolist():
@@ -63,7 +69,7 @@ def seated_clear(
         tried = on_seat(player, place, endpin)
         if (tried.stand is None) is not (player.stand is None):
             break
-        cost_m = _lacking_m(tried) + LOWER_M_PER_DEG * (lower_deg - from_deg)
+        cost_m = lacking(tried) + LOWER_M_PER_DEG * (lower_deg - from_deg)
         # A lap that is not in the way does not get out of it.
         if cost_m >= least_m:
             break

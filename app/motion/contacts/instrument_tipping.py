@@ -10,20 +10,23 @@ import numpy as np
 from app.arrays import FloatArray
 from app.motion.contacts.arms import solve_arms
 from app.motion.contacts.arms_off_trunk import remaining
-from app.motion.contacts.carried_instrument import tips_freely
+from app.motion.contacts.carried_instrument import freedom, tips_freely
+from app.motion.contacts.clear_carriage import HEAD_NODS_DEG, NOD_DEG, yielding, yields
 from app.motion.contacts.help_for_far_hands import clavicle_of
 from app.motion.contacts.solve import PlayerBody, body_with_help, needs
 from app.motion.contacts.still_player import ContactCurves
 from app.motion.contacts.upper_body import upper_body
 from app.motion.contacts.wrists import LOST_RAD, BellRoom
 from app.rig import quaternion
-from app.rig.grip.grip_pose import StationBlend, giving_for
+from app.rig.grip.grip_pose import StationBlend
 from app.rig.ik import arm
 
 MOST_DEG, STEP_DEG = 40, 2
 """Greatest tip of an instrument from its playing position in either direction, and step of the tried angles, in
 degrees.
 """
+HELD_MOST_DEG = 20
+"""Same tip of an instrument that does not follow the head freely."""
 NEARLY_RAD = float(np.deg2rad(0.25))
 """Additional angle in radians by which tipping the instrument may move a wrist outside its range."""
 NEARLY_M = 0.002
@@ -34,24 +37,40 @@ RAISED_RAD = float(np.deg2rad(12.0))
 
 def with_bell_room(player: PlayerBody) -> PlayerBody:
     """Return the player with the range of instrument tilt set that both wrists and elbows can follow."""
-    if player.stand is not None or not tips_freely(player.carriage):
+    tight = player.shape is not None and player.shape.tight
+    if player.stand is not None or not tips_freely(player.carriage, thickly_dressed=tight):
         return player
-    tipped = np.deg2rad(np.arange(-MOST_DEG, MOST_DEG + 1, STEP_DEG))
-    leans = [lean for hand in player.grip.hands for lean in hand.leans]
-    # One row for the hands as placed, one for each finger that they yield to.
-    placed: dict[str, StationBlend] = {}
-    for finger in sorted({finger for lean in leans for finger, _ in lean.places}):
-        stations = [dict(lean.places).get(finger, 0) for lean in leans]
-        there = np.repeat([0.0, *stations], len(tipped))
-        placed[giving_for(finger)] = StationBlend(np.zeros(len(there)), there, (there > 0.0).astype(np.float64))
-    found = _wrists_elbows_and_depths(player, np.tile(tipped, len(leans) + 1), placed)
+    most_deg = MOST_DEG if freedom(player.carriage) == 1.0 else HELD_MOST_DEG
+    tipped = np.deg2rad(np.arange(-most_deg, most_deg + 1, STEP_DEG))
+    placed = yielding(player, 1, len(tipped))
+    found = _wrists_elbows_and_depths(player, np.tile(tipped, yields(player) + 1), placed)
     bent, raised, depth_m = (values.reshape(-1, len(tipped)) for values in found)
     usual, usually, usually_m = (values[:, len(tipped) // 2, None] for values in (bent, raised, depth_m))
     fits = np.logical_and.reduce((bent <= usual + NEARLY_RAD) | (usual > LOST_RAD))
     fits &= np.logical_and.reduce(raised <= usually + RAISED_RAD)
     fits &= np.logical_and.reduce(depth_m <= np.maximum(usually_m + NEARLY_M, 0.0))
+    if tight and player.place.seated and fits[len(tipped) // 2]:
+        fitting = np.flatnonzero(fits)
+        nodding_m = _depth_in_nod_m(player, tipped[fitting])
+        least_m = nodding_m[np.searchsorted(fitting, len(tipped) // 2)]
+        fits[fitting] = nodding_m <= np.maximum(least_m + NEARLY_M, 0.0)
     room = BellRoom.within(tipped + np.deg2rad(player.carriage.pitch_down_deg[1]), fits)
     return replace(player, bell_room=room)
+
+
+def _depth_in_nod_m(player: PlayerBody, tipped_rad: FloatArray) -> FloatArray:
+    """Return the greatest depth (F,) in metres of forearms and hands in a large nod, in which the lap is nearest, with
+    the instrument tilted down beside the chest by F angles, however hands yield to fingers."""
+    count, rows = len(tipped_rad), yields(player) + 1
+    tipped_rad, frames = np.tile(tipped_rad, rows), count * rows
+    still = player.still.for_frames(frames)
+    bent_rad = {joint: np.deg2rad(NOD_DEG.get(joint, 0.0)) + rad for joint, rad in still.forward_rad.items()}
+    # The head tips it already.
+    still = replace(still, forward_rad=bent_rad, bell_down_rad=tipped_rad - np.deg2rad(HEAD_NODS_DEG))
+    curves = ContactCurves(still, {}, {}, np.zeros(frames), yielding(player, 1, count))
+    curves = replace(curves, body=body_with_help(player, still, needs(player, curves)))
+    left = remaining(player, curves, upper_body(player, curves))
+    return np.full(count, -np.inf) if left is None else left.depth_m.reshape(rows, count).max(axis=0)
 
 
 def _wrists_elbows_and_depths(

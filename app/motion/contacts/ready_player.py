@@ -25,7 +25,7 @@ from app.rig.grip.carriage import carrying
 from app.rig.grip.grip_pose import GripPose, Lips
 from app.rig.grip.lifted_fingers import with_curved_fingers
 from app.rig.model import Character, Skeleton
-from app.rig.trunk_shape import TrunkShape, dressed_shape, trunk_shape
+from app.rig.trunk_shape import TrunkShape, dressed_shape
 from instrument_maps.map_table import Posture as PostureName
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_skeleton
@@ -34,7 +34,6 @@ from metadata.model import Body, EmbouchureWeights
 _CURVED: IdentityCache[GripPose] = IdentityCache(128)
 _READY: IdentityCache[PlayerBody] = IdentityCache(128)
 _PLAYERS: IdentityCache[PlayerBody] = IdentityCache(128)
-_DRESSED: IdentityCache[PlayerBody] = IdentityCache(128)
 """Grips with curved fingers and other values of a player that do not change with time."""
 
 
@@ -79,24 +78,11 @@ def body_as_fitted(
     """Return the data of `player_body` with the fingers as in ``grip``, not curved, which makes no difference to
     anything else: enough for chairs and straps, in less time.
 
-    On the clothes that the character wears it depends how far elbows go out, how a player sits, and where the
-    instrument is lowered.
+    On the clothes that the character wears it depends how far elbows go out, how a player sits, how far the instrument
+    tips, and where it is held and lowered.
     """
-    made = _PLAYERS.step(
-        _made, sys.intern(parameters.posture), instrument_map, character.skeleton, grip, body, trunk_shape(character)
-    )
-    if character.undressed is None:
-        return made
-    return _DRESSED.step(_dressed, made, character, instrument_map, body, sys.intern(parameters.posture))
-
-
-def _dressed(
-    player: PlayerBody, character: Character, instrument_map: InstrumentMap, body: Body, posture_name: str
-) -> PlayerBody:
-    named = instrument_map.hold.possible(cast(PostureName, posture_name))
-    posture = carrying(body, named, instrument_map.hold.carriage(named))
-    supports, dressed = instrument_map.hold.worn(named), replace(player, shape=dressed_shape(character))
-    return lowered_clear(seated_clear(dressed, posture, instrument_map.endpin, supports), supports)
+    posture_name, shape = sys.intern(parameters.posture), dressed_shape(character)
+    return _PLAYERS.step(_made, posture_name, instrument_map, character.skeleton, grip, body, shape)
 
 
 def _made(
@@ -128,7 +114,9 @@ def _made(
     )
     supports = instrument_map.hold.worn(instrument_map.hold.possible(named))
     played = played_clear(made.standing_on(instrument_map.endpin))
-    seated = seated_clear(played, posture, instrument_map.endpin, supports)
+    seated = seated_clear(played, posture, carriage, instrument_map.endpin, supports)
+    if seated is not played:
+        seated = played_clear(replace(seated, carriage=carriage))
     return with_bell_room(lowered_clear(seated, supports))
 
 

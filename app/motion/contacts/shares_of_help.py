@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
@@ -22,6 +23,8 @@ SHOULDER_EASE_S = 0.08
 OUT_EASE_S = 0.28
 """Seconds before an elbow has to be clear of the trunk, or out beside a shoulder that reaches forward, at which it
 begins to move, and after at which it is back: its way is long, and in less time it would be flung."""
+SLIDE_OUT_EASE_S = 0.12
+"""Same time in seconds for the elbow of a hand that moves a slide: it moves with the hand anyway."""
 ROOM_EASE_S = 0.06
 """Seconds in which the help recedes for a hand that comes near."""
 HELP_EASE_RAD = 0.06
@@ -58,12 +61,23 @@ def smoothed_help(parts: list[Help], half: int) -> Help:
     )
 
 
-def smoothed_outward(outward: Outward, half: int) -> dict[str, FloatArray]:
+def smoothed_outward(
+    outward: Outward, half: int, moving: Collection[str] = (), swift: int = 0
+) -> dict[str, FloatArray]:
     """Return the turn (F,) of each elbow out of the trunk's way, by side, in radians: early, slow, and no farther than
-    its wrist allows."""
+    its wrist allows.
+
+    Parameters
+    ----------
+    half : int
+        Number of frames before and after over which the turn begins and ends.
+    moving : collection of str
+        Sides of hands that move along something, whose elbows go along ``swift`` frames before and after instead.
+    """
     turns_rad: dict[str, FloatArray] = {}
     for side, needed_rad in outward.needed_rad.items():
-        turns_rad[side] = with_room(_eased(needed_rad, half), _held_back([outward.most_rad[side]], half))
+        over = swift if side in moving else half
+        turns_rad[side] = with_room(_eased(needed_rad, over), _held_back([outward.most_rad[side]], over))
     return turns_rad
 
 

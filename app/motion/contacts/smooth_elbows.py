@@ -19,6 +19,7 @@ from app.motion.contacts.instrument_put_aside import AsidePlace
 from app.motion.contacts.shares_of_help import (
     OUT_EASE_S,
     SHOULDER_EASE_S,
+    SLIDE_OUT_EASE_S,
     elbows_along,
     partly_slow,
     smoothed_outward,
@@ -28,14 +29,16 @@ from app.motion.contacts.upper_body import UpperBody
 
 OUT_SEEN_S = 0.10
 """Interval in seconds at which the turns of elbows away from the trunk are computed."""
+SLIDE_OUT_SEEN_S = 0.05
+"""Same interval in seconds for a player of a slide, whose wrist is soon at the end of its range."""
 SLOWER_RAD = float(np.deg2rad(0.05))
 """Angle in radians between a slow and a quick shoulder beside which it is not asked whether the wrist lets its elbow
 be slow."""
 
 
-def seen_every(fps: Fraction) -> int:
+def seen_every(fps: Fraction, apart_s: float = OUT_SEEN_S) -> int:
     """Frames apart at which it is seen how far elbows have to go out."""
-    return max(1, math.floor(OUT_SEEN_S * fps))
+    return max(1, math.floor(apart_s * fps))
 
 
 def with_elbows_along(
@@ -73,7 +76,9 @@ def with_elbows_off_trunk(
     put_aside: AsidePlace | None,
 ) -> BodyMotion:
     """Body motion with elbows smoothly turned out of the trunk's way. It is seen at the same frames in every span."""
-    apart, frames, half = seen_every(fps), np.arange(len(curves)), math.ceil(OUT_EASE_S * fps)
+    moving = {hand.side for hand in player.grip.hands if hand.motion is not None}
+    apart, frames = seen_every(fps, SLIDE_OUT_SEEN_S if moving else OUT_SEEN_S), np.arange(len(curves))
+    half = math.ceil(OUT_EASE_S * fps)
     seen = slice(-first_frame % apart, len(curves), apart)
     # An elbow is out up to 2 half before and after, where the greatest turn is the least of as many frames.
     within = math.ceil(4 * half / apart) + 1
@@ -84,5 +89,5 @@ def with_elbows_off_trunk(
         {side: np.interp(frames, frames[seen], turn) for side, turn in turns.items()}
         for turns in (found.needed_rad, found.most_rad)
     )
-    turned_rad = smoothed_outward(Outward(needed_rad, most_rad), half)
+    turned_rad = smoothed_outward(Outward(needed_rad, most_rad), half, moving, math.ceil(SLIDE_OUT_EASE_S * fps))
     return replace(curves.body, elbow_out_rad=turned_rad)
