@@ -30,6 +30,10 @@ from scipy.interpolate import LinearNDInterpolator
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial import cKDTree
 
+SEAM_M = 1e-4
+"""Distance off the middle up to which vertices lie on the seam between the legs."""
+CREASE_M = (0.08, 0.13)
+"""Width to either side, and height over the crotch, of the crease of trousers."""
 WAISTBAND_M = 0.036
 NECK_HALF_WIDTH_M = 0.11
 OFF_NECK_M = 0.004
@@ -252,7 +256,12 @@ def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
     target = drape.radius_at(points[:, 1], angle) + 0.007
     # Only the outside of the seat: cloth between the legs is not moved.
     share = smoothstep(points[:, 1], tailoring.crotch_m - 0.04, tailoring.crotch_m + 0.04) * (tailoring.arm < 0.3)
-    moved = move_out(points, drape, (1, 0, 2), target, share * smoothstep(radius / target, 0.45, 0.8))
+    share *= smoothstep(radius / target, 0.45, 0.8)
+    # Towards the crotch cloth goes in between the legs in a crease, not under a ledge.
+    aside = smoothstep(np.abs(points[:, 0]), 0.0, CREASE_M[0])
+    seam_m = float(points[np.abs(points[:, 0]) < SEAM_M, 1].min())
+    above = smoothstep(points[:, 1], seam_m, seam_m + CREASE_M[1])
+    moved = move_out(points, drape, (1, 0, 2), target, share * np.maximum(aside, above))
     joint = fit.positions_t[fit.index("leftUpperLeg")]
     for sign in (1.0, -1.0):
         own = (points[:, 0] * sign > 0) & (points[:, 1] < tailoring.crotch_m + 0.02)
@@ -275,8 +284,8 @@ def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
             weights[:, shin] += weights[:, fit.index(side + bone)]
             weights[:, fit.index(side + bone)] = 0.0
     between_legs = 1 - smoothstep(np.abs(moved[:, 0]), 0.05, 0.10)
-    near_crotch = np.exp(-(((moved[:, 1] - tailoring.crotch_m) / 0.07) ** 2)) * between_legs * (tailoring.arm < 0.1)
-    cloth = relaxed(Cloth(moved, weights, suit.faces), near_crotch, 40)
+    near_crotch = np.exp(-(((moved[:, 1] - seam_m) / 0.07) ** 2)) * between_legs * (tailoring.arm < 0.1)
+    cloth = relaxed(Cloth(moved, weights, suit.faces), near_crotch, 80)
     cloth = cut(cloth, tailoring.belt_m - 0.005 - cloth.points[:, 1])
     cloth = cut(cloth, cloth.points[:, 1] - (tailoring.foot_m + 0.115))
     # The hem is let down to the shoe from where the ankle was cut off, a little lower behind.

@@ -17,6 +17,7 @@ from scipy.spatial import cKDTree
 
 from app.arrays import FloatArray
 from app.rig import quaternion
+from app.rig.characters.character_library import character_named
 from app.rig.characters.dressed_characters import character_in
 from app.rig.characters.load_character import load_character
 from app.rig.mesh import Mesh
@@ -398,6 +399,21 @@ def test_a_seated_long_dress_is_no_box_about_the_knees(id: str) -> None:
     knees = cloth[cloth[:, 2] > cloth[:, 2].max() - 0.15]
     top = knees[knees[:, 1] > knees[:, 1].max() - 0.02]
     assert np.abs(top[:, 0]).max() < feet_m - 0.03
+
+
+@pytest.mark.parametrize("id", ["woman_adult", "cast_elena", "child_leo"])
+def test_trousers_go_in_between_the_legs_without_a_ledge(id: str) -> None:
+    """The front of the seat ended in a ledge of 25 to 30 cm2 that faced down."""
+    character = character_named(id)
+    trousers = mesh_named(character, "trousers")
+    places = posed(character, trousers, 0.0, 0.0)
+    corners = places[trousers.triangles]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2.0
+    area = np.linalg.norm(across, axis=1)
+    middles = corners.mean(axis=1)
+    front = (np.abs(middles[:, 0]) < 0.05) & (middles[:, 2] > np.median(places[:, 2]))
+    down = front & (across[:, 1] < -0.85 * area)
+    assert 1e4 * area[down].sum() < 20.0
 
 
 def test_a_child_s_long_dress_does_not_fold_through_its_middle() -> None:
