@@ -44,8 +44,9 @@ def hover_m(clip: MotionClip, world: JointTransforms, tips: FloatArray) -> Float
     over_m: FloatArray = np.maximum(lower_m - NEAR_M, 0.0)
     if not over_m.any():
         return over_m
+    fps = float(clip.fps)
     hover = over_m**2 / (over_m + EASES_M)
-    return np.asarray(hover * supported(over_m, falls_m_s2(world, float(clip.fps))))
+    return np.asarray(hover * supported(over_m, falls_m_s2(world, fps), fps))
 
 
 def supporting(hover: FloatArray, tips: FloatArray) -> list[tuple[int, int, int]]:

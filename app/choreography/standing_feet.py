@@ -39,7 +39,7 @@ STEP_HIGH_M: Final = 0.03
 STEP_FAR_M: Final = 0.10
 CLEARS_M: Final = 0.012
 """Least height in metres of a foot's tip that is far from where it stood and will stand, so that it does not skid."""
-CLEARS_WITHIN_M: Final = 0.035
+CLEARS_WITHIN_M: Final = 0.028
 """Distance in metres from such a place within which most of that height is gained."""
 SAME_M: Final = 0.04
 """Distance in metres below which places are equal if the foot hardly leaves the floor between them."""

@@ -44,3 +44,20 @@ def test_a_body_that_hovers_comes_down() -> None:
 def test_a_jump_stays_as_high_as_it_is() -> None:
     clip, standing = raised(0.5 * 9.81 * TIMES_S * (TIMES_S[-1] - TIMES_S))
     assert tips_m(planted(clip, standing))[..., 1] == pytest.approx(tips_m(clip)[..., 1], abs=0.001)
+
+
+def test_a_body_that_hovers_after_a_jump_comes_down() -> None:
+    half_s = 0.5 * TIMES_S[-1]
+    jump_m = np.maximum(0.5 * 9.81 * TIMES_S * (half_s - TIMES_S), 0.0)
+    hover_m = 0.045 * np.sin(np.pi * np.clip(TIMES_S / half_s - 1.0, 0.0, 1.0)) ** 2
+    # Between both, the feet do not quite touch the floor.
+    clip, standing = raised(jump_m + hover_m + 0.008 * np.sin(np.pi * TIMES_S / TIMES_S[-1]))
+    lowest = soles_m(done := planted(clip, standing), done.world()).min(axis=(1, 2))
+    middle = (FIRST + LAST) // 2
+    assert lowest[:middle].max() == pytest.approx(jump_m.max(), abs=0.02)
+    assert lowest[middle:].max() < 0.015
+
+
+def test_a_jump_that_a_dance_shows_slowly_is_none_the_less_a_jump() -> None:
+    clip, standing = raised(0.2 * np.sin(np.pi * TIMES_S / TIMES_S[-1]) ** 2)
+    assert tips_m(planted(clip, standing))[..., 1] == pytest.approx(tips_m(clip)[..., 1], abs=0.001)
