@@ -7,16 +7,14 @@ never snaps to the other.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import FloatArray, IntArray
 from app.choreography.body import ENDS, SEGMENTS
-from app.choreography.body_speeds import runs
 from app.choreography.capsules import Capsules, depth_m
 from app.choreography.clip import MotionClip
 from app.choreography.features import facing, height_m
@@ -24,6 +22,7 @@ from app.choreography.feet_on_floor import FREE_S, free
 from app.choreography.footfalls import Footfalls
 from app.choreography.limbs import smooth_share
 from app.choreography.standing_feet import FootPlant, planted, planted_frames
+from app.choreography.ways_apart import Span, least_way, overlaps
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
 from app.rig.sole import SIDES
@@ -40,21 +39,14 @@ PASSES: Final = 3
 """Greatest number of times that feet are planted again, since one displacement may cause another overlap."""
 LEAST_M: Final = 0.003
 """Depth in metres below which legs stay as they are."""
-BRIDGED_S: Final = 0.1
-"""Longest time in seconds between two overlaps that are mended as one."""
 WAYS: Final = 12
 """Number of compared directions over the floor."""
 STEPS_M: Final = np.array([0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.09, 0.12, 0.15, 0.19, 0.24])
 """Compared distances in metres by which a foot is moved."""
-STRIDE: Final = 2
-"""Every how many frames ways are compared."""
 KNEE_SHARE: Final = 0.5
 """Share of a foot's way by which its knee moves along."""
 TURNED: Final = 0.05
 """Cost of a direction at right angles to that in which the feet have been moved already, in metres."""
-UNSOLVED: Final = 4.0
-AROUND: Final = 1.5
-"""Costs of a metre of depth that remains, and of one before or after, relative to a metre of way."""
 SMOOTH_S: Final = 0.06
 """Standard deviation in seconds over which a foot in the air moves aside."""
 TURNS_RAD: Final = np.array([0.0, 0.06, 0.12, 0.2, 0.3, 0.42, 0.55])
@@ -164,7 +156,7 @@ def feet_apart(clip: MotionClip, standing: Sequence[FootPlant], aside_m: FloatAr
     None if they are. ``aside_m`` (F, 2, 3) are the displacements that the motion already has.
     """
     world, fps = clip.world(), float(clip.fps)
-    spans = _overlaps(depths_m(clip, world), fps)
+    spans = overlaps(depths_m(clip, world), fps, LEAST_M)
     if not spans:
         return None
     on_floor = planted_frames(standing, len(clip))
@@ -245,92 +237,13 @@ def _way_apart(
     far = float(np.linalg.norm(before))
     turned = TURNED * (1.0 - ways @ before / far) if far > 0.0 else np.zeros(WAYS)
 
-    def moved(legs: _Legs) -> _Legs:
-        steps = np.zeros((2, legs.hips.shape[1], WAYS, len(STEPS_M), 3))
-        steps[0] = ways[:, None] * STEPS_M[:, None]
-        return legs.moved(steps)
+    def depths(frames: IntArray, some: IntArray) -> FloatArray:
+        steps = np.zeros((2, len(frames), len(some), len(STEPS_M), 3))
+        steps[0] = ways[some, None] * STEPS_M[:, None]
+        return _Legs.of(clip, world, frames).moved(steps).depth_m(height_m(clip))
 
-    best, frames, size_m = _least(clip, world, span, moved, STEPS_M, SMOOTH_S, turned)
-    return ways[best], frames, size_m
-
-
-def _least(
-    clip: MotionClip,
-    world: JointTransforms,
-    span: tuple[int, int],
-    changed: Callable[[_Legs], _Legs],
-    sizes: FloatArray,
-    smooth_s: float,
-    more: FloatArray,
-) -> tuple[int, IntArray, FloatArray]:
-    """Choose one of W ways to keep legs apart in a span of frames, so that they stay apart with its size smoothed over
-    ``smooth_s`` seconds.
-
-    Parameters
-    ----------
-    changed : callable
-        Legs with each way and each of the K ascending ``sizes``.
-    more : (W,) float64
-        Additional cost of each way.
-
-    Returns
-    -------
-    way : int
-        Index of the way with the least cost.
-    frames : (N,) int64
-        The span with frames before and after.
-    size : (N,) float64
-        Size of that way in each frame, 0 at the ends.
-    """
-    fps, tail = float(clip.fps), round(5.0 * smooth_s * float(clip.fps))
-    frames = np.arange(max(0, span[0] - tail), min(len(clip), span[1] + tail))
-    some = frames[::STRIDE]
-    depths = changed(_Legs.of(clip, world, some)).depth_m(height_m(clip))
-    inside = (some >= span[0] - STRIDE) & (some < span[1] + STRIDE)
-    needed = np.where(inside[:, None], _needed(depths, sizes), 0.0)
-    wide = 2 * round(2.0 * smooth_s * fps / STRIDE) + 1
-    smooth = gaussian_filter1d(
-        maximum_filter1d(needed, wide, axis=0, mode="nearest"), smooth_s * fps / STRIDE, axis=0, mode="nearest"
-    )
-    left = np.maximum(_between(depths, sizes, needed), 0.0)[inside].max(axis=0)
-    around = np.maximum(_between(depths, sizes, smooth), 0.0).max(axis=0)
-    cost = needed.max(axis=0) + needed[inside].mean(axis=0) + UNSOLVED * left + AROUND * around + more
-    best = int(cost.argmin())
-    return best, frames, np.interp(frames, some, smooth[:, best])
-
-
-def _needed(depths: FloatArray, sizes: FloatArray) -> FloatArray:
-    """Return the least size (N, W) of each of W ways after which legs are apart in each of N frames, or least deep in
-    each other, from the depths (N, W, K) with each of K ascending sizes.
-    """
-    apart = depths <= 0.0
-    first = np.where(apart.any(axis=-1), apart.argmax(axis=-1), depths.argmin(axis=-1))
-    before = np.maximum(first - 1, 0)
-    deep, over = (np.take_along_axis(depths, at[..., None], axis=-1)[..., 0] for at in (before, first))
-    # Between two sizes the depth is about linear.
-    deep, over = np.maximum(deep, 0.0), np.maximum(-over, 0.0)
-    return np.asarray(sizes[first] - (sizes[first] - sizes[before]) * over / np.maximum(deep + over, 1e-9))
-
-
-def _between(depths: FloatArray, sizes: FloatArray, size: FloatArray) -> FloatArray:
-    """Interpolate depths (N, W, K) with each of K ascending sizes at other sizes (N, W)."""
-    after = np.clip(np.searchsorted(sizes, size), 1, len(sizes) - 1)
-    share = (size - sizes[after - 1]) / (sizes[after] - sizes[after - 1])
-    low, high = (np.take_along_axis(depths, at[..., None], axis=-1)[..., 0] for at in (after - 1, after))
-    return np.asarray(low + share * (high - low))
-
-
-def _overlaps(depths: FloatArray, fps: float) -> list[tuple[int, int]]:
-    """Return the spans (start, stop) of frames in which legs enter each other, joined if there is little between."""
-    found: list[tuple[int, int]] = []
-    for start, stop in runs(depths > 0.0):
-        if depths[start:stop].max() < LEAST_M:
-            continue
-        if found and start - found[-1][1] < BRIDGED_S * fps:
-            found[-1] = found[-1][0], stop
-        else:
-            found.append((start, stop))
-    return found
+    found = least_way(depths, WAYS, Span(*span, len(clip), float(clip.fps)), STEPS_M, SMOOTH_S, turned)
+    return ways[found.way], found.frames, found.sizes
 
 
 def knees_apart(clip: MotionClip) -> MotionClip:
@@ -340,14 +253,15 @@ def knees_apart(clip: MotionClip) -> MotionClip:
     world = clip.world()
     angles = np.zeros((2, len(clip)))
     outwards = np.array([[-1.0], [1.0]]) * np.array(TURNING).T
-    for span in _overlaps(depths_m(clip, world), float(clip.fps)):
+    compared = outwards[:, None, :, None] * TURNS_RAD
 
-        def turned(legs: _Legs) -> _Legs:
-            compared = outwards[:, None, :, None] * TURNS_RAD
-            return legs.turned(np.broadcast_to(compared, (2, legs.hips.shape[1], *compared.shape[2:])))
+    def depths(frames: IntArray, some: IntArray) -> FloatArray:
+        turns = np.broadcast_to(compared[:, :, some], (2, len(frames), len(some), len(TURNS_RAD)))
+        return _Legs.of(clip, world, frames).turned(turns).depth_m(height_m(clip))
 
-        best, frames, size = _least(clip, world, span, turned, TURNS_RAD, TURN_SMOOTH_S, np.zeros(len(TURNING)))
-        angles[:, frames] += outwards[:, best, None] * size
+    for start, stop in overlaps(depths_m(clip, world), float(clip.fps), LEAST_M):
+        found = least_way(depths, len(TURNING), Span(start, stop, len(clip), float(clip.fps)), TURNS_RAD, TURN_SMOOTH_S)
+        angles[:, found.frames] += outwards[:, found.way, None] * found.sizes
     return _knees_turned(clip, world, angles) if angles.any() else clip
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import FloatArray
+from app.choreography.arms_apart import arms_apart
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.body_on_floor import needed_lifts
 from app.choreography.clip import BodyShape, MotionClip
@@ -82,7 +83,7 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
     places_m = {name: source.positions_m[:, 1 + at] for at, name in enumerate(SEGMENTS)}
     scale = _socket_height_m(skeleton) / _clip_socket_height_m(clip.shape)
     hips_m = _hips_path(skeleton, clip, segments["hips"], places_m, scale)
-    world = _world_rotations(skeleton, segments, frames)
+    world = arms_apart(character, _world_rotations(skeleton, segments, frames), hips_m, float(clip.fps))
     ankles_m = {side: _ankle_path(skeleton, side, clip.shape, segments, places_m, scale) for side in SIDES}
     floor_m = _floor_m(skeleton, segments, ankles_m, float(clip.fps))
     hips_m -= floor_m
