@@ -130,7 +130,7 @@ def within_limits(
         clip = without_twitches(calm, standing, usual)
     if fastest_rad_s is not None:
         clip = turns_within_speeds(clip, on_floor, fastest_rad_s)
-    clip = hands_within_changes(clip, usual_change_rad_s)
+    clip = without_twitches(hands_within_changes(clip, usual_change_rad_s), standing, usual)
     return heels_within_changes(clip, on_floor, usual_change_rad_s, ankle_m_s2)
 
 

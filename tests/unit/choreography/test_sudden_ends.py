@@ -100,17 +100,29 @@ def test_a_kick_keeps_the_limits_of_acceleration_and_of_its_joints() -> None:
     assert part_speeds(found)[:, thigh].max() <= FASTEST[thigh]
 
 
-@pytest.mark.parametrize(("opens", "swings", "share"), [(5, 6, 0.5), (8, 6, 0.3)])
-def test_an_arm_that_swings_through_straight_snaps_no_more_than_usual(opens: int, swings: int, share: float) -> None:
-    """A calmed hand snaps the elbow of an arm that is about to be straight, and a calmed elbow jerks the hand."""
+def opening(opens: int, swings: int) -> MotionClip:
+    """A left arm whose elbow opens within frames while its shoulder swings."""
     frames, across = np.arange(90), np.array((0.0, -1.0, 0.0))
     elbow_rad = 1.7 - 1.64 * np.clip((frames - 45) / opens, 0.0, 1.0)
     clip = still(90, int(FPS))
     for part, turned in (("leftLowerArm", elbow_rad), ("leftUpperArm", 1.2 * np.tanh((frames - 47) / swings))):
         clip.rotations[:, SEGMENTS.index(part)] = Rotation.from_rotvec(turned[:, None] * across).as_quat()
-    usual, usual_change_rad_s = UsualAccelerations(np.full(2, 1e6), share * np.array([51.0, 67.0])), 3.1
+    return clip
+
+
+@pytest.mark.parametrize(("opens", "swings", "share"), [(5, 6, 0.5), (8, 6, 0.3)])
+def test_an_arm_that_swings_through_straight_snaps_no_more_than_usual(opens: int, swings: int, share: float) -> None:
+    """A calmed hand snaps the elbow of an arm that is about to be straight, and a calmed elbow jerks the hand."""
+    clip, usual_change_rad_s = opening(opens, swings), 3.1
+    usual = UsualAccelerations(np.full(2, 1e6), share * np.array([51.0, 67.0]))
     found = within_limits(clip, (), usual, usual_change_rad_s)
     assert angular_jumps(found).max() < 0.93 * usual_change_rad_s
+    assert (accelerations(found, "leftHand").max(axis=0) <= MOST * usual.hands * height_m(clip)).all()
+
+
+def test_a_hand_is_calm_also_after_its_arm_was_slowed_down() -> None:
+    clip, usual = opening(11, 6), UsualAccelerations(np.full(2, 1e6), 0.2 * np.array([51.0, 67.0]))
+    found = within_limits(clip, (), usual, 3.1, np.full(len(SEGMENTS), 5.5))
     assert (accelerations(found, "leftHand").max(axis=0) <= MOST * usual.hands * height_m(clip)).all()
 
 
