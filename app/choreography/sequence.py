@@ -87,7 +87,7 @@ class Weights:
 
 
 LATELY_S: Final = 12.0
-RECENT: Final = 3
+RECENT: Final = 7
 """Number of motions before the last one that are not soon danced again."""
 FEW: Final = 24.0
 """Number of segments in which each counts half as danced recently, since few segments must repeat."""

@@ -258,7 +258,7 @@ def test_no_motion_is_danced_again_at_once_even_if_it_fits_best() -> None:
 
     def soon_again(repeats: float) -> int:
         danced = [segment for _, segment in choose(grid, own, heard, seed=1, weights=Weights(repeats=repeats))]
-        return sum(segment in danced[max(0, at - 4) : at] for at, segment in enumerate(danced))
+        return sum(segment in danced[max(0, at - 8) : at] for at, segment in enumerate(danced))
 
     assert soon_again(0.0) > 5
     assert soon_again(12.0) == 0

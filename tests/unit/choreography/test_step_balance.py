@@ -27,7 +27,7 @@ def stiff(steps: float) -> tuple[SegmentCandidates, StepBalance]:
 
 def danced(own: SegmentCandidates, steps: StepBalance | None) -> list[tuple[int, int]]:
     silence = HeardHits(np.zeros(0), np.zeros((1, COUNT)))
-    return choose(GRID, own, silence, seed=0, weights=Weights(lately=0.0, chance=0.2), steps=steps)
+    return choose(GRID, own, silence, seed=0, weights=Weights(lately=0.0, repeats=0.0, chance=0.2), steps=steps)
 
 
 def test_a_dance_without_steps_makes_up_for_them() -> None:
