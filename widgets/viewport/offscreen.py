@@ -45,6 +45,8 @@ class Offscreen:
         self._session = Session(project, _AtOnce(stop_requested))
         self._session.set_tokens(THEMES[theme])
         self._panel = ViewportPanel(self._session, _MadePoses(self._live, stop_requested, posed))
+        # In a large piece only the player in front has been loaded.
+        self._panel.scene.load()
 
     def film(
         self,
@@ -59,8 +61,6 @@ class Offscreen:
         selected = tuple(own for own in player_ids if own not in self._session.project.dancer_ids)
         self._session.set_players(selected if marked else ())
         self._session.viewport.show("names", marked)
-        # In a large piece only the player in front has been loaded; a film shows all.
-        self._panel.scene.load()
         return self._panel.film(*size, span_s, view, marked, player_ids, cameras)
 
     @property

@@ -71,6 +71,15 @@ def test_a_large_piece_is_seen_whole(
     assert np.abs(pictures[0] - pictures[1]).mean() < 0.5
 
 
+def test_any_player_of_a_large_piece_is_filmed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], qt_app: object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(scene, "FEW", 3)
+    options = ("--player", "Trombone 1", "--every", "9", "--to-bar", "1", "--size", "128x72")
+    film(capsys, "--sheet", tmp_path / "one.png", *options)
+    assert (tmp_path / "one.png").exists()
+
+
 def test_a_contact_sheet_has_a_row_for_each_second(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], qt_app: object
 ) -> None:
