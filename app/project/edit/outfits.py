@@ -52,8 +52,8 @@ def with_outfits(project: Project, texts: Iterable[str]) -> Project:
     """
     names = [one.name for one in project.performers]
     for text in texts:
-        who, _, worn = text.rpartition("=")
-        chosen = select_players([who], names) if who.strip() else range(len(names))
+        who, named, worn = text.rpartition("=")
+        chosen = select_players([who], names) if named else range(len(names))
         project = _wearing(project, [project.performers[index].id for index in chosen], read_choice(worn))
     return project
 
