@@ -61,7 +61,7 @@ class Weights:
         Cost of each time that a segment was danced within `LATELY_S`, unless the music recurs; also of a segment that
         follows itself.
     repeats : float
-        Cost of a segment that was one of the last `RECENT` + 1.
+        Cost of a segment that was danced a few motions before; see `RECENT`.
     returns : float
         Value of a segment that was danced where the music was the same.
     meets : float
@@ -88,7 +88,9 @@ class Weights:
 
 LATELY_S: Final = 12.0
 RECENT: Final = 7
-"""Number of motions before the last one that are not soon danced again."""
+"""Greatest number of motions before the last one that are not soon danced again."""
+PER_RECENT: Final = 8
+"""Number of segments per such motion: of few segments, those that fit the music are soon danced again."""
 FEW: Final = 24.0
 """Number of segments in which each counts half as danced recently, since few segments must repeat."""
 ANEW: Final = 0.05
@@ -218,7 +220,7 @@ def choose(
             extra += weights.take * turns.favoured(grid, chosen, first, again)
         if steps is not None:
             extra += weights.steps * steps.favoured(grid, chosen, first)
-        recent = [segment for _, segment in chosen[: -RECENT - 2 : -1]]
+        recent = [segment for _, segment in chosen[: -search.remembered - 2 : -1]]
         found = search.phrase(before, first, seen, extra, ends, recent)
         chosen += [row for row in found if row[0] < stop or seen == count]
         if seen == count:
@@ -261,6 +263,7 @@ class _Search:
         self._off_beat = -weights.off_beat * ~grid.on_beat
         self._at_accent = weights.meets * (grid.strengths[:, None] - 0.5) * meets.accents
         self._initial = nothing if initial is None else weights.model * initial
+        self.remembered = min(RECENT, max(1, len(nothing) // PER_RECENT))
         self._moves = SegmentMoves(
             grid,
             MoveCosts(
@@ -289,7 +292,7 @@ class _Search:
         """Find the best path through the places ``first`` to ``stop`` of the grid, continuing from an earlier accent.
 
         ``extra`` (stop - first, S) is added to the score of each accent, ``ends`` (S,) to that of the last one;
-        ``recent`` are the segments before, from the last one back, as many as `RECENT` + 1.
+        ``recent`` are the segments before, from the last one back, one more than ``remembered``.
         """
         times = self._grid.times_s
         count = stop - first
@@ -298,7 +301,7 @@ class _Search:
         # Preceding accent and segment of each entry, encoded as one number.
         came = np.full((count, segments), -1, np.int64)
         # The segments before each entry, from the last one back.
-        danced = np.full((count, segments, RECENT), -1, np.int64)
+        danced = np.full((count, segments, self.remembered), -1, np.int64)
         for place in range(first, stop):
             row = place - first
             own = self._usual + self._off_beat[place] + self._at_accent[place] + extra[row] + self._allowed(place)
@@ -310,7 +313,7 @@ class _Search:
                 heard, total = self._struck(before[0], place)
                 reached = table.best(np.zeros(len(own), np.float32), heard)[1] + own + total
                 reached[list(recent[1:])] -= self._weights.repeats
-                danced[row, :, : len(recent)] = recent[:RECENT]
+                danced[row, :, : len(recent)] = recent[: self.remembered]
                 np.maximum(best[row], reached, out=best[row])
             for earlier in range(max(first, self._earliest[place]), place):
                 if not self._moves.possible(times[place] - times[earlier]) or self._skips(earlier, place):

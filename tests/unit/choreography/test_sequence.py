@@ -248,20 +248,21 @@ def test_constraints_are_met_and_solved_around() -> None:
     assert dict(choose(grid, own, heard, seed=5, constraints=both))[place] == 2
 
 
-def test_no_motion_is_danced_again_at_once_even_if_it_fits_best() -> None:
-    own = candidates(12, 2)
+@pytest.mark.parametrize(("segments", "remembered"), [(12, 2), (24, 4), (64, 8)])
+def test_no_motion_is_danced_again_at_once_even_if_it_fits_best(segments: int, remembered: int) -> None:
+    own = candidates(segments, 2)
     # After each other, two segments fit best.
-    loop = np.zeros((12, 12))
-    loop[0, 1] = loop[1, 0] = 4.0
+    loop = np.zeros((segments, segments))
+    loop[0, 1] = loop[1, 0] = 8.0
     own = replace(own, log_transition=loop)
-    grid, heard = grid_of(beaten(64)), struck(np.zeros(0), np.zeros((0, 12)))
+    grid, heard = grid_of(beaten(64)), struck(np.zeros(0), np.zeros((0, segments)))
 
     def soon_again(repeats: float) -> int:
         danced = [segment for _, segment in choose(grid, own, heard, seed=1, weights=Weights(repeats=repeats))]
-        return sum(segment in danced[max(0, at - 8) : at] for at, segment in enumerate(danced))
+        return sum(segment in danced[max(0, at - remembered) : at] for at, segment in enumerate(danced))
 
-    assert soon_again(0.0) > 5
-    assert soon_again(12.0) == 0
+    assert soon_again(0.0) > 2
+    assert soon_again(24.0) == 0
 
 
 def test_the_same_seed_is_the_same_dance_and_another_is_another() -> None:
