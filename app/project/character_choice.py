@@ -9,11 +9,12 @@ import msgspec
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IndexArray
+from app.project.band_in_title import ANY_AGE, Years
 from app.project.casting import StagePosition
 from app.project.footprint import solid_m3
 from app.rig.characters.character_library import character_named, our_arm_m, our_characters
 from app.rig.people.body_shapes import Phenotype, years_of
-from app.rig.people.bundled_people import bundled_people, bundled_person, not_cast_for
+from app.rig.people.bundled_people import bundled_people, bundled_person, not_cast_for, our_years
 from app.rig.people.make_person import NEUTRAL_MEANS
 from app.rig.people.person import originals
 from instrument_maps.model import Control, InstrumentMap
@@ -22,8 +23,6 @@ FAR_REACH_M = 0.4
 """Travel in metres of a hand that works at the end of an arm."""
 LONG_ARMS = 0.9
 """Length of arms that count as long, relative to the longest."""
-STUDENT_YEARS = (14.0, 28.0)
-"""Ages of people who are cast in a school's band."""
 
 BULK_M = (0.15, 0.30)
 """Cube roots of the volumes of instruments that anyone carries (a tenor saxophone), and that ask for the whole build
@@ -36,9 +35,9 @@ BUILD = 4.0
 """Cost of each share of build that a person lacks for an instrument, where that of twins side by side is about 1/2."""
 NEAR_M, TOGETHER = 1.5, 0.04
 """Distance in metres at which likeness counts by 1/e, and the least share that counts anywhere on the stage."""
-CHILD_COST, AGAIN_COST, UNSUITED_COST = 1e3, 1e5, 1e8
-"""Costs of a child where grown-ups are left, of a person for every time that they are on the stage already, and of one
-who is too small.
+LATER_COST, AGAIN_COST, UNSUITED_COST = 1e3, 1e5, 1e8
+"""Costs of a person for every range of ages that comes before theirs, for every time that they are on the stage
+already, and of one who is too small.
 """
 MOST_EXCHANGES, LEAST_GAIN = 4, 1e-5
 """Greatest number of exchanges for each seat after the first choice, and the least gain of one."""
@@ -71,6 +70,8 @@ class Candidate(msgspec.Struct, frozen=True):
         Length of an arm in metres; 0 where no instrument of the piece needs it.
     too_small_for : frozenset of str
         Instruments that are too large for the body.
+    later : int
+        Number of ranges of ages from which people are cast before this one.
     """
 
     id: str
@@ -83,6 +84,7 @@ class Candidate(msgspec.Struct, frozen=True):
     style: str
     arm_m: float = 0.0
     too_small_for: frozenset[str] = frozenset()
+    later: int = 0
 
 
 class Seat(msgspec.Struct, frozen=True):
@@ -110,7 +112,7 @@ def choose_characters(
     seats: Sequence[Seat], candidates: Sequence[Candidate], cast: Mapping[int, str] | None = None
 ) -> tuple[str, ...]:
     """Choose a character for every seat: large instruments first, for people with the build for them; everyone unlike
-    those nearby, and different while people last, children last.
+    those nearby, and different while people last, in the order of their ages' ranges.
 
     Parameters
     ----------
@@ -197,8 +199,8 @@ def _exchanged(
 def _own_costs(seat: Seat, candidates: Sequence[Candidate]) -> FloatArray:
     """Return the cost (N,) of each candidate for a seat, whoever sits beside it."""
     lacking = np.array([max(seat.asks - one.build, 0.0) for one in candidates])
-    young = np.array([one.years < STUDENT_YEARS[0] for one in candidates])
-    return np.asarray(BUILD * lacking + CHILD_COST * young + UNSUITED_COST * ~_suited(seat, candidates))
+    later = np.array([one.later for one in candidates])
+    return np.asarray(BUILD * lacking + LATER_COST * later + UNSUITED_COST * ~_suited(seat, candidates))
 
 
 def _suited(seat: Seat, candidates: Sequence[Candidate]) -> BoolArray:
@@ -229,17 +231,17 @@ def _near(stages: Sequence[StagePosition]) -> FloatArray:
 
 
 def characters_for(
-    played: Sequence[Sequence[InstrumentMap]], stages: Sequence[StagePosition], students: bool = False
+    played: Sequence[Sequence[InstrumentMap]], stages: Sequence[StagePosition], years: Years = ANY_AGE
 ) -> tuple[str, ...]:
-    """Choose a bundled character for each player of a new piece, by instruments and place; only people of
-    `STUDENT_YEARS` if ``students``.
+    """Choose a bundled character for each player of a new piece, by instruments, place and ranges of age
+    (`years_in_title`).
     """
     seats = [_seat(own, stage) for own, stage in zip(played, stages, strict=True)]
-    return choose_characters(seats, _candidates(seats, students))
+    return choose_characters(seats, _candidates(seats, years))
 
 
 def newcomers_character(
-    instrument: InstrumentMap, there: Sequence[tuple[str, StagePosition]], students: bool = False
+    instrument: InstrumentMap, there: Sequence[tuple[str, StagePosition]], years: Years = ANY_AGE
 ) -> str:
     """Choose a bundled character for a player who comes to others, who are given by character and place, beside the
     last of them.
@@ -247,15 +249,19 @@ def newcomers_character(
     last = there[-1][1] if there else StagePosition(0.0, 0.0, 0.0)
     seats = [*(Seat((), 0.0, 0.0, stage) for _, stage in there), _seat([instrument], last)]
     cast = {place: id for place, (id, _) in enumerate(there)}
-    return choose_characters(seats, _candidates(seats, students), cast)[-1]
+    return choose_characters(seats, _candidates(seats, years), cast)[-1]
 
 
-def _candidates(seats: Sequence[Seat], students: bool) -> list[Candidate]:
+def _candidates(seats: Sequence[Seat], years: Years) -> list[Candidate]:
     # Measuring arms takes a moment, and few instruments need it.
     arms = any(seat.travel_m > FAR_REACH_M for seat in seats)
-    youngest, oldest = STUDENT_YEARS
-    everyone = [_candidate(id, arms) for id in our_characters()]
-    return [one for one in everyone if not students or youngest <= one.years <= oldest]
+    found = []
+    for id in our_characters():
+        own = our_years(id)
+        later = next((place for place, (youngest, older) in enumerate(years) if youngest <= own < older), None)
+        if later is not None:
+            found.append(_candidate(id, arms, later))
+    return found
 
 
 def _seat(played: Sequence[InstrumentMap], stage: StagePosition) -> Seat:
@@ -266,7 +272,7 @@ def _seat(played: Sequence[InstrumentMap], stage: StagePosition) -> Seat:
     return Seat(tuple(one.id for one in played), min(max(asks, 0.0), 1.0), travel_m, stage)
 
 
-def _candidate(id: str, arms: bool) -> Candidate:
+def _candidate(id: str, arms: bool, later: int) -> Candidate:
     person = bundled_person(id) if id in bundled_people() else None
     phenotype = originals()[id] if person is None else person.phenotype
     colors = _colors_of(id) if person is None else person.colors
@@ -281,6 +287,7 @@ def _candidate(id: str, arms: bool) -> Candidate:
         style=id if person is None else person.hair or person.original,
         arm_m=our_arm_m(id) if arms else 0.0,
         too_small_for=not_cast_for(id),
+        later=later,
     )
 
 

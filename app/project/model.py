@@ -14,7 +14,7 @@ from app.errors import UsageError
 from app.plan.by_hand.corrections import Correction
 from app.plan.generate import PREROLL_BEATS, usual_preroll
 from app.plan.parameters import Parameter, PlayerParameters, declared
-from app.project.band_in_title import plays_at_school
+from app.project.band_in_title import years_in_title
 from app.project.camera_bookmarks import CameraBookmark
 from app.project.casting import ConductorPlace, amplitude, player_seed, stage_seats, usual_posture
 from app.project.character_choice import characters_for
@@ -261,7 +261,7 @@ def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed:
             played[doubled[part.id]].append(part)
     mapped = [[maps[one.map_id] for one in played[part.id]] for part in musicians]
     places = stage_seats([together(footprint(one) for one in each) for each in mapped])
-    cast = characters_for(mapped, places, plays_at_school(score.title))
+    cast = characters_for(mapped, places, years_in_title(score.title))
     bodies = {part.id: (body, place) for part, body, place in zip(musicians, cast, places, strict=True)}
     players = []
     for part, name, instrument in zip(parts, names, instruments, strict=True):

@@ -13,7 +13,7 @@ from app.errors import AppError, MapError
 from app.plan.parameters import PARAMETERS, PlayerParameters, Value
 from app.project import limits
 from app.project.anchors import moved_correction
-from app.project.band_in_title import plays_at_school
+from app.project.band_in_title import years_in_title
 from app.project.casting import (
     DANCER_ROOM_M,
     SPACING_M,
@@ -332,7 +332,7 @@ def newcomer(
         name=name,
         part_id=part.id,
         instrument_id=require_map(part.map_id, [instrument.id for instrument in playing]),
-        character_id=newcomers_character(playing[-1], there, plays_at_school(project.score.title)),
+        character_id=newcomers_character(playing[-1], there, years_in_title(project.score.title)),
         parameters=cast_parameters(project, player_id, playing[-1]),
         stage=StagePosition(0.0, 0.0, 0.0),
         doubles=doubles,

@@ -10,9 +10,9 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.project.band_in_title import ANY_AGE, Years, years_in_title
 from app.project.casting import SPACING_M, StagePosition, stage_arc, stage_seats
 from app.project.character_choice import (
-    STUDENT_YEARS,
     Candidate,
     Seat,
     build_of,
@@ -72,8 +72,8 @@ def test_the_longest_arms_take_the_far_reach() -> None:
     assert choose_characters([], candidates) == ()
 
 
-def test_the_small_are_not_cast_and_children_come_last() -> None:
-    candidates = varied(too_small_for=[frozenset({"flute"}), frozenset(), frozenset()], years=[20.0, 12.0, 60.0])
+def test_the_small_are_not_cast_and_later_ages_come_last() -> None:
+    candidates = varied(too_small_for=[frozenset({"flute"}), frozenset(), frozenset()], later=[0, 1, 0])
     assert choose_characters(seats(1), candidates) == ("c",)
     assert sorted(choose_characters(seats(2), candidates)) == ["b", "c"]
     assert "a" not in choose_characters(seats(5), candidates)
@@ -102,14 +102,14 @@ def test_volumes_are_in_the_order_of_weights() -> None:
     assert 0.001 < solid_m3(MAPS["trombone_tenor_F_attachment"]) < 0.005
 
 
-@pytest.mark.parametrize("students", [False, True])
-def test_a_band_is_varied_side_by_side(students: bool) -> None:
+@pytest.mark.parametrize("years", [ANY_AGE, years_in_title("Lincoln High School Band")], ids=["anyone", "pupils"])
+def test_a_band_is_varied_side_by_side(years: Years) -> None:
     stages = stage_seats([footprint(MAPS[name]) for name in BAND])
-    chosen = characters_for([[MAPS[name]] for name in BAND], stages, students)
-    assert chosen == characters_for([[MAPS[name]] for name in BAND], stages, students)
+    chosen = characters_for([[MAPS[name]] for name in BAND], stages, years)
+    assert chosen == characters_for([[MAPS[name]] for name in BAND], stages, years)
     assert len({*chosen}) == len(BAND)
     assert not any(name in not_cast_for(id) for name, id in zip(BAND, chosen, strict=True))
-    assert all(our_years(id) >= STUDENT_YEARS[0] for id in chosen)
+    assert all(our_years(id) >= 14.0 for id in chosen)
     bodies = [bundled_person(id).phenotype if id in bundled_people() else originals()[id] for id in chosen]
     assert bodies[-1].height_m > 1.75
     assert our_years(chosen[-1]) < 60.0
@@ -131,10 +131,71 @@ def test_a_newcomer_is_someone_else() -> None:
     there = list(zip(characters_for([[MAPS["flute"]]] * 5, stages), stages, strict=True))
     assert newcomers_character(MAPS["flute"], there) not in {id for id, _ in there}
     assert newcomers_character(MAPS["flute"], [])
-    pupil = newcomers_character(MAPS["tuba_BBb"], there, students=True)
-    assert STUDENT_YEARS[0] <= our_years(pupil) <= STUDENT_YEARS[1]
+    for title, youngest, oldest in (("Northside Middle School Band", 14.0, 17.0), ("シニア楽団", 60.0, 90.0)):
+        assert youngest <= our_years(newcomers_character(MAPS["tuba_BBb"], there, years_in_title(title))) <= oldest
 
 
 def test_more_players_than_people_are_shared_out() -> None:
     counts = Counter(characters_for([[MAPS["trumpet_Bb"]]] * 60, stage_arc(60)))
     assert max(counts.values()) == 2
+
+
+def cast_in(title: str, names: Sequence[str] = BAND) -> list[float]:
+    """Ages in years of a band that a title names, by seat."""
+    stages = stage_seats([footprint(MAPS[name]) for name in names])
+    chosen = characters_for([[MAPS[name]] for name in names], stages, years_in_title(title))
+    assert chosen == characters_for([[MAPS[name]] for name in names], stages, years_in_title(title))
+    assert not any(name in not_cast_for(id) for name, id in zip(names, chosen, strict=True))
+    return [our_years(id) for id in chosen]
+
+
+@pytest.mark.parametrize(
+    "title",
+    [
+        *("Maple Elementary School Winter Songs", "Primary School Band", "Elementary Band Warm-Ups", "Kids Band"),
+        *("Children's Concert Band", "Children’s Orchestra", "みなみ小学校 音楽会", "子どもバンド", "キッズブラス"),
+    ],
+)
+def test_children_play_in_their_own_bands(title: str) -> None:
+    children = sum(our_years(id) < 14.0 for id in bundled_people())
+    ages = cast_in(title)
+    assert sum(age < 14.0 for age in ages) == children
+    assert max(ages) < 21.0
+    assert max(cast_in(title, ("bassoon", "clarinet_Bb", "trumpet_Bb"))) < 14.0
+    assert 14.0 <= cast_in(title, ("flute",))[0] < 16.0, "children are too small for it"
+
+
+@pytest.mark.parametrize(
+    ("title", "youngest", "oldest"),
+    [
+        ("Oakfield Middle School", 14.0, 17.0),
+        ("Junior High School Band", 14.0, 17.0),
+        ("第三中学校 校歌", 14.0, 17.0),
+        ("Lincoln High School Senior Band", 14.0, 21.0),
+        ("Valley Youth Orchestra", 14.0, 21.0),
+        ("県立西高等学校吹奏楽部", 14.0, 21.0),
+        ("Senior Citizens Band", 60.0, 91.0),
+        ("The Seniors' Wind Band", 60.0, 91.0),
+        ("シニア吹奏楽団", 60.0, 91.0),
+    ],
+)
+def test_a_duo_has_the_ages_of_the_band_in_its_title(title: str, youngest: float, oldest: float) -> None:
+    assert {youngest <= age < oldest for age in cast_in(title, ("flute", "clarinet_Bb"))} == {True}
+
+
+def test_pupils_do_not_play_among_elders() -> None:
+    ages = sorted(cast_in("Senior Citizens Band"))
+    assert ages[0] > 21.0
+    assert ages.count(ages[-1]) > 1, "someone plays twice rather than a pupil"
+    assert min(cast_in("敬老の日コンサート", ("flute",) * 5)) > 45.0
+
+
+@pytest.mark.parametrize(
+    "title",
+    [
+        *("", "Children's March", "Children's Corner", "Senior Recital", "High School Musical", "Old-school funk"),
+        *("Elementary, my dear Watson", "Middle of the Night", "こどもの日", "小さな世界"),
+    ],
+)
+def test_a_title_that_names_no_band_leaves_ages_open(title: str) -> None:
+    assert years_in_title(title) == ANY_AGE

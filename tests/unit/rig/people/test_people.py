@@ -14,6 +14,7 @@ import pytest
 
 from app.errors import MapError
 from app.formats.toml import toml
+from app.project.band_in_title import years_in_title
 from app.project.casting import stage_arc
 from app.project.character_choice import characters_for
 from app.rig import quaternion
@@ -202,9 +203,8 @@ def test_pupils_have_bodies_of_their_own_within_the_schools_statistics() -> None
 
 def test_the_players_of_a_school_band_are_told_apart() -> None:
     shapes = body_shapes()
-    people = [
-        bundled_person(id) for id in characters_for([[bundled_maps()["flute"]]] * 27, stage_arc(27), students=True)
-    ]
+    years = years_in_title("県立西高等学校吹奏楽部")
+    people = [bundled_person(id) for id in characters_for([[bundled_maps()["flute"]]] * 27, stage_arc(27), years)]
     faces = []
     for person in people:
         skin_m = body_m(shapes, whole_phenotype(person))[: np.searchsorted(shapes.vertices, SKIN_VERTICES)]
