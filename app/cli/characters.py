@@ -18,18 +18,19 @@ from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, UsageError
 from app.rig.characters.character_library import LEAST_M, MOST_M, CharacterEntry
 from app.rig.people.body_shapes import age_of
-from app.rig.people.bundled_people import bundled_people, like, our_name
-from app.rig.people.person import originals, ranges
+from app.rig.people.bundled_people import bundled_people, bundled_person, like, our_name
+from app.rig.people.person import ranges
 from app.rig.people.wardrobe import wardrobe
 
 if TYPE_CHECKING:
     from app.rig.characters.load_character import CharacterFigure
 
+MOST_YEARS = 120.0
+"""Greatest age in years that is read at all; people made from one body have a range of their own."""
+
 _weight = bounded_number(-10.0, 10.0, "quantity.weight", float)
 _height = bounded_number(LEAST_M, MOST_M, "quantity.height", float)
-_person_heights_m, _person_years = ranges(originals())
-_person_height = bounded_number(*_person_heights_m, "quantity.height", float)
-_years = bounded_number(*_person_years, "quantity.years", float)
+_years = bounded_number(0.0, MOST_YEARS, "quantity.years", float)
 _percent = bounded_number(0.0, 100.0, "quantity.percent", float)
 
 
@@ -53,7 +54,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     make = actions.add_parser("make", help="")
     make.add_argument("name", metavar="NAME")
     make.add_argument("--like", required=True, metavar="ID")
-    make.add_argument("--height", type=_person_height, metavar="METRES")
+    make.add_argument("--height", type=_height, metavar="METRES")
     make.add_argument("--age", type=_years, metavar="YEARS")
     make.add_argument("--muscle", type=_percent, metavar="PERCENT")
     make.add_argument("--weight", type=_percent, metavar="PERCENT")
@@ -188,23 +189,44 @@ def _left_out(reading: CharacterFigure, hidden: Collection[str]) -> tuple[Collec
 
 
 def make_person(arguments: argparse.Namespace) -> None:
-    """Make a person from a bundled one by the options, and print its id.
+    """Make a person from a bundled one by the options, and print its id and a warning that names the instruments that
+    the body is too small for.
 
     Raises
     ------
     FileError, UsageError
         If the person cannot be written, or an option does not fit it.
     """
-    from app.rig.characters.character_library import add_person
+    from app.performance.bodies import strained_on
+    from app.rig.characters.character_library import add_person, character_named
+    from instrument_maps.load import bundled_maps
 
     if arguments.like not in bundled_people():
         raise UsageError("character.missing", id=arguments.like, known=", ".join(bundled_people()))
+    heights_m, years = ranges([bundled_person(arguments.like).original])
+    _require_within("--height", arguments.height, heights_m, arguments.like)
+    _require_within("--age", arguments.age, years, arguments.like)
     measures = {"height_m": arguments.height, "age": None if arguments.age is None else age_of(arguments.age)}
     for name in ("muscle", "weight"):
         given = getattr(arguments, name)
         measures[name] = None if given is None else given / 100.0
     said_so = {name: value for name, value in measures.items() if value is not None}
-    say(add_person(like(arguments.like, said_so), arguments.name))
+    person = like(arguments.like, said_so)
+    id = add_person(person, arguments.name)
+    say(id)
+    strained = strained_on(character_named(id), person)
+    if strained:
+        names = ", ".join(spoken().name(bundled_maps()[one].name) for one in strained)
+        warn(said("characters.strained", names=names))
+
+
+def _require_within(option: str, value: float | None, bounds: tuple[float, float], id: str) -> None:
+    """Raise UsageError if an option's value is outside its bounds for people like a bundled one."""
+    least, most = bounds
+    if value is not None and not least <= value <= most:
+        quantity = said("quantity.years" if option == "--age" else "quantity.height")
+        given = {"quantity": quantity, "least": f"{least:g}", "most": f"{most:g}", "id": id}
+        raise UsageError("characters.measure", option=option, **given)
 
 
 def joints_of(texts: list[str]) -> dict[str, str]:

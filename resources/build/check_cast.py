@@ -5,7 +5,8 @@
 Each person plays the instrument's compass from its lowest to its highest note, a semitone at a time. Contacts are
 judged as an export's are, and joints by the human ranges. What is worse than the finished bodies do it is printed and
 makes the command fail, unless the person's file says that it is not cast for the instrument; `--write` makes the file
-say so, and removes what does not help: carriages (`fit_carriages`) and holds of their own (`build_holds --people`).
+say so, and removes what does not help: carriages (`fit_carriages`) and holds of their own (`build_holds --people`). It
+also writes how far the arms of everyone who is cast are strained, by which people of the user are judged.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from importlib.resources import files
 from pathlib import Path
 
 # One thread: with many small sums several threads only wait for each other.
@@ -33,6 +35,7 @@ from app.contacts.breaks import contact_problems
 from app.contacts.judge import ContactJudge
 from app.contacts.missed_contacts import missed_contacts
 from app.export.joints import anatomical_angles
+from app.formats.toml import toml
 from app.performance.bodies import character_of, hold_of, model_of
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
@@ -40,9 +43,11 @@ from app.performance.motion import performance_curves
 from app.performance.span import whole_span
 from app.project.edit.players import assign
 from app.project.model import Project, map_choices, project_from_score
-from app.rig.characters.character_library import bundled_characters
+from app.rig.characters.character_library import bundled_characters, character_named
+from app.rig.grip.carriage import carried_by
 from app.rig.grip.fitting.fit_terms import GRIP_M, TOUCH_M
-from app.rig.grip.fitting.grip_files import bundled_path
+from app.rig.grip.fitting.grip_files import bundled_path, hold_for
+from app.rig.grip.fitting.same_hands import CHECKED_NAME, arms_cost
 from app.rig.model import Character
 from app.rig.people.bundled_people import bundled_people, bundled_person, not_cast_for
 from app.score.read import read_midi
@@ -168,7 +173,26 @@ def main(requested: Sequence[str]) -> None:
             path.write_text(LINE.sub(line, path.read_text(encoding="utf-8")), encoding="utf-8")
             carriages = bundled_person(id).carriages
             write_carriages(path, {name: shares for name, shares in carriages.items() if name not in small})
+    if write:
+        path = Path(str(files("resources"))) / "characters" / CHECKED_NAME
+        path.write_text(toml(greatest_costs()), encoding="utf-8")
     sys.exit(1 if failed and not write else 0)
+
+
+def greatest_costs() -> dict[str, dict[str, float]]:
+    """Greatest cost of the arms among everyone who is cast for an instrument, by the body that the hands are from."""
+    result: dict[str, dict[str, float]] = {}
+    for id in (*bundled_characters(), *bundled_people()):
+        character = character_named(id)
+        hands = character.hands_of or character
+        own = result.setdefault(hands.id, {})
+        for instrument in (one for name, one in bundled_maps().items() if name not in not_cast_for(id)):
+            hold = hold_for(hands, model_of(instrument), instrument, load_body())
+            shares = bundled_person(id).carriages.get(instrument.id) if id in bundled_people() else None
+            carried = instrument if shares is None else carried_by(instrument, shares)
+            cost = arms_cost(hold, character, carried, load_body())
+            own[instrument.id] = max(own.get(instrument.id, 0.0), round(cost, 1))
+    return result
 
 
 if __name__ == "__main__":

@@ -143,7 +143,32 @@ def test_a_person_is_made_and_ours_are_named(folder: Path, capsys: pytest.Captur
     assert main(["characters"]) == 0
     assert "Hina / 陽菜" in capsys.readouterr().out
     assert main(["characters", "make", "Tom", "--like", "tom"]) == 2
-    assert main(["characters", "make", "Tom", "--like", "cast_thomas", "--age", "7"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (["--like", "child_nia", "--age", "30"], "--age: an age in years from 11 to 15 for people like child_nia"),
+        (["--like", "cast_thomas", "--age", "7"], "--age: an age in years from 15 to 90 for people like cast_thomas"),
+        (["--like", "cast_aiko", "--height", "1.35"], "--height: a height in metres from 1.4 to 2.1"),
+    ],
+)
+def test_measures_are_refused_in_the_units_and_the_range_of_the_person(
+    folder: Path, given: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["characters", "make", "Tom", *given]) == 2
+    assert said in capsys.readouterr().err
+    assert list(folder.glob("*.toml")) == []
+
+
+def test_instruments_that_a_made_person_is_too_small_for_are_named(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.performance.bodies.strained_on", lambda character, person: ("flute", "oboe"))
+    assert main(["characters", "make", "Kid", "--like", "child_nia"]) == 0
+    printed = capsys.readouterr()
+    assert printed.out.strip() == "kid"
+    assert printed.err.strip().endswith("wrists of this body would bend too far with: Flute, Oboe")
 
 
 def test_a_mesh_without_a_skeleton_is_refused_with_a_remedy(capsys: pytest.CaptureFixture[str]) -> None:

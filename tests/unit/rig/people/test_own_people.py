@@ -21,12 +21,14 @@ from app.rig.characters.character_library import (
     reload_characters,
     remove_character,
 )
-from app.rig.people.body_shapes import Phenotype
-from app.rig.people.bundled_people import bundled_person, person_of
+from app.rig.grip.carriage import carried_by
+from app.rig.people.body_shapes import Phenotype, age_of
+from app.rig.people.bundled_people import bundled_person, like, not_cast_for, person_of
 from app.rig.people.person import Person
 from app.rig.skeleton import rest_positions
 from instrument_maps.hold import Carriage
 from instrument_maps.load import bundled_maps
+from instrument_maps.model import InstrumentMap
 
 
 @pytest.fixture
@@ -112,3 +114,19 @@ def test_a_body_far_smaller_than_its_hands_is_strained() -> None:
     assert is_strained(small, clarinet)
     assert not is_strained(character_named("cast_marie"), clarinet)
     assert not is_strained(character_named("woman_adult"), clarinet)
+
+
+def test_whoever_bends_wrists_no_further_than_those_who_were_checked_is_not_strained() -> None:
+    maps = bundled_maps()
+    old = person_of("old", like("cast_thomas", {"age": age_of(88.0)}), character_named)
+    assert [name for name in ("oboe", "clarinet_Bb", "flute", "english_horn") if is_strained(old, maps[name])] == []
+    for id, name in (("cast_henry", "oboe"), ("cast_sachiko", "clarinet_bass_Bb"), ("child_leo", "clarinet_Bb")):
+        assert name not in not_cast_for(id)
+        assert not is_strained(character_named(id), carried_as(id, name)), (id, name)
+    child = person_of("child", like("child_nia", {}), character_named)
+    assert is_strained(child, maps["flute"]), "no child is cast for it"
+
+
+def carried_as(id: str, name: str) -> InstrumentMap:
+    shares = bundled_person(id).carriages.get(name)
+    return bundled_maps()[name] if shares is None else carried_by(bundled_maps()[name], shares)
