@@ -13,6 +13,7 @@ from app.export.file_names import figure_stems
 from app.export.formats import FileFormat
 from app.export.humanoid import humanoid_scene
 from app.export.instrument import instrument_scene
+from app.export.plain_surfaces import with_plain_surfaces
 from app.export.request import CastDancing, CastMusician, ExportRequest
 from app.export.scene_keys import keyed_character, keyed_instrument
 from app.export.supports import supports_scene
@@ -54,7 +55,7 @@ def musician_scene(
         tuple(map(instrument_path, motions)),
         face_parts=request.face.parts,
     )
-    scene = with_curve_names(scene, request.face.names)
+    scene = with_curve_names(_surfaced(scene, request, musician.character), request.face.names)
     models = [one.model for one in musician.performers]
     return keyed_character(scene, request.keys, request.formats, musician.character, target, models)
 
@@ -90,8 +91,15 @@ def dancer_scene(request: ExportRequest, cast: CastDancing, motion: Motion, kind
     if kind is not None and kind.humanoid:
         return _animation_scene(request, character, motion, name, cast.target_in(kind))
     scene = character_scene(character, motion, name, request.creator, cast.target, face_parts=request.face.parts)
-    scene = with_curve_names(scene, request.face.names)
+    scene = with_curve_names(_surfaced(scene, request, character), request.face.names)
     return keyed_character(scene, request.keys, request.formats, character, cast.target)
+
+
+def _surfaced(scene: Scene, request: ExportRequest, character: Character) -> Scene:
+    """Return the scene of a character with plain surfaces if the files have no textures; a character from the user's
+    file keeps its materials.
+    """
+    return with_plain_surfaces(scene) if request.has_plain_surfaces and character.own is None else scene
 
 
 def _animation_scene(

@@ -117,6 +117,11 @@ class ExportRequest:
         return self.texture_px > 0 if self.few_materials is None else self.few_materials
 
     @property
+    def has_plain_surfaces(self) -> bool:
+        """True if no surface of a character has a texture, neither in the files nor where they are imported."""
+        return not self.texture_px and self.few_materials is None
+
+    @property
     def with_props(self) -> bool:
         """True if straps and chairs are exported; they are left out if meshes are."""
         return self.props and not self.motion_only

@@ -58,7 +58,7 @@ class ExportJob(msgspec.Struct, frozen=True):
     motion_only: bool
     texture_px: int
     levels: int
-    few_materials: bool
+    few_materials: bool | None
     props: bool
 
 
@@ -100,7 +100,7 @@ def job_of(request: ExportRequest, folder: Path) -> ExportJob:
         motion_only=request.motion_only,
         texture_px=request.texture_px,
         levels=request.levels,
-        few_materials=request.shares_materials,
+        few_materials=request.few_materials,
         props=request.props,
     )
 
