@@ -16,7 +16,17 @@ from wardrobe_sailor import sailor_collar, scarf
 from wardrobe_seated import OVER_LAP_M
 from wardrobe_sewn import SKIRT_BONES, Skirt, bow_tie, garment, moved_to, over, plain, shell, skirt, throat
 from wardrobe_shirt import own_shirt
-from wardrobe_tunic import TUNIC_M, buttons, close_dress, front_strip, ribbon, stand_collar, tunic, tunic_drape
+from wardrobe_tunic import (
+    TUNIC_M,
+    buttons,
+    close_dress,
+    front_strip,
+    neckline,
+    ribbon,
+    stand_collar,
+    tunic,
+    tunic_drape,
+)
 
 Colour = tuple[float, float, float]
 Pieces = list[tuple[Surface, str]]
@@ -249,7 +259,7 @@ def _gakuran(wearer: Wearer) -> Pieces:
     heights = np.linspace(top - 0.025, wearer.tailoring.belt_m - 0.01, 5)
     row = buttons(own, np.stack([np.zeros(5), heights], axis=1))
     edge = front_strip(own, top, hem + 0.01)
-    parts = {MAIN: [plain(own), plain(stand_collar(wearer, own)), edge], ACCENT: [row]}
+    parts = {MAIN: [plain(own), plain(neckline(wearer, own)), plain(stand_collar(wearer, own)), edge], ACCENT: [row]}
     return [(garment("tunic", parts, wearer), "top"), (legs, "bottom")]
 
 
@@ -269,7 +279,7 @@ def _marching(wearer: Wearer) -> Pieces:
         places += [(-half, height - 0.012), (0.0, height + 0.012), (half, height - 0.012)]
     crown, metal, plume = shako(wearer)
     parts = {
-        MAIN: [plain(own), front_strip(own, top + 0.03, hem + 0.01)],
+        MAIN: [plain(own), plain(neckline(wearer, own)), front_strip(own, top + 0.03, hem + 0.01)],
         SECOND: [plain(stand_collar(wearer, own)), belt(wearer, own), cuffs(wearer, own), *cords],
         ACCENT: [buttons(own, np.array(places), 0.010), *epaulettes(wearer, own)],
     }

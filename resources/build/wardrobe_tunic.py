@@ -20,6 +20,7 @@ from character_cloth import (
 )
 from character_garments import NECK_HALF_WIDTH_M, OFF_NECK_M, above_collar, move_out, neck_ring
 from scipy.interpolate import LinearNDInterpolator
+from scipy.spatial import cKDTree
 from wardrobe_fitted import drawn_to
 from wardrobe_pieces import Wearer
 from wardrobe_sewn import Sewn, gold, plain, weights_near
@@ -31,17 +32,23 @@ NECKLINE_M = 0.108
 """Half of the width of a dress's neckline."""
 TUNIC_M = 0.011
 """Distance of a tunic from the drape of the trunk."""
+SEWN_M, LIFT_M = 0.005, 0.0012
+"""Width of the cloth sewn on a tunic's opening, and its height over the tunic."""
 
 
-def _grown(cloth: Cloth, out_m: np.ndarray) -> Cloth:
-    """The cloth moved out along its normals by `out_m` (N,)."""
+def _normals(cloth: Cloth) -> np.ndarray:
+    """Normals (N, 3) of a cloth's vertices."""
     corners = cloth.points[cloth.faces]
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals = np.zeros_like(cloth.points)
     for corner in range(3):
         np.add.at(normals, cloth.faces[:, corner], across)
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-    return replace(cloth, points=cloth.points + out_m[:, None] * normals)
+    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+
+
+def _grown(cloth: Cloth, out_m: np.ndarray) -> Cloth:
+    """The cloth moved out along its normals by `out_m` (N,)."""
+    return replace(cloth, points=cloth.points + out_m[:, None] * _normals(cloth))
 
 
 def tunic_drape(wearer: Wearer) -> Profile:
@@ -108,11 +115,26 @@ def stand_collar(wearer: Wearer, shell: Cloth) -> Cloth:
     upper = neck_ring(tailoring, neck_of(wearer), 0.026, columns) + OFF_NECK_M * outward
     up = tailoring.collar_normal * 0.8 + np.array([0.0, 0.2, 0.05])
     top = upper + outward * 0.004 + up * 0.003
-    rows = [base + outward * 0.006 - up * 0.005, base + outward * 0.0055, (base + upper) / 2 + outward * 0.006]
+    rows = [base + outward * 0.003, base + outward * 0.0055, (base + upper) / 2 + outward * 0.006]
     rows += [top + outward * 0.001, top + up * 0.001, top - outward * 0.0025, base + outward * 0.001]
     points = np.concatenate(rows)
     weights = np.tile(weights_near(shell, base), (len(rows), 1))
     return to_triangles(Cloth(points, weights, grid_faces(len(rows), 73, closed=False)))
+
+
+def neckline(wearer: Wearer, shell: Cloth) -> Cloth:
+    """Cloth from the opening of a tunic to the foot of its stand-up collar, so that no gap opens around the neck."""
+    tailoring = wearer.tailoring
+    columns = np.linspace(-np.pi, np.pi, 73)
+    base = neck_ring(tailoring, tailoring.suit, 0.0, columns)
+    outward = np.stack([np.sin(columns), np.zeros(73), -np.cos(columns)], axis=1)
+    sewn = neck_ring(tailoring, shell, -SEWN_M, columns)
+    sewn += LIFT_M * _normals(shell)[cKDTree(shell.points).query(sewn)[1]]
+    inside = base + outward * 0.002
+    rows = [sewn, (sewn + inside) / 2 + tailoring.collar_normal * 0.004]
+    rows = [row[::2] for row in (*rows, inside, inside + tailoring.collar_normal * 0.008)]
+    weights = np.tile(weights_near(shell, rows[0]), (len(rows), 1))
+    return to_triangles(Cloth(np.concatenate(rows), weights, grid_faces(len(rows), len(rows[0]), closed=False)))
 
 
 def buttons(shell: Cloth, places: np.ndarray, radius_m: float = BUTTON_M) -> Sewn:
