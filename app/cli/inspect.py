@@ -17,8 +17,10 @@ from app.cli.progress import find_holds
 from app.cli.speech import ENGLISH, Speech, spoken
 from app.cli.status import report_left_out
 from app.cli.terminal import say, say_json
+from app.contacts.breaks import by_time
 from app.encoding import shown
 from app.errors import Message
+from app.export.arm_problems import all_arm_problems
 from app.export.report import character_report
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
@@ -127,9 +129,14 @@ def inspection(
     playable = attempt(project.players, performance.instrument)
     absent = {one.player.id for one in playable.left_out}
     if contacts:
-        problems, notice = all_problems(performance, project.players, without_limit)
+        judged, notice = all_problems(performance, project.players, without_limit)
+        # A piece with too much motion for its contacts has too much for arms, too.
+        measured = project.players if notice is None or without_limit else ()
+        arms, unmeasured = all_arm_problems(performance, measured, without_limit)
+        problems = {id: by_time((*found, *arms.get(id, ()))) for id, found in judged.items()}
     else:
-        problems, notice = {player.id: performance.problems(player.id) for player in project.players}, None
+        problems = {player.id: performance.problems(player.id) for player in project.players}
+        notice = unmeasured = None
     reported = [
         (player, *reported_lines(performance, player, problems[player.id], speech, with_ignored))
         for player in project.players
@@ -139,7 +146,7 @@ def inspection(
         **_piece(performance),
         "warnings": [
             *(speech(message) for message in score.warnings),
-            *([] if notice is None else [speech(notice)]),
+            *(speech(message) for message in (notice, unmeasured) if message is not None),
             *(f"{player.name}: {line}" for player, lines, _ in reported for line in lines),
         ],
         "ignored_problems": sum(ignored for _, _, ignored in reported),

@@ -10,10 +10,12 @@ from pathlib import Path
 import msgspec
 
 from app.arrays import FloatArray
+from app.contacts.breaks import by_time
 from app.contacts.missed_contacts import missed_mm
 from app.contacts.reach import notes_out_of_reach
 from app.encoding import shown
 from app.errors import Progress
+from app.export.arm_problems import arm_problems
 from app.export.attachment import in_world, without_place
 from app.export.bvh_clip import profile_names
 from app.export.face_curves import FaceOptions
@@ -88,8 +90,8 @@ def export_player(
 
         written = _write(request, musician, performer, folder, share_of, cores, figure)
         figure = written.figure
-        problems[performer.player.id] = written.problems
         measured = _measured(request, musician, performer, written.read, share_of)
+        problems[performer.player.id] = by_time((*written.problems, *_of_arms(request, measured)))
         reports.append(_reported(request, musician, performer, written.keys, measured))
         torsos.append(None if measured is None else measured.torso_rad)
     reported(1.0)
@@ -220,6 +222,13 @@ def _work(formats: frozenset[Format]) -> float:
     for the progress bar."""
     measures = _MEASURES_WORK if files_of(formats, reads=True) else 0.0
     return _MOTION_WORK + sum(row.work / len(row.holds) for row, _ in files_of(formats)) + measures
+
+
+def _of_arms(request: ExportRequest, measured: PlayerMeasurement | None) -> tuple[Problem, ...]:
+    """Return the problems of arms that are too deep in trunk or clothes in the files; none if none were read."""
+    if measured is None:
+        return ()
+    return arm_problems(measured.measures.arms, request.span.first_frame_s, float(request.span.fps))
 
 
 def _measured(
