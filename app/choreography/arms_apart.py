@@ -1,4 +1,4 @@
-"""Keeps the arms of a dancing character out of its trunk and head, and apart from each other.
+"""Keeps the arms of a dancing character out of its trunk, head and thighs, and apart from each other.
 
 A character has other proportions than the captured dancer, whose arms may enter the body in the capture too. Each time
 an arm would, it is moved in one of several ways: its elbow turns about the line between shoulder and wrist, so that the
@@ -26,8 +26,9 @@ PARTS: Final = ((0.6, 1.0), (0.1, 1.0), (0.0, 1.0))
 """Spans of upper arm, forearm and hand that are kept out: the rest of an upper arm lies on the trunk."""
 UPPER_SHARE: Final = 0.3
 """Share of an upper arm's radius that is kept out of the body, on which it hangs."""
-_NOT_MET: Final = ((0, 4), (0, 5))
-"""Part of an arm and of the body that do not meet, see `_around`: an upper arm, and head or other upper arm."""
+_NOT_MET: Final = ((0, 4), (0, 5), (0, 8), (0, 9))
+"""Part of an arm and of the body that do not meet, see `_Body.around`: an upper arm, and head, other upper arm or
+thighs."""
 WAYS: Final = np.array(
     [
         (0.0, 0.0, 1.0), (0.7, 0.0, 0.7), (1.0, 0.0, 0.0), (0.7, 0.0, -0.7), (0.0, 0.7, 0.7), (0.7, 0.7, 0.0),
@@ -102,7 +103,7 @@ class _Body(NamedTuple):
     Attributes
     ----------
     world : dict of int to (F, 4) float64
-        World rotations of all joints above the legs, by joint.
+        World rotations of all joints above the legs, of hip joints and of knees, by joint.
     hips_m : (F, 3) float64
         Positions of the hips in metres.
     """
@@ -135,20 +136,21 @@ class _Body(NamedTuple):
         )
 
     def around(self, other: _Arm, places_m: dict[int, FloatArray]) -> Capsules:
-        """Return the capsules of trunk, head and the other arm, from the positions (F, 3) of joints."""
+        """Return the capsules of trunk, head, the other arm and thighs, from the positions (F, 3) of joints."""
         shape = body_capsules(self.character)
+        bones = (*shape.body, *shape.thighs)
         starts, ends = (
             [places_m[joint] + quaternion.rotate(self.world[joint], way) for joint, way in points]
             for points in (
-                [(one.start, one.start_way_m) for one in shape.body],
-                [(one.end, one.end_way_m) for one in shape.body],
+                [(one.start, one.start_way_m) for one in bones],
+                [(one.end, one.end_way_m) for one in bones],
             )
         )
-        arm = other.capsules(shape.radii_m)
+        arm, radii, count = other.capsules(shape.radii_m), [one.radius_m for one in bones], len(shape.body)
         return Capsules(
-            np.concatenate([np.array(starts), arm.starts_m]),
-            np.concatenate([np.array(ends), arm.ends_m]),
-            np.concatenate([[one.radius_m for one in shape.body], shape.radii_m]),
+            np.concatenate([starts[:count], arm.starts_m, starts[count:]]),
+            np.concatenate([ends[:count], arm.ends_m, ends[count:]]),
+            np.concatenate([radii[:count], arm.radii_m, radii[count:]]),
         )
 
     def with_arm(self, side: int, arm: _Arm, moved: _Arm, some: IntArray) -> _Body:
@@ -177,7 +179,7 @@ def arms_apart(
     Parameters
     ----------
     world : dict of int to (F, 4) float64
-        World rotations of all joints above the legs, by joint.
+        World rotations of all joints above the legs, of hip joints and of knees, by joint.
     hips_m : (F, 3) float64
         Positions of the hips in metres.
     """

@@ -1,4 +1,4 @@
-"""Capsules of a character's trunk, head and arms, with radii measured on its skin."""
+"""Capsules of a character's trunk, head, arms and thighs, with radii measured on its skin."""
 
 from __future__ import annotations
 
@@ -26,8 +26,10 @@ SOFT: Final = 0.8
 """Radius of trunk and arms relative to that of their skin, since soft parts and clothes give way."""
 MOST_RADIUS: Final = 0.075
 """Greatest radius relative to the body's height, for wide skirts and hair."""
-USUAL: Final = {"trunk": 0.064, "head": 0.052, "UpperArm": 0.026, "LowerArm": 0.019, "Hand": 0.008}
+USUAL: Final = {"trunk": 0.064, "head": 0.052, "UpperArm": 0.026, "LowerArm": 0.019, "Hand": 0.008, "UpperLeg": 0.04}
 """Radii relative to the body's height, of hands and of parts without skin of their own; hands are flat."""
+THIGH_FROM: Final = 0.4
+"""Share of the thigh from the hip joint from which arms are kept away from it; hanging hands are beside the rest."""
 HAND: Final = 0.1
 """Length of a hand relative to the body's height, with loosely bent fingers."""
 
@@ -50,6 +52,8 @@ class BodyCapsules:
     ----------
     body : tuple of BodyBone
         Trunk and head.
+    thighs : tuple of BodyBone
+        Left and right thigh.
     radii_m : (3,) float64
         Radii of upper arm, forearm and hand.
     hand_m : float
@@ -57,6 +61,7 @@ class BodyCapsules:
     """
 
     body: tuple[BodyBone, ...]
+    thighs: tuple[BodyBone, ...]
     radii_m: FloatArray
     hand_m: float
 
@@ -107,8 +112,9 @@ def _measured(character: Character) -> BodyCapsules:
             bottom, top = (np.array([sign * max(wide - radius, 0.0), y, ahead]) for y in (low, high))
             body.append(BodyBone(start, bottom - rest_m[start], end, top - rest_m[end], radius))
     body.append(_head(character, rest_m, height))
-    radii = [_arm_radius_m(character, part, rest_m, height) for part in ARM[:2]]
-    return BodyCapsules(tuple(body), np.array([*radii, USUAL["Hand"] * height]), HAND * height)
+    radii = [_limb_radius_m(character, pair, rest_m, height) for pair in pairwise(ARM)]
+    thighs = tuple(_thigh(character, side, rest_m, height) for side in SIDES)
+    return BodyCapsules(tuple(body), thighs, np.array([*radii, USUAL["Hand"] * height]), HAND * height)
 
 
 def _head(character: Character, rest_m: FloatArray, height: float) -> BodyBone:
@@ -125,11 +131,17 @@ def _head(character: Character, rest_m: FloatArray, height: float) -> BodyBone:
     return BodyBone(head, bottom - rest_m[head], head, above - rest_m[head], radius)
 
 
-def _arm_radius_m(character: Character, part: str, rest_m: FloatArray, height: float) -> float:
-    """Median distance in metres of the skin of a part of the left arm from its bone."""
+def _thigh(character: Character, side: Side, rest_m: FloatArray, height: float) -> BodyBone:
+    hip, knee = (character.skeleton.index(f"{side}{name}") for name in ("UpperLeg", "LowerLeg"))
+    radius = _limb_radius_m(character, ("UpperLeg", "LowerLeg"), rest_m, height)
+    return BodyBone(hip, THIGH_FROM * (rest_m[knee] - rest_m[hip]), knee, np.zeros(3), radius)
+
+
+def _limb_radius_m(character: Character, bone: tuple[str, str], rest_m: FloatArray, height: float) -> float:
+    """Median distance in metres of the skin of the left bone between two joints from that bone."""
     side: Side = "left"
-    start, end = (character.skeleton.index(f"{side}{name}") for name in (part, ARM[ARM.index(part) + 1]))
-    skin, usual = _skin_m(character, [start]), USUAL[part] * height
+    start, end = (character.skeleton.index(f"{side}{name}") for name in bone)
+    skin, usual = _skin_m(character, [start]), USUAL[bone[0]] * height
     way = rest_m[end] - rest_m[start]
     along = (skin - rest_m[start]) @ way / max(float(way @ way), 1e-9)
     beside = (along > 0.3) & (along < 0.9)

@@ -31,7 +31,7 @@ from app.choreography.hands_out_of_body import out_of_body
 from app.choreography.hit_log_odds import Hearing, hearing
 from app.choreography.idling import idling_odds
 from app.choreography.joins import distances_m
-from app.choreography.legs_apart import with_legs_apart
+from app.choreography.legs_apart import with_legs_apart, with_swings_apart
 from app.choreography.limbs import hinged, unbroken, wrists_within
 from app.choreography.model import ChoreographyModel
 from app.choreography.music_motion_dependence import trust_in
@@ -219,7 +219,9 @@ class Choreographer:
         shown, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
         clip, standing = with_legs_apart(clip, shown, falls, manner.weight)
         clip = within_limits(clip, standing, self._usual_accelerations(fps), usual, fastest)
-        return Dance(hinged(clip), first_s, plan.steps, speeds, seams, standing)
+        # Legs slowed down in the air may enter each other again.
+        clip = hinged(with_swings_apart(clip, standing))
+        return Dance(clip, first_s, plan.steps, speeds, seams, standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:
         """Usual change of motion in the model's captures, for a frame rate (see

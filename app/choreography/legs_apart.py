@@ -17,8 +17,9 @@ from app.arrays import FloatArray, IntArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.capsules import Capsules, depth_m
 from app.choreography.clip import MotionClip
+from app.choreography.contacts import tips_m
 from app.choreography.features import facing, height_m
-from app.choreography.feet_on_floor import FREE_S, free
+from app.choreography.feet_on_floor import FREE_S, free, legs_to
 from app.choreography.footfalls import Footfalls
 from app.choreography.limbs import smooth_share
 from app.choreography.standing_feet import FootPlant, planted, planted_frames
@@ -35,8 +36,9 @@ PAIRS: Final = ((0, 0), (0, 1), (1, 0), (1, 1), (1, 2), (2, 1), (2, 2))
 """Parts of the left and the right leg that are kept apart, as indices in `RADII`; a foot does not reach a thigh."""
 THIGH_FROM: Final = 0.5
 """Share of the thigh from the hip joint from which it is kept away from the other leg."""
-PASSES: Final = 3
-"""Greatest number of times that feet are planted again, since one displacement may cause another overlap."""
+PASSES: Final = 8
+"""Greatest number of times that feet are moved, since one displacement may cause another overlap: legs that cross at a
+run are apart after up to six."""
 LEAST_M: Final = 0.003
 """Depth in metres below which legs stay as they are."""
 WAYS: Final = 12
@@ -88,9 +90,31 @@ def with_legs_apart(
         apart = feet_apart(shown, standing, aside_m)
         if apart is None:
             return shown, standing
+        if apart.standing == standing and np.array_equal(apart.aside_m, aside_m):
+            break
         standing, aside_m = apart
         shown = planted(clip, standing, weight, falls.shown, aside_m)
     return knees_apart(shown), standing
+
+
+def with_swings_apart(clip: MotionClip, standing: Sequence[FootPlant]) -> MotionClip:
+    """Return the motion with feet in the air swung around each other and knees turned where its legs enter each other;
+    standing feet and the hips stay. The same object is returned if legs are apart.
+    """
+    on_floor, aside_m = planted_frames(standing, len(clip)), np.zeros((len(clip), 2, 3))
+    for _ in range(PASSES):
+        apart = feet_apart(clip, standing, aside_m)
+        if apart is None:
+            return clip
+        more_m, aside_m = apart.aside_m - aside_m, apart.aside_m
+        some = np.flatnonzero(more_m.any(axis=(1, 2)))
+        if not len(some):
+            break
+        world, rotations = clip.world(), clip.rotations.copy()
+        moved = legs_to(clip, world, tips_m(clip, world) + more_m, on_floor, turned_back=False)
+        rotations[some] = moved.rotations[some]
+        clip = replace(clip, rotations=quaternion.continuous(rotations))
+    return knees_apart(clip)
 
 
 class _Legs(NamedTuple):
@@ -153,7 +177,8 @@ def depths_m(clip: MotionClip, world: JointTransforms | None = None) -> FloatArr
 
 def feet_apart(clip: MotionClip, standing: Sequence[FootPlant], aside_m: FloatArray) -> FeetApart | None:
     """Return foot plants, moved as a whole, and displacements of feet in the air that keep the legs of a motion apart;
-    None if they are. ``aside_m`` (F, 2, 3) are the displacements that the motion already has.
+    None if they are, and the same ones if no displacement helps. ``aside_m`` (F, 2, 3) are the displacements that the
+    motion already has.
     """
     world, fps = clip.world(), float(clip.fps)
     spans = overlaps(depths_m(clip, world), fps, LEAST_M)
@@ -166,6 +191,8 @@ def feet_apart(clip: MotionClip, standing: Sequence[FootPlant], aside_m: FloatAr
         before = np.subtract(*np.moveaxis(aside_m[start:stop], 1, 0)).sum(axis=0)
         feet = _Feet(standing, may, _shares(standing, may, start, stop), fps)
         way, frames, size_m = _way_apart(clip, world, (start, stop), before)
+        if size_m.max() < LEAST_M:
+            continue
         for foot, sign in enumerate((1.0, -1.0)):
             own = sign * feet.shares[foot] * way
             for at in feet.near(foot, frames):

@@ -29,6 +29,7 @@ from app.rig.skeleton import rest_positions
 from app.rig.sole import SIDES, TIP_PART, roll_point_m, sole_way_m, without_stiff_toes
 
 TRUNK: Final[tuple[str, ...]] = ("spine", "chest", "upperChest")
+LEG: Final = ("UpperLeg", "LowerLeg")
 COLLAR_SHARE: Final = 0.25
 """Share of an arm's rise above the horizontal that the collar bone takes (about a third of an arm's rise is due to the
 shoulder girdle: V. Inman and others, J. Bone Joint Surg. 26, 1944; the collar bone's joint is farther in, so less is
@@ -83,7 +84,10 @@ def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0)
     places_m = {name: source.positions_m[:, 1 + at] for at, name in enumerate(SEGMENTS)}
     scale = _socket_height_m(skeleton) / _clip_socket_height_m(clip.shape)
     hips_m = _hips_path(skeleton, clip, segments["hips"], places_m, scale)
-    world = arms_apart(character, _world_rotations(skeleton, segments, frames), hips_m, float(clip.fps))
+    # Legs reach the floor later; until then their rotations are the captured ones.
+    legs = {skeleton.index(name): segments[name] for name in (f"{side}{part}" for side in SIDES for part in LEG)}
+    turned = _world_rotations(skeleton, segments, frames) | legs
+    world = arms_apart(character, turned, hips_m, float(clip.fps))
     ankles_m = {side: _ankle_path(skeleton, side, clip.shape, segments, places_m, scale) for side in SIDES}
     floor_m = _floor_m(skeleton, segments, ankles_m, float(clip.fps))
     hips_m -= floor_m

@@ -1,4 +1,4 @@
-"""Arms of dancing characters stay out of the body and apart from each other, and others stay as they are."""
+"""Arms of dancing characters stay out of body and thighs and apart from each other, and others stay as they are."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def world_of(character: Character, motion: Motion) -> JointTransforms:
 
 def depths(character: Character, motion: Motion) -> FloatArray:
     joints = world_of(character, motion)
-    world = {at: joints.rotations[:, at] for at, name in enumerate(character.skeleton.names) if "Leg" not in name}
+    world = {at: joints.rotations[:, at] for at, name in enumerate(character.skeleton.names)}
     return depths_m(character, world, motion.hips_m.astype(np.float64))
 
 
@@ -90,6 +90,18 @@ def test_a_forearm_that_would_go_through_the_trunk_goes_around_it(
     turned = [world_of(character, motion).rotations for motion in (before, after)]
     hand = character.skeleton.index("leftHand")
     assert np.allclose(np.abs(quaternion.dot(*(rotations[:, hand] for rotations in turned))), 1.0, atol=1e-5)
+
+
+def test_a_forearm_stays_out_of_a_raised_thigh(character: Character, monkeypatch: pytest.MonkeyPatch) -> None:
+    clip = with_arms(np.full((FRAMES, 1), 1.05), np.full((FRAMES, 1), 1.85), np.full((FRAMES, 1), 0.1), ("left",))
+    rotations = clip.rotations.copy()
+    for name, angles in (("leftUpperLeg", -1.5 * share()), ("leftLowerLeg", 1.5 * share())):
+        rotations[:, SEGMENTS.index(name)] = quaternion.from_rotation_vector(angles * (1.0, 0.0, 0.0))
+    clip = replace(clip, rotations=rotations)
+    before, after = before_and_after(clip, character, monkeypatch)
+    assert depths(character, before)[:, 0].max() > 0.03
+    assert depths(character, after)[:, 0].max() < 0.012
+    assert jumps_rad_s(after) < jumps_rad_s(before) + 1.5
 
 
 def test_forearms_do_not_go_through_each_other(character: Character, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,7 +12,7 @@ from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import AHEAD
 from app.choreography.footfalls import Footfalls
-from app.choreography.legs_apart import depths_m, knees_apart, with_legs_apart
+from app.choreography.legs_apart import depths_m, knees_apart, with_legs_apart, with_swings_apart
 from app.choreography.limbs import bend
 from app.choreography.standing_feet import FootPlant, planted
 from app.rig import quaternion
@@ -66,6 +66,20 @@ def test_a_swinging_leg_passes_a_standing_one() -> None:
     assert angular_jumps(found).max() < 1.5
 
 
+def test_a_foot_swings_around_the_other_while_hips_and_the_standing_foot_stay() -> None:
+    away = np.zeros((FRAMES, 2, 3))
+    away[:, 0, 0], away[:, 0, 1] = -0.27 * bump(), 0.05 * bump()
+    clip = with_ankles(away)
+    stands = (FootPlant(1, 0, FRAMES, place(clip, 1)), FootPlant(0, 0, 15, place(clip, 0)))
+    found = with_swings_apart(clip, stands)
+    assert depths_m(clip).max() > 0.06
+    assert depths_m(found).max() < 0.005
+    assert np.array_equal(found.hips_m, clip.hips_m)
+    assert np.abs(tips_m(found) - tips_m(clip))[:, 1].max() < 1e-4
+    assert np.abs(tips_m(found) - tips_m(clip))[:15, 0].max() < 1e-4
+    assert angular_jumps(found).max() < 1.5
+
+
 def test_a_foot_that_would_land_in_the_other_one_lands_beside_it_and_stands_still() -> None:
     away = np.zeros((FRAMES, 2, 3))
     share = np.clip((np.arange(FRAMES) - 20.0) / 30.0, 0.0, 1.0)
@@ -112,4 +126,5 @@ def test_legs_beside_each_other_stay_as_they_are() -> None:
     assert depths_m(clip).max() == 0.0
     shown, found, _ = apart(clip, ())
     assert found is shown
+    assert with_swings_apart(clip, ()) is clip
     assert knees_apart(clip) is clip
