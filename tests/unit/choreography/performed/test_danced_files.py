@@ -140,7 +140,8 @@ def test_a_seated_player_taps_on_the_beat_and_stays(
     assert np.ptp(played.at_m("hips"), axis=0).max() < 0.01
     taps = 0
     for side in ("left", "right"):
-        assert np.ptp(played.at_m(f"{side}Foot")[:, [0, 2]], axis=0).max() < 0.03
+        # Where the heel is lifted, the ankle goes ahead over the tip, farther on longer feet.
+        assert np.ptp(played.at_m(f"{side}Foot")[:, [0, 2]], axis=0).max() < 0.04
         tip_m, ankle_m = played.tip_m(side), played.at_m(f"{side}Foot")
         up = (tip_m[:, 1] > tip_m[:, 1].min() + 0.005) | (ankle_m[:, 1] > ankle_m[:, 1].min() + 0.005)
         taps += int(np.sum(up[:-1] & ~up[1:]))
