@@ -80,7 +80,7 @@ class Weights:
     chance: float = 0.6
     lately: float = 4.5
     repeats: float = 12.0
-    returns: float = 48.0
+    returns: float = 34.0
     meets: float = 8.0
     take: float = 2.5
     steps: float = 12.0
