@@ -7,12 +7,12 @@ from typing import Final
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
-from scipy.signal import find_peaks
 
 from app.arrays import FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.body_speeds import runs
 from app.choreography.limbs import smooth_share
+from app.choreography.peaks import prominent_peaks
 from app.rig.skeleton import JointTransforms
 
 G_M_S2: Final = 9.81
@@ -61,7 +61,7 @@ def supported(high_m: FloatArray, down_m_s2: FloatArray, fps: float) -> FloatArr
     """
     result = np.zeros(len(high_m))
     falls_g = np.clip(down_m_s2 / G_M_S2, 0.0, 1.0)
-    touches = find_peaks(-high_m, prominence=JUMPS_M)[0]
+    touches = prominent_peaks(-high_m, JUMPS_M)[0]
     for first, last in runs(high_m > 0.0):
         inside = touches[(touches > first) & (touches < last)].tolist()
         for start, stop in pairwise([first, *inside, last]):

@@ -122,15 +122,15 @@ def within_limits(
         if number and calm is clip:
             break
         clip = within_speeds(grounded(calm, on_floor), on_floor)
+    if fastest_rad_s is not None:
+        clip = without_twitches(turns_within_speeds(clip, on_floor, fastest_rad_s), standing, usual)
     for _ in range(ARM_ROUNDS):
         # What is left are arms swung through straight, which snap whenever their hands are calmed.
         calm = _arms_smoothed(clip, FROM * usual_change_rad_s)
         if calm is clip:
             break
         clip = without_twitches(calm, standing, usual)
-    if fastest_rad_s is not None:
-        clip = turns_within_speeds(clip, on_floor, fastest_rad_s)
-    clip = without_twitches(hands_within_changes(clip, usual_change_rad_s), standing, usual)
+    clip = hands_within_changes(clip, usual_change_rad_s)
     return heels_within_changes(clip, on_floor, usual_change_rad_s, ankle_m_s2)
 
 

@@ -22,10 +22,10 @@ from metadata.load import load_expressions
 
 ROOT = Path(__file__).parents[3]
 FILES = [path for room in ("app", "widgets") for path in sorted((ROOT / room).rglob("*.toml"))]
-"""Tables of texts; Japanese details and the command line's help have other formats, and the guides' places are no
-texts.
+"""Tables of texts; Japanese details and the command line's help have other formats, and the guides' places and
+the names of bands in titles are no texts.
 """
-OTHERS = ("japanese.toml", "places.toml", "help.toml", "argparse.toml")
+OTHERS = ("japanese.toml", "places.toml", "help.toml", "argparse.toml", "band_in_title.toml")
 TABLES = {path: tomllib.loads(path.read_text("utf-8")) for path in FILES if path.name not in OTHERS}
 FUNCTIONS = frozenset(
     {"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "OkCancel", "PictureButton", "in_form"}
