@@ -14,15 +14,9 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.accent_grid import AccentGrid, grid_of
-from app.choreography.arrivals import (
-    FPS,
-    arrival_frames,
-    beats_met,
-    best_arrival_map,
-    joint_speed_m_s,
-    smoothed,
-)
+from app.choreography.arrivals import FPS, arrival_frames, beats_met, best_arrival_map, joint_speed_m_s, smoothed
 from app.choreography.clip import MotionClip
+from app.choreography.coming_to_rest import CapturedStands, between_stands, captured_stands
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.dance_flaws import usual_change_rad_s
 from app.choreography.drums_of_dancers import TakeShares, take_shares
@@ -147,6 +141,11 @@ class Choreographer:
     def _idle(self) -> FloatArray:
         """Log odds (S,) against segments whose dancer idles (see `app.choreography.idling.idling_odds`)."""
         return idling_odds(self.model.segments, self._speeds, self._fps)
+
+    @cached_property
+    def _stands_at_rest(self) -> CapturedStands:
+        """Captured poses in which a dance may begin and end."""
+        return captured_stands(self.model.clips, self._stitcher.hinges)
 
     @cached_property
     def _step_s(self) -> float:
@@ -397,4 +396,7 @@ class Choreographer:
         frames = Frames(segments, which, source_s, speeds)
         clip, contacts, seams = self._stitcher.stitched(frames, body, fps)
         hips_m = on_stage(clip.hips_m, float(fps))
-        return _Motion(unbroken(replace(clip, hips_m=hips_m)), hips_m - clip.hips_m, contacts, seams, speeds)
+        moved_m, clip = hips_m - clip.hips_m, replace(clip, hips_m=hips_m)
+        edges = np.searchsorted(times_s, plan.times.times_s[[0, -1]]).tolist()
+        clip, moved_m, contacts = between_stands(clip, moved_m, contacts, edges, self._stands_at_rest)
+        return _Motion(unbroken(clip), moved_m, contacts, seams, speeds)

@@ -132,7 +132,11 @@ def fading_difference(value: FloatArray, slope: FloatArray, times_s: FloatArray,
 
 
 def fading_turn(
-    turn: FloatArray, spin_rad_s: FloatArray, times_s: FloatArray, carried_rad: float | FloatArray = MOST_CARRIED_RAD
+    turn: FloatArray,
+    spin_rad_s: FloatArray,
+    times_s: FloatArray,
+    carried_rad: float | FloatArray = MOST_CARRIED_RAD,
+    fade_s: float = FADE_S,
 ) -> FloatArray:
     """Return a difference of rotations that fades out, (T, B, 3) rotation vectors at T times of B joints.
 
@@ -144,11 +148,13 @@ def fading_turn(
         From 0 on.
     carried_rad : float or (B,) float64
         Greatest angle by which the rate of change may turn each joint.
+    fade_s : float
+        Time in seconds in which the difference fades out.
     """
     far_s = carried_rad / (_CARRIED * np.maximum(np.linalg.norm(spin_rad_s, axis=-1), 1e-9))
-    fades_s = np.clip(far_s, LEAST_FADE_S, FADE_S)
+    fades_s = np.clip(far_s, LEAST_FADE_S, fade_s)
     carried = _fading_slope(np.clip(times_s[:, None] / fades_s, 0.0, 1.0))[..., None] * fades_s[:, None] * spin_rad_s
-    return np.asarray(fading_difference(turn, np.zeros_like(turn), times_s) + carried)
+    return np.asarray(fading_difference(turn, np.zeros_like(turn), times_s, fade_s) + carried)
 
 
 def _fading_slope(u: FloatArray) -> FloatArray:

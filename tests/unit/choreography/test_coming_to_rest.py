@@ -1,0 +1,72 @@
+"""Dances begin and end in a natural stand, and not on a raised leg."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+
+from app.choreography.body import FEET, SEGMENTS
+from app.choreography.coming_to_rest import RESTS_S, between_stands, captured_stands
+from app.choreography.dance import Dance, Manner
+from app.choreography.feet_on_floor import soles_m
+from app.choreography.generate import Choreographer
+from app.choreography.limbs import hinge_ranges
+from tests.support.dances import beaten, model, stepping
+
+FPS = Fraction(30)
+
+
+@cache
+def choreographer() -> Choreographer:
+    return Choreographer(model())
+
+
+def dance(seed: int) -> Dance:
+    return choreographer().dance(beaten(12), Manner(seed=seed), FPS, first_s=-3.0, end_s=9.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_dance_begins_and_ends_still_with_both_soles_on_the_floor(seed: int) -> None:
+    found = dance(seed)
+    joints_m, soles = found.clip.world().positions_m, soles_m(found.clip, found.clip.world())
+    ankles = [1 + SEGMENTS.index(name) for name in FEET]
+    for edge in (slice(0, 15), slice(-15, None)):
+        assert np.abs(soles[edge]).max() < 0.015
+        assert np.abs(np.diff(joints_m[edge], axis=0)).max() * float(FPS) < 0.01
+        between = joints_m[edge][:, ankles].mean(axis=1) - found.clip.hips_m[edge]
+        assert np.linalg.norm(between[:, [0, 2]], axis=1).max() < 0.12
+    assert {stand.foot for stand in found.standing if stand.stop == len(found.clip)} == {0, 1}
+
+
+def test_a_raised_foot_is_put_down_after_the_last_motion_in_half_a_second() -> None:
+    clip = stepping(8)
+    lifted = soles_m(clip, clip.world()).max(axis=(1, 2))
+    stop = 15 + 30 * 3
+    assert lifted[stop - 1] > 0.1
+    shown = replace(clip, rotations=clip.rotations[:stop].repeat([1] * (stop - 1) + [121], axis=0))
+    shown = replace(shown, hips_m=clip.hips_m[: stop + 120])
+    contacts = np.ones((len(shown), 2), bool)
+    contacts[stop - 10 :] = soles_m(clip, clip.world())[stop - 1].max(axis=1) < 0.01
+    moved_m = np.zeros((len(shown), 3))
+    stands = captured_stands([clip], hinge_ranges([clip]))
+    rested, _, standing = between_stands(shown, moved_m, contacts, (0, stop), stands)
+    assert np.array_equal(rested.rotations[:stop], shown.rotations[:stop])
+    assert standing[stop + round(RESTS_S * 60) :].all()
+    assert not standing[stop : stop + 20].all(axis=1).any()
+    soles = soles_m(rested, rested.world())
+    assert soles[stop + round(RESTS_S * 60) :].max() < 0.005
+    # The other foot does not move.
+    (stays,) = np.flatnonzero(contacts[-1])
+    assert np.abs(soles[stop:, stays]).max() < 0.03
+
+
+def test_without_time_there_is_no_stand() -> None:
+    clip = stepping(4)
+    contacts = np.ones((len(clip), 2), bool)
+    stands = captured_stands([clip], hinge_ranges([clip]))
+    rested, *_ = between_stands(clip, np.zeros((len(clip), 3)), contacts, (10, len(clip) - 10), stands)
+    assert np.array_equal(rested.rotations, clip.rotations)
