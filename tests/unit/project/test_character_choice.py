@@ -123,7 +123,7 @@ def test_a_band_is_varied_side_by_side(years: Years) -> None:
     assert len(beside) > 10
     apart_m = [abs(bodies[one].height_m - bodies[other].height_m) for one, other in beside]
     assert np.mean(apart_m) > 0.08
-    assert np.mean([bodies[one].sex != bodies[other].sex for one, other in beside]) > 0.5
+    assert np.mean([bodies[one].sex != bodies[other].sex for one, other in beside]) > 0.4
 
 
 def test_a_newcomer_is_someone_else() -> None:
