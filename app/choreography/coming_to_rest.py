@@ -270,7 +270,7 @@ def _turn_rad(faces_rad: float, turns_rad: FloatArray, stay: BoolArray) -> float
     if not stay.any():
         return faces_rad
     own_rad = float(np.angle(np.exp(1j * turns_rad[stay]).sum()))
-    off_rad = float(np.angle(np.exp(1j * (faces_rad - own_rad))))
+    off_rad = _wrapped(np.asarray(faces_rad - own_rad))
     return own_rad + float(np.clip(off_rad, -TURNED_RAD, TURNED_RAD))
 
 

@@ -32,12 +32,12 @@ WHOLE_TRAVEL_M = 1.5
 HEIGHTS_M, ELDER_YEARS, ELDER_LOSS = (1.55, 1.85), (60.0, 90.0), 0.6
 """Heights between which build grows, and ages between which `ELDER_LOSS` of it goes."""
 BUILD = 4.0
-"""Cost of each share of build that a person lacks for an instrument, where that of twins side by side is about 1/2."""
+"""Cost of each share of build missing for an instrument, where that of twins side by side is about 1/2."""
 NEAR_M, TOGETHER = 1.5, 0.04
 """Distance in metres at which likeness counts by 1/e, and the least share that counts anywhere on the stage."""
 LATER_COST, AGAIN_COST, UNSUITED_COST = 1e3, 1e5, 1e8
-"""Costs of a person for every range of ages that comes before theirs, for every time that they are on the stage
-already, and of one who is too small.
+"""Costs of a character for every range of ages before its own, for every time that it is on the stage already, and of
+one that is too small.
 """
 MOST_EXCHANGES, LEAST_GAIN = 4, 1e-5
 """Greatest number of exchanges for each seat after the first choice, and the least gain of one."""
@@ -157,8 +157,8 @@ def _least(costs: FloatArray) -> int:
 def _exchanged(
     chosen: IndexArray, own: FloatArray, near: FloatArray, alike: FloatArray, again: FloatArray
 ) -> IndexArray:
-    """Return a choice (S,) for S seats in which neither two people changing places nor one who is not on the stage
-    would lower the costs.
+    """Return a choice (S,) for S seats in which neither an exchange of two characters nor one that is not on the stage
+    yet would lower the costs.
 
     Parameters
     ----------
