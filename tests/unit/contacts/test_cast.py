@@ -29,8 +29,9 @@ def test_a_person_plays_within_the_bounds_of_finished_bodies(
 
 
 def test_a_body_that_is_too_small_misses_something(tmp_path: Path) -> None:
-    # Last person not cast for some instrument: children are not cast for the largest ones.
-    id, instrument_id = [(id, name) for id in bundled_people() for name in sorted(not_cast_for(id))][-1]
+    # Last child not cast for some instrument: taller people may miss by less than this coarse compass shows.
+    children = [id for id in bundled_people() if bundled_person(id).original == "child"]
+    id, instrument_id = [(id, name) for id in children for name in sorted(not_cast_for(id))][-1]
     project = compass_project(bundled_maps()[instrument_id], tmp_path / "compass.mid")
     allowed = [faults(project, id) for id in bundled_characters()]
     assert worse(faults(project, id), allowed)
