@@ -16,6 +16,7 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, AnyIntArray, FloatArray, IntArray
 from app.formats.scene import MorphTarget, Scene, SkinnedMesh
+from app.formats.textures import NO_TEXTURES
 
 MOST_LEVELS: Final = 3
 """Greatest number of levels, the full mesh included; see `TRIANGLE_SHARES`."""
@@ -30,6 +31,11 @@ _LEAST_TRIANGLES: Final = 64
 """Least number of triangles of a mesh that gets reduced levels; smaller ones are reeds or finger hooks."""
 _TOUCHING_CM: Final = 1e-4
 """Rounding in centimetres within which vertices count as one."""
+_TOUCHING_UV, _TOUCHING_WEIGHT = 1e-4, 1e-3
+"""The same for texture coordinates and weights of joints."""
+_UVS_COUNT: Final = 0.1
+"""Cosine between normals that counts as much as a distance of 1 between texture coordinates."""
+_SMALLEST: Final = 1e-12
 _AGGRESSIVENESS: Final = 5.0
 """Growth of the error that the reduction allows. With the default of 7, levels deviate up to a third more from the
 mesh.
@@ -76,26 +82,29 @@ def lower_levels(mesh: SkinnedMesh, count: int) -> tuple[SkinnedMesh, ...]:
     -------
     tuple of SkinnedMesh
         Levels from finer to coarser; fewer than ``count`` if a level would hardly have fewer triangles than the one
-        before, as for a mesh with few triangles or with hard edges everywhere.
+        before, as for a mesh with few triangles.
     """
     triangles = _triangles(mesh)
     if len(triangles) < _LEAST_TRIANGLES:
         return ()
     materials = _face_materials(mesh, len(triangles))
     vertices_cm = np.asarray(mesh.vertices_cm, dtype=np.float64)
-    parts = _parts(mesh, vertices_cm, triangles, materials)
+    joined = _joined(mesh, vertices_cm, triangles, materials)
+    parts = _parts(mesh, vertices_cm, joined, triangles, materials)
     levels = list[SkinnedMesh]()
     before = len(triangles)
     for number, share in enumerate(TRIANGLE_SHARES[:count], start=1):
-        kept = np.arange(len(vertices_cm))
+        into = np.arange(len(vertices_cm))
         for part in parts:
-            kept = _collapsed(vertices_cm, part.triangles, round(share * len(part.triangles)), part.is_sewn)[kept]
-        corners = kept[triangles]
-        whole = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
-        if np.count_nonzero(whole) > _WORTH_IT * before:
+            into = _collapsed(vertices_cm, part.triangles, round(share * len(part.triangles)), part.is_sewn)[into]
+        places = into[joined[triangles]]
+        whole = (places != np.roll(places, 1, axis=1)).all(axis=1)
+        left = int(np.count_nonzero(whole))
+        if not 0 < left <= _WORTH_IT * before:
             break
-        before = int(np.count_nonzero(whole))
-        levels.append(_level(mesh, number, corners[whole], materials[whole]))
+        before = left
+        corners = _corners(mesh, joined, into, triangles[whole])
+        levels.append(_level(mesh, number, corners, materials[whole]))
     return tuple(levels)
 
 
@@ -113,6 +122,59 @@ def _face_materials(mesh: SkinnedMesh, count: int) -> IntArray:
     return np.repeat(np.asarray(mesh.face_materials, dtype=np.int64), count // len(mesh.faces))
 
 
+def _joined(mesh: SkinnedMesh, vertices_cm: AnyFloatArray, triangles: IntArray, materials: IntArray) -> IntArray:
+    """Return for each vertex the first one (V,) at the same position that has the same material and moves alike: those
+    of a hard edge, which differ in their normals, and those of a seam of UVs that no texture shows.
+    """
+    textured = np.array([material.textures != NO_TEXTURES for material in mesh.materials])
+    material = np.zeros(len(vertices_cm), np.int64)
+    material[triangles] = materials[:, None]
+    columns = [vertices_cm / _TOUCHING_CM, mesh.joint_indices, mesh.weights / _TOUCHING_WEIGHT, material[:, None]]
+    if mesh.uvs is not None:
+        columns.append(textured[material][:, None] * mesh.uvs / _TOUCHING_UV)
+    if mesh.morphs:
+        # One number for all morphs: equal only for vertices that move alike.
+        moved_cm = np.zeros((len(vertices_cm), 1))
+        for number, morph in enumerate(mesh.morphs, start=1):
+            moved_cm[morph.vertex_indices, 0] += morph.position_deltas_cm @ np.sqrt([number, number + 1, number + 2])
+        columns.append(moved_cm / _TOUCHING_CM)
+    keys = np.concatenate([np.round(np.asarray(one, np.float64)).astype(np.int64) for one in columns], axis=1)
+    _, first, group = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    return np.asarray(first[group.reshape(-1)])
+
+
+def _corners(mesh: SkinnedMesh, joined: IntArray, into: IntArray, triangles: IntArray) -> IntArray:
+    """Return the vertices (T, 3) of a level's triangles: of those joined where a corner is merged into, the one whose
+    normal is most like the triangle's, and then whose UVs are most like the corner's.
+
+    Parameters
+    ----------
+    joined : ndarray of int, shape (V,)
+        First of the vertices that are joined with each.
+    into : ndarray of int, shape (V,)
+        Vertex that each first one is merged into, itself a first one.
+    triangles : ndarray of int, shape (T, 3)
+        Triangles of the mesh whose corners are merged into three places.
+    """
+    old, place = triangles.ravel(), into[joined[triangles]]
+    one, two, three = (np.asarray(mesh.vertices_cm, np.float64)[place[:, corner]] for corner in range(3))
+    across = np.cross(two - one, three - one)
+    across = np.repeat(across / np.maximum(np.linalg.norm(across, axis=1, keepdims=True), _SMALLEST), 3, axis=0)
+    order = np.argsort(joined, kind="stable")
+    starts = np.searchsorted(joined[order], place.ravel())
+    counts = np.bincount(joined, minlength=len(joined))[place.ravel()]
+    best, most = place.ravel().copy(), np.full(len(old), -np.inf)
+    for turn in range(int(counts.max(initial=0))):
+        (rows,) = np.nonzero(turn < counts)
+        other = order[starts[rows] + turn]
+        likeness = np.einsum("vc,vc->v", across[rows], mesh.normals[other])
+        if mesh.uvs is not None:
+            likeness = likeness - _UVS_COUNT * np.linalg.norm(mesh.uvs[old[rows]] - mesh.uvs[other], axis=1)
+        better = likeness > most[rows]
+        best[rows[better]], most[rows[better]] = other[better], likeness[better]
+    return best.reshape(-1, 3)
+
+
 @dataclass(frozen=True, eq=False)
 class _Part:
     """Triangles of a mesh that share no vertex with the other parts.
@@ -120,18 +182,21 @@ class _Part:
     Attributes
     ----------
     triangles : ndarray of int, shape (T, 3)
-        Vertex indices.
+        Indices of joined vertices.
     is_sewn : bool
-        Whether some vertices have the same position as others, along a seam of UVs or a hard edge. If one side of such
-        a seam lost a vertex that the other keeps, there would be a crack.
+        Whether some vertices have the same position as others without being joined, along a seam of a texture. If one
+        side of such a seam lost a vertex that the other keeps, there would be a crack.
     """
 
     triangles: IntArray
     is_sewn: bool
 
 
-def _parts(mesh: SkinnedMesh, vertices_cm: AnyFloatArray, triangles: IntArray, materials: IntArray) -> list[_Part]:
-    """Return the triangles of a mesh in parts: by material, and by whether their connected patch has a seam.
+def _parts(
+    mesh: SkinnedMesh, vertices_cm: AnyFloatArray, joined: IntArray, triangles: IntArray, materials: IntArray
+) -> list[_Part]:
+    """Return the triangles of a mesh with their vertices joined, in parts: by material, and by whether their connected
+    patch has a seam.
 
     Triangles of materials that are not opaque are left out: cards of hair are so near to the head that it would come
     through.
@@ -140,18 +205,21 @@ def _parts(mesh: SkinnedMesh, vertices_cm: AnyFloatArray, triangles: IntArray, m
     from scipy.sparse.csgraph import connected_components
 
     places = np.round(vertices_cm / _TOUCHING_CM).astype(np.int64)
-    _, place, vertices_there = np.unique(places, axis=0, return_inverse=True, return_counts=True)
-    together = vertices_there[place.reshape(-1)] > 1
-    starts, ends = triangles[:, [0, 1]].ravel(), triangles[:, [1, 2]].ravel()
+    used = np.unique(joined)
+    _, place, joined_there = np.unique(places[used], axis=0, return_inverse=True, return_counts=True)
+    together = used[joined_there[place.reshape(-1)] > 1]
+    corners = joined[triangles]
+    starts, ends = corners[:, [0, 1]].ravel(), corners[:, [1, 2]].ravel()
     count = len(vertices_cm)
     links = coo_array((np.ones(len(starts)), (starts, ends)), shape=(count, count))
     patch_of_vertex = connected_components(links, directed=False)[1]
-    patch = patch_of_vertex[triangles[:, 0]]
+    patch = patch_of_vertex[corners[:, 0]]
     first = np.unique(patch, return_index=True, return_inverse=True)[1:]
     sewn = np.isin(patch, patch_of_vertex[together])
     key = 2 * materials[first[0]][first[1]] + sewn
     opaque = [material.alpha_mode == "opaque" for material in mesh.materials]
-    return [_Part(triangles[key == value], bool(value % 2)) for value in np.unique(key) if opaque[value // 2]]
+    whole = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
+    return [_Part(corners[whole & (key == value)], bool(value % 2)) for value in np.unique(key) if opaque[value // 2]]
 
 
 def _collapsed(vertices_cm: AnyFloatArray, triangles: IntArray, target_count: int, is_sewn: bool) -> IntArray:

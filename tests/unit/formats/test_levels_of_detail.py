@@ -14,15 +14,21 @@ import trimesh
 from pygltflib import GLTF2
 from scipy.spatial import cKDTree
 
+from app.export.character import skinned_mesh
 from app.formats.fbx.foreign import read_foreign_fbx
 from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import write_scene
 from app.formats.gltf.write import write_glb
+from app.formats.joined_meshes import join_meshes
 from app.formats.levels_of_detail import MOST_LEVELS, TRIANGLE_SHARES, lower_levels, with_levels
 from app.formats.scene import Material, MorphTarget, Scene, SkinnedMesh
+from app.formats.textures import MaterialTextures, TextureUse, texture_of
 from app.formats.usd import LEVELS, write_usd
 from app.formats.usd_package import usd_installed
+from app.performance.bodies import model_of
+from instrument_maps.load import bundled_maps
 from tests.support import readers
+from tests.support.textured import encoded, letter
 from tests.unit.formats import scenes
 
 COLUMNS, ROWS = 48, 24
@@ -88,8 +94,10 @@ def test_a_vertex_keeps_all_that_belongs_to_it(globe: SkinnedMesh) -> None:
         assert len(level.morphs[0].vertex_indices) > 0
 
 
-def test_no_triangle_reaches_over_a_seam_or_into_another_material(globe: SkinnedMesh) -> None:
-    for level in lower_levels(globe, MOST_LEVELS - 1):
+def test_no_triangle_reaches_over_a_seam_of_a_texture_or_into_another_material(globe: SkinnedMesh) -> None:
+    picture = MaterialTextures(color=TextureUse(texture_of("letter", encoded(letter()))))
+    painted = replace(globe, materials=tuple(replace(one, textures=picture) for one in globe.materials))
+    for level in lower_levels(painted, MOST_LEVELS - 1):
         assert level.uvs is not None
         assert level.face_materials is not None
         spans = np.ptp(level.uvs[level.faces], axis=1)
@@ -100,6 +108,59 @@ def test_no_triangle_reaches_over_a_seam_or_into_another_material(globe: Skinned
         south = np.array([material.name == "south" for material in level.materials])[level.face_materials]
         assert (middle[south] < 1.0).all()
         assert (middle[~south] > -1.0).all()
+
+
+def test_hard_edges_stay_hard_in_levels_without_cracks(globe: SkinnedMesh) -> None:
+    box = trimesh.creation.box((4.0, 6.0, 8.0)).subdivide().subdivide().subdivide()
+    corners = box.faces.ravel()
+    count = len(corners)
+    hard = replace(
+        globe,
+        vertices_cm=np.asarray(box.vertices)[corners],
+        faces=np.arange(count).reshape(-1, 3),
+        normals=np.repeat(box.face_normals, 3, axis=0),
+        uvs=np.random.default_rng(0).uniform(size=(count, 2)),
+        materials=globe.materials[:1],
+        face_materials=None,
+        joint_indices=np.zeros((count, 1), dtype=np.int64),
+        weights=np.ones((count, 1)),
+        morphs=(),
+    )
+    for level, share in zip(lower_levels(hard, MOST_LEVELS - 1), TRIANGLE_SHARES, strict=True):
+        assert len(level.faces) <= 1.05 * share * len(hard.faces)
+        closed = trimesh.Trimesh(level.vertices_cm, level.faces, process=False)
+        closed.merge_vertices(merge_tex=True, merge_norm=True)
+        _, sides = np.unique(np.sort(closed.edges, axis=1), axis=0, return_counts=True)
+        assert (sides % 2 == 0).all(), "there is a crack"
+        assert closed.volume == pytest.approx(4.0 * 6.0 * 8.0, rel=0.02)
+        across = np.cross(*(np.diff(level.vertices_cm[level.faces], axis=1).transpose(1, 0, 2)))
+        area = np.linalg.norm(across, axis=1)
+        across /= np.maximum(area, 1e-9)[:, None]
+        flat = np.einsum("fc,fkc->fk", across, level.normals[level.faces]).min(axis=1) > 0.999
+        assert area[flat].sum() > 0.9 * area.sum()
+
+
+def test_what_moves_with_another_bone_is_not_joined(globe: SkinnedMesh) -> None:
+    apart = np.where(np.arange(len(globe.vertices_cm)) < len(globe.vertices_cm) // 2, 0, 1)[:, None]
+    twice = replace(globe, joint_indices=apart, weights=np.ones((len(apart), 1)))
+    for level in lower_levels(twice, MOST_LEVELS - 1):
+        every = np.concatenate([twice.vertices_cm, twice.joint_indices], axis=1)
+        own = np.concatenate([level.vertices_cm, level.joint_indices], axis=1)
+        assert cKDTree(every).query(own)[0].max() == 0
+
+
+@pytest.mark.parametrize("id", ["flute", "sax_alto_Eb", "bassoon"])
+def test_instruments_of_many_hard_edges_have_all_levels(id: str) -> None:
+    instrument = bundled_maps()[id]
+    model = model_of(instrument)
+    binds = np.tile(np.eye(4), (len(model.node_names), 1, 1))
+    joined = join_meshes([skinned_mesh(one, one.name, one.joints, one.weights, binds) for one in model.meshes], id)
+    levels = lower_levels(joined, MOST_LEVELS - 1)
+    assert [len(level.faces) / len(joined.faces) for level in levels] == pytest.approx(TRIANGLE_SHARES, abs=0.03)
+    for level in levels:
+        surface = trimesh.Trimesh(level.vertices_cm, level.faces, process=False)
+        points, _ = trimesh.sample.sample_surface(surface, 100_000, seed=0)
+        assert np.percentile(cKDTree(points).query(joined.vertices_cm)[0], 99.0) < 0.5
 
 
 def test_polygons_become_triangles_of_their_material(globe: SkinnedMesh) -> None:
