@@ -217,7 +217,8 @@ class Choreographer:
         clip, fastest = wrists_within(out_of_body(clip)), self._shortest.fastest_rad_s(manner)
         shown, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
         clip, standing = with_legs_apart(clip, shown, falls, manner.weight)
-        clip = within_limits(clip, standing, self._usual_accelerations(fps), usual, fastest)
+        # Knees that swing from side to side turn their thighs suddenly, so that they are turned before the limits too.
+        clip = within_limits(hinged(clip), standing, self._usual_accelerations(fps), usual, fastest)
         # Legs slowed down in the air may enter each other again.
         clip = hinged(with_swings_apart(clip, standing))
         return Dance(clip, first_s, plan.steps, speeds, seams, standing)

@@ -26,7 +26,7 @@ from app.choreography.hands_out_of_body import ELBOW
 from app.choreography.heel_changes import heels_within_changes
 from app.choreography.joint_changes import feet_within_changes, hands_within_changes, within_changes
 from app.choreography.joint_speeds import turns_within_speeds, within_speeds
-from app.choreography.limbs import bend
+from app.choreography.limbs import bend, smooth_share
 from app.choreography.resample import resampled
 from app.choreography.standing_feet import FootPlant, planted_frames
 from app.rig import quaternion
@@ -46,6 +46,9 @@ ARM_ROUNDS: Final = 8
 """Greatest number of times that arms which still snap are smoothed and their hands calmed."""
 PASSES: Final = 12
 """Greatest number of alternations between two points, since bending one path moves the other slightly."""
+FOLDED: Final = (0.15, 0.3)
+"""Distance of a wrist or ankle from shoulder or hip, relative to the limb's length, up to which it stays where it is,
+and from which it is moved freely: the whole limb would turn with a wrist at the shoulder."""
 _ROOM: Final = 0.93
 """Share of the bound to which paths are corrected, leaving a margin for later steps."""
 FROM: Final = 0.9
@@ -207,6 +210,9 @@ def _calm(
         return False
     around = 2 * round(AROUND_S * fps) + 1
     end_at = 1 + SEGMENTS.index(limb[-1])
+    length_m = sum(float(np.linalg.norm(clip.shape.offsets_m[SEGMENTS.index(name)])) for name in limb[2:])
+    from_root_m = np.linalg.norm(points[:, 0] - world.positions_m[:, 1 + SEGMENTS.index(limb[1])], axis=-1)
+    unfolded = smooth_share(from_root_m / length_m, FOLDED)
     changed = False
     for start, stop in runs(maximum_filter1d(np.pad(sudden, 1), around)):
         here = slice(start, stop)
@@ -215,6 +221,8 @@ def _calm(
         held[start - beside.start : stop - beside.start] = False
         inside = slice(start - beside.start, stop - beside.start)
         joint, tip = _calm_points(points[beside, 0], points[beside, 1], _ROOM * most, held, planted[beside])
+        way = (1.0 - unfolded[beside, None]) * (points[beside, 0] - joint)
+        joint, tip = joint + way, tip + way
         if _suddenness(np.stack([joint, tip], axis=1), most) >= _suddenness(points[beside], most):
             # Between two stands in quick succession a calmer path may not exist.
             continue

@@ -126,6 +126,20 @@ def test_a_hand_is_calm_also_after_its_arm_was_slowed_down() -> None:
     assert (accelerations(found, "leftHand").max(axis=0) <= MOST * usual.hands * height_m(clip)).all()
 
 
+def test_an_arm_folded_to_the_shoulder_does_not_turn_with_its_wrist() -> None:
+    """A wrist 3 cm from the shoulder that is moved as suddenly as it may would turn the whole arm."""
+    frames, clip = np.arange(90), still(90, int(FPS))
+    elbow_rad, shoulder_rad = 3.05 - 0.7 * (1.0 + np.tanh((frames - 48) / 6.0)), 0.6 * np.tanh((frames - 45) / 14.0)
+    for part, turned, axis in (
+        ("leftLowerArm", elbow_rad, (0.0, -1.0, 0.0)),
+        ("leftUpperArm", shoulder_rad, (1.0, 0.0, 0.0)),
+    ):
+        turns = Rotation.from_rotvec(turned[:, None] * np.array(axis))
+        clip.rotations[:, SEGMENTS.index(part)] = turns.as_quat()
+    usual = UsualAccelerations(np.full(2, 1e6), 0.3 * accelerations(clip, "leftHand").max(axis=0) / height_m(clip))
+    assert angular_jumps(without_twitches(clip, (), usual)).max() < 1.1 * angular_jumps(clip).max()
+
+
 def test_what_is_as_sudden_as_the_capture_is_left_as_it_is() -> None:
     usual = usual_accelerations([CLIP], FPS)
     assert without_twitches(CLIP, (), usual) is CLIP
