@@ -9,6 +9,8 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
+
 from app.cli.commands import add_actions
 from app.cli.options import bounded_number
 from app.cli.speech import ENGLISH, Speech, said, spoken
@@ -56,6 +58,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     make.add_argument("--like", required=True, metavar="ID")
     make.add_argument("--height", type=_height, metavar="METRES")
     make.add_argument("--age", type=_years, metavar="YEARS")
+    make.add_argument("--keep-looks", action="store_true")
     make.add_argument("--muscle", type=_percent, metavar="PERCENT")
     make.add_argument("--weight", type=_percent, metavar="PERCENT")
     make.set_defaults(run=make_person)
@@ -212,6 +215,8 @@ def make_person(arguments: argparse.Namespace) -> None:
         measures[name] = None if given is None else given / 100.0
     said_so = {name: value for name, value in measures.items() if value is not None}
     person = like(arguments.like, said_so)
+    if arguments.keep_looks:
+        person = msgspec.structs.replace(person, looks_years=0.0)
     id = add_person(person, arguments.name)
     say(id)
     strained = strained_on(character_named(id), person)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
+from app.arrays import SingleArray
 from app.formats.textures import PNG_MAGIC, MaterialTextures, Texture, TextureUse, texture_of
 
 if TYPE_CHECKING:
@@ -234,6 +235,58 @@ def opacity(texture: Texture, factor: float) -> Texture:
     levels = np.clip(np.round(np.arange(256) * factor), 0, 255).astype(int).tolist()
     alpha = image.convert("RGBA").getchannel("A").point(levels)
     return texture_of(f"{texture.name}_opacity", _png(_merged("LA", [alpha, alpha])))
+
+
+@lru_cache(maxsize=32)
+def changed_by_stages(texture: Texture, stages: tuple[Texture, ...], before: float, after: float) -> Texture:
+    """Return a texture changed in the way that textures of equal size and layout change from one stage to another; if
+    it is one of them, the stage itself.
+
+    Parameters
+    ----------
+    stages : tuple of Texture
+        At least two textures, such as those of a young, a middle-aged and an old face, between which is interpolated.
+    before, after : float
+        Stages of the given texture and of the result: 0 for the first of ``stages``, 1 for the second and so on; more
+        than the last for what comes after it.
+    """
+    if before == after:
+        return texture
+    from PIL import Image
+
+    changed = _between_stages(stages, after)
+    if texture != stages[min(int(before), len(stages) - 1)]:
+        # Of another skin only lines and shadows are changed: it has other colours, and its eyes and lips are elsewhere
+        # by a pixel or two.
+        grey = np.maximum(changed, 1.0).mean(axis=2) / np.maximum(_between_stages(stages, before), 1.0).mean(axis=2)
+        changed = _stage(texture) * np.clip(grey, *_MOST_CHANGE)[..., None]
+    image = Image.fromarray(np.clip(np.round(changed), 0.0, 255.0).astype(np.uint8))
+    return _encoded(texture, f"{texture.name}_{after:g}", image)
+
+
+_MOST_CHANGE: Final = (0.4, 1.1)
+"""Least and greatest factor by which a texture that is not one of the stages is changed."""
+
+
+def _between_stages(stages: tuple[Texture, ...], place: float) -> SingleArray:
+    """Return the colours (height, width, 3) of a stage, interpolated; beyond the last stage lines grow deeper as before
+    it, and colours stay.
+    """
+    last = len(stages) - 1
+    first = min(int(place), last - 1)
+    below, above = (_stage(one).astype(np.float32) for one in stages[first : first + 2])
+    within: SingleArray = below + np.float32(min(place, last) - first) * (above - below)
+    within += np.float32(max(place - last, 0.0)) * (above - below).mean(axis=2, keepdims=True)
+    return within
+
+
+@lru_cache(maxsize=4)
+def _stage(texture: Texture) -> Pixels:
+    """Return the colours (height, width, 3) of one of this program's own textures."""
+    pixels = decoded(texture, MOST_SIDE_PX)
+    if pixels is None:
+        raise ValueError(f"the texture {texture.name} cannot be read")
+    return pixels[..., :3]
 
 
 def with_opacity(color: Texture, mask: Texture) -> Texture:

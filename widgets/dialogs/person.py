@@ -16,10 +16,11 @@ from app.performance.bodies import strained_on
 from app.rig.characters.character_library import MOST_TITLE, character_named
 from app.rig.people.body_shapes import age_of, years_of
 from app.rig.people.bundled_people import bundled_people, like, person_of
+from app.rig.people.looks_by_age import YOUNG_YEARS
 from app.rig.people.person import Person, ranges
 from instrument_maps.load import bundled_maps
 from widgets.common.character_picture import Crop, picture, seen
-from widgets.common.controls import Caption, OkCancel, Retranslated, named, wrapped
+from widgets.common.controls import Caption, Check, OkCancel, Retranslated, named, wrapped
 from widgets.common.help import with_help
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_form, in_row
@@ -80,6 +81,10 @@ class PersonDialog(Retranslated, QDialog):
         self.texted(self.sliders["muscle"], words=("person_dialog.muscle", "%", "person_dialog.muscle_tip"))
         self.texted(self.sliders["weight"], words=("person_dialog.weight", "%", "person_dialog.weight_tip"))
         self._pictures = {crop: named(Label(), f"person_{crop}") for crop in PICTURES_PX}
+        self._looks_years = self.person.looks_years or YOUNG_YEARS
+        self.looks_age = named(Check("person_dialog.looks_age"), "person_looks_age")
+        self.texted(self.looks_age, tip="person_dialog.looks_age_tip")
+        self.looks_age.clicked.connect(self._follow_age)
         self._explained = wrapped(Caption("person_dialog.hands_and_arms_stay"))
         self._buttons = OkCancel("person_dialog.keep", "person_dialog.cancel")
         self._soon = QTimer(self, singleShot=True, interval=SOON_MS)
@@ -107,7 +112,9 @@ class PersonDialog(Retranslated, QDialog):
         for crop, size in PICTURES_PX.items():
             self._pictures[crop].setFixedSize(size)
             self._pictures[crop].setAlignment(Qt.AlignmentFlag.AlignCenter)
-        fields = in_column(in_form(rows), *self.sliders.values(), self._explained, self._strained, STRETCH)
+        fields = in_column(
+            in_form(rows), *self.sliders.values(), self.looks_age, self._explained, self._strained, STRETCH
+        )
         in_column(
             in_row(in_column(*self._pictures.values()), (fields, 1)),
             with_help(self._buttons),
@@ -118,7 +125,13 @@ class PersonDialog(Retranslated, QDialog):
 
     def _be_like(self, id: str) -> None:
         self.person = like(id, {})
+        self._looks_years = self.person.looks_years
         self._show()
+
+    def _follow_age(self, follows: bool) -> None:
+        """Let hair and skin change with the age, or keep them as given."""
+        self.person = msgspec.structs.replace(self.person, looks_years=self._looks_years if follows else 0.0)
+        self._change()
 
     def _set(self, name: str, value: float) -> None:
         changed = {"height_m": value, "age": age_of(value)}.get(name, value / 100.0)
@@ -134,6 +147,7 @@ class PersonDialog(Retranslated, QDialog):
         self.sliders["age"].set_range(*years)
         self.sliders["height_m"].show_value(phenotype.height_m)
         self.sliders["age"].show_value(round(years_of(phenotype.age)))
+        self.looks_age.setChecked(self.person.looks_years > 0.0)
         for name in ("muscle", "weight"):
             self.sliders[name].show_value(round(100.0 * getattr(phenotype, name)))
         self._change()
@@ -142,7 +156,9 @@ class PersonDialog(Retranslated, QDialog):
         """Redraw the person after a short delay, and later show which instruments it does not play."""
         self._strained_on = None
         self._say_strained()
-        self._soon.start()
+        if not self._soon.isActive():
+            # A drag that goes on must not put the picture off.
+            self._soon.start()
         self._later.start()
 
     def _try_instruments(self) -> None:

@@ -9,17 +9,22 @@ from functools import cache, lru_cache
 from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
+from typing import Final
 
 import msgspec
 
+from app.formats.images import changed_by_stages
 from app.formats.textures import Texture, texture_of
 from app.rig.characters.load_character import load_character
 from app.rig.model import Character
 from app.rig.people.body_shapes import Phenotype, body_m, body_shapes, years_of
-from app.rig.people.make_person import Original, original_of, person_character
+from app.rig.people.looks_by_age import colors_by_age, skin_change, skin_stages
+from app.rig.people.make_person import SKIN_MATERIAL, Original, original_of, person_character
 from app.rig.people.moved_joints import arm_after_m
 from app.rig.people.person import Person, PersonName, hair_styles, originals, read_person, skins
 
+SKIN_STEPS: Final = 8
+"""Number of steps between one stage of skin by age and the next."""
 PEOPLE_VERSION = 1
 """Version of the method that makes bodies from phenotypes; grips for people of another version are fitted again."""
 
@@ -49,10 +54,14 @@ def our_years(id: str) -> float:
 
 
 def like(id: str, measures: Mapping[str, float]) -> Person:
-    """Return a new person for the user: a copy of a bundled one with some measures of the phenotype changed."""
+    """Return a new person for the user: a copy of a bundled one with some measures of the phenotype changed, whose hair
+    and skin follow its age.
+    """
     person = bundled_person(id)
     phenotype = msgspec.structs.replace(person.phenotype, **measures)
-    return msgspec.structs.replace(person, name=PersonName("", ""), not_cast_for=[], phenotype=phenotype)
+    return msgspec.structs.replace(
+        person, name=PersonName("", ""), not_cast_for=[], phenotype=phenotype, looks_years=our_years(id)
+    )
 
 
 def hands_id(id: str) -> str:
@@ -79,9 +88,9 @@ def person_of(id: str, person: Person, named: Callable[[str], Character]) -> Cha
     if person.hair:
         worn["hair"] = _style(person.hair)
     original = finished_body(finished_character(person.original, named), person.original)
-    skin = _skin(person.skin) if person.skin else None
     whole = whole_phenotype(person)
-    made = person_character(id, original, body_shapes(), whole, person.colors, worn, skin)
+    skin = _skin_by_age(person, original.character)
+    made = person_character(id, original, body_shapes(), whole, colors_by_age(person), worn, skin)
     return replace(made, made_of=_made_of(whole))
 
 
@@ -147,6 +156,25 @@ def _style(name: str) -> Original:
     """Return a hairstyle, prepared on the bundled body that it was fitted to."""
     path = hair_styles()[name]
     return original_of(load_character(path), body_shapes(), originals()[path.parent.name])
+
+
+def _skin_by_age(person: Person, original: Character) -> Texture | None:
+    """Return the texture of a person's skin at its age; None for the bundled body's own."""
+    before, after = skin_change(person)
+    # In steps, since a texture takes a moment to make while a slider moves.
+    after = before + round((after - before) * SKIN_STEPS) / SKIN_STEPS
+    if after == before:
+        return _skin(person.skin) if person.skin else None
+    older = skin_stages(person)[1:]
+    young = _own_skin(original)
+    given = _skin(person.skin) if person.skin else young
+    return changed_by_stages(given, (young, *map(_skin, older)), before, after)
+
+
+def _own_skin(original: Character) -> Texture:
+    """Return the texture of a bundled body's skin."""
+    materials = (material for mesh in original.meshes for material in mesh.materials)
+    return next(one.textures.color.texture for one in materials if one.name == SKIN_MATERIAL and one.textures.color)
 
 
 @lru_cache(maxsize=16)

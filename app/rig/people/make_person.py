@@ -6,6 +6,7 @@ body's hands is valid for every person made from it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
@@ -14,6 +15,7 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray, IndexArray
+from app.formats.images import tinted
 from app.formats.scene import Material
 from app.formats.textures import Texture
 from app.identity_cache import IdentityCache
@@ -33,6 +35,10 @@ SKIN = "body"
 SKIN_MATERIAL: Final = "skin"
 NEUTRAL_MEANS: Final[Mapping[str, float]] = {"skin": 0.70, "hair": 0.32, "brows": 0.32, "iris": 0.35, "shirt": 0.80}
 """Means of the neutral textures of materials, by which a colour is divided to tint them (resources/build/README.md)."""
+
+
+LIGHTER_STEPS: Final = 4
+"""Number of textures that are made for colours from one to two times as light as a neutral texture."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -355,11 +361,19 @@ def _recolored(mesh: Mesh, colors: Mapping[str, Color], skin: Texture | None) ->
         if color is None:
             return material
         if textures.color is not None:
-            mean = NEUTRAL_MEANS.get(material.name, 1.0)
-            color = (min(1.0, color[0] / mean), min(1.0, color[1] / mean), min(1.0, color[2] / mean))
+            red, green, blue = (part / NEUTRAL_MEANS.get(material.name, 1.0) for part in color)
+            if (gain := _gain(max(red, green, blue))) > 1.0:
+                lighter = tinted(textures.color.texture, (gain, gain, gain), solid=False)
+                material = replace(material, textures=replace(textures, color=replace(textures.color, texture=lighter)))
+            color = (red / gain, green / gain, blue / gain)
         return replace(material, base_color=(*color, material.base_color[3]))
 
     return replace(mesh, materials=tuple(own(material) for material in mesh.materials))
+
+
+def _gain(factor: float) -> float:
+    """Return by what a texture is to be lighter for a factor of its colour to be 1 at most, in few different steps."""
+    return max(1.0, math.ceil(factor * LIGHTER_STEPS - 1e-6) / LIGHTER_STEPS)
 
 
 def _standing(character: Character, joints: MovedJoints) -> Character:

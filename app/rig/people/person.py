@@ -7,6 +7,7 @@ from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
+from typing import Final
 
 import msgspec
 
@@ -15,6 +16,9 @@ from app.formats.toml import read_toml, shaped
 from app.rig.people.body_shapes import Phenotype, age_of
 
 Color = tuple[float, float, float]
+
+MOST_YEARS: Final = 120.0
+"""Greatest age in years that the file of a person may mention."""
 
 
 class PersonName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -39,6 +43,8 @@ class OriginalBody(Phenotype, frozen=True, forbid_unknown_fields=True, omit_defa
         Distance between its hip joints; 0 for the distance by the phenotype.
     heights_m, years : (float, float)
         Ranges of height and age of people made from it, whose hands are as large as its own.
+    aged_skins : dict of str to float
+        Textures of older skin, and the ages in years at which faces look like them, in ascending order.
     """
 
     name: PersonName = PersonName("", "")
@@ -47,6 +53,7 @@ class OriginalBody(Phenotype, frozen=True, forbid_unknown_fields=True, omit_defa
     hip_joints_m: float = 0.0
     heights_m: tuple[float, float] = (1.4, 2.1)
     years: tuple[float, float] = (15.0, 90.0)
+    aged_skins: dict[str, float] = {}
 
 
 class Person(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -66,6 +73,9 @@ class Person(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defau
         Hairstyle, a file of ``resources/characters/hair``; empty for the bundled body's hair.
     skin : str
         Texture of the skin in ``resources/characters/skin``; empty for the bundled body's.
+    looks_years : float
+        Age in years at which colours of hair and brows and the skin are as given; at another age they change with it.
+        0 if they are as given at any age.
     not_cast_for : list of str
         Ids of instruments for which the body is too small.
     carriages : dict of str to (float, float, float)
@@ -80,6 +90,7 @@ class Person(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defau
     worn: dict[str, str] = {}
     hair: str = ""
     skin: str = ""
+    looks_years: float = 0.0
     not_cast_for: list[str] = []
     carriages: dict[str, tuple[float, float, float]] = {}
 
@@ -142,6 +153,7 @@ def _bounded(person: Person) -> list[tuple[str, float, float, float]]:
     (least_m, most_m), (youngest, oldest) = original.heights_m, map(age_of, original.years)
     found = [("phenotype.height_m", least_m, phenotype.height_m, most_m)]
     found.append(("phenotype.age", youngest, phenotype.age, oldest))
+    found.append(("looks_years", 0.0, person.looks_years, MOST_YEARS))
     names = ("sex", "muscle", "weight", "proportions", "cup", "firmness", "african", "asian", "caucasian")
     found += [(f"phenotype.{name}", 0.0, getattr(phenotype, name), 1.0) for name in names]
     found += [(f"phenotype.local.{name}", -1.0, value, 1.0) for name, value in phenotype.local.items()]

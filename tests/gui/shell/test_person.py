@@ -8,17 +8,19 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QListWidget, QPushButton
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QListWidget, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.rig.characters.character_library import FOLDER_VARIABLE, character_library, reload_characters
 from app.rig.model import Character
 from app.rig.people.body_shapes import years_of
-from app.rig.people.bundled_people import bundled_person
+from app.rig.people.bundled_people import bundled_person, our_years
 from app.rig.people.person import Person
+from app.rig.skinning import mesh_named
 from app.shell.app import Program
 from tests.gui.shell.conftest import trigger
 from tests.support.windows import PATIENCE_MS, child
+from widgets.common.character_picture import seen
 from widgets.common.number_slider import NumberSlider
 from widgets.dialogs.characters import CharactersDialog
 from widgets.dialogs.person import PersonDialog
@@ -71,6 +73,47 @@ def test_a_person_is_made_and_changed(program: Program, qtbot: QtBot) -> None:
     (entry,) = character_library().own.values()
     assert entry.person is not None
     assert entry.person.phenotype.height_m == 1.8
+
+
+def test_age_shows_while_the_slider_is_dragged(program: Program, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = []
+    monkeypatch.setattr("widgets.dialogs.person.seen", lambda character: drawn.append(character) or seen(character))
+    trigger(program, "application.characters")
+    child(child(program.window, CharactersDialog, "characters"), QPushButton, "characters_make").click()
+    dialog = child(program.window, PersonDialog, "person")
+    qtbot.waitUntil(lambda: bool(drawn) and not dialog._drawing, timeout=PATIENCE_MS)
+    young, count = hair_of(drawn[-1]), len(drawn)
+    age = child(dialog, NumberSlider, "person_age")
+    for step in range(1000):
+        age.changed.emit(40.0 + 0.04 * step, object())
+        QTest.qWait(10)
+        if len(drawn) > count:
+            break
+    assert len(drawn) > count, "drawn before the drag ends"
+    slide(dialog, "age", "88")
+    qtbot.waitUntil(lambda: hair_of(drawn[-1]) > 10.0 * young, timeout=PATIENCE_MS)
+    keep = child(dialog, QCheckBox, "person_looks_age")
+    assert keep.isChecked()
+    keep.click()
+    qtbot.waitUntil(lambda: hair_of(drawn[-1]) == young, timeout=PATIENCE_MS)
+    assert dialog.person.looks_years == 0.0
+    keep.click()
+    assert dialog.person.looks_years == pytest.approx(our_years("cast_aiko"))
+    keep.click()
+    child(dialog, QLineEdit, "person_title").setText("Dyed")
+    dialog._buttons.ok.click()
+    (entry,) = character_library().own.values()
+    assert entry.person is not None
+    assert entry.person.looks_years == 0.0
+    child(child(program.window, CharactersDialog, "characters"), QPushButton, "characters_edit").click()
+    (again,) = (one for one in program.window.findChildren(PersonDialog) if one.isVisible())
+    assert not child(again, QCheckBox, "person_looks_age").isChecked()
+    again.reject()
+
+
+def hair_of(character: Character) -> float:
+    """Return the mean of the linear colour factors of a character's hair."""
+    return sum(mesh_named(character, "hair").materials[0].base_color[:3]) / 3.0
 
 
 def test_what_a_person_is_too_small_for_is_said(

@@ -15,6 +15,7 @@ from app.rig.characters import character_library, figure_build, load_character
 from app.rig.characters.character_library import FOLDER_VARIABLE, characters
 from app.rig.characters.joint_mapping import JointMapping, map_joints
 from app.rig.figure import Figure
+from app.rig.people.looks_by_age import colors_by_age
 from instrument_maps.library import find_map, model_path
 from tests.support.wardrobe import wardrobe_in, write_outfit
 
@@ -143,6 +144,16 @@ def test_a_person_is_made_and_ours_are_named(folder: Path, capsys: pytest.Captur
     assert main(["characters"]) == 0
     assert "Hina / 陽菜" in capsys.readouterr().out
     assert main(["characters", "make", "Tom", "--like", "tom"]) == 2
+
+
+def test_a_person_s_hair_follows_the_age_or_is_kept(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name, further in (("Old", []), ("Dyed", ["--keep-looks"])):
+        assert main(["characters", "make", name, "--like", "cast_thomas", "--age", "80", *further]) == 0
+    old, dyed = (character_library.character_library().own[id].person for id in ("old", "dyed"))
+    assert old is not None
+    assert dyed is not None
+    assert colors_by_age(dyed)["hair"] == dyed.colors["hair"] == old.colors["hair"]
+    assert min(colors_by_age(old)["hair"]) > 0.35
 
 
 @pytest.mark.parametrize(
