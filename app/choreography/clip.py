@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
-
-import numpy as np
 
 from app.arrays import FloatArray
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS, body_skeleton
 from app.formats.bvh.clip import BvhClip
 from app.formats.bvh.write import write_bvh
+from app.rig import quaternion
 from app.rig.model import Skeleton
-from app.rig.skeleton import JointTransforms, forward
+from app.rig.skeleton import JointTransforms, forward_by_joint
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,11 +80,11 @@ class MotionClip:
         rotations = self.rotations[:, swapped] * (1.0, -1.0, -1.0, 1.0)
         return replace(self, hips_m=self.hips_m * (-1.0, 1.0, 1.0), rotations=rotations)
 
-    def world(self) -> JointTransforms:
-        """World transforms: joint 0 is the root on the floor, joint ``1 + n`` segment ``n``."""
-        still = np.zeros((len(self), 1, 4))
-        still[..., 3] = 1.0
-        return forward(self.shape.skeleton, np.concatenate([still, self.rotations], axis=1), self.hips_m)
+    def world(self, joints: Iterable[int] | None = None) -> JointTransforms:
+        """World transforms: joint 0 is the root on the floor, joint ``1 + n`` segment ``n``; all joints, or those given
+        with their ancestors."""
+        turns = [quaternion.repeated(quaternion.IDENTITY, len(self)), *self.rotations.transpose(1, 0, 2)]
+        return forward_by_joint(self.shape.skeleton, turns, self.hips_m, joints)
 
 
 def write_motion(path: str | os.PathLike[str], clip: MotionClip) -> None:

@@ -30,10 +30,13 @@ def tips_m(clip: MotionClip, world: JointTransforms | None = None) -> FloatArray
     """World positions (F, 2, 3) of the tips of the left and the right foot; ``world`` are the clip's transforms, if
     known.
     """
-    world = clip.world() if world is None else world
     joints = [1 + SEGMENTS.index(foot) for foot in FEET]
-    ends = clip.shape.ends_m[[ENDS.index(foot) for foot in FEET]]
-    return world.positions_m[:, joints] + quaternion.rotate(world.rotations[:, joints], ends)
+    world = clip.world(joints) if world is None else world
+    tips = quaternion.planes(len(clip), 2, 3)
+    for foot, joint in enumerate(joints):
+        ankle_m, turned = world.of(joint)
+        np.add(ankle_m, quaternion.rotate(turned, clip.shape.ends_m[ENDS.index(FEET[foot])]), out=tips[:, foot])
+    return tips
 
 
 def foot_contacts(clip: MotionClip) -> BoolArray:

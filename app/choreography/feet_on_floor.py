@@ -58,11 +58,11 @@ def legs_to(
         Turn feet that are beyond the range of their ankles back into it; softly, so that those turned back before
         would be turned again.
     """
-    rotations = clip.rotations.copy()
+    rotations = clip.rotations.copy(order="K")
     for foot, side in enumerate(SIDES):
         limb = ("hips", *(f"{side}{part}" for part in LEG))
         at, end = 1 + SEGMENTS.index(FEET[foot]), clip.shape.ends_m[ENDS.index(FEET[foot])]
-        world = replace(world, rotations=world.rotations.copy(), positions_m=world.positions_m.copy())
+        world = replace(world, rotations=world.rotations.copy(order="K"), positions_m=world.positions_m.copy(order="K"))
         tip = _over_floor(tips[:, foot], rest_tip_m(clip, foot), planted[:, foot], float(clip.fps))
         bend(clip, world, limb, tip - quaternion.rotate(world.rotations[:, at], end), AHEAD, rotations)
         _move(clip, world, limb, rotations)
@@ -130,7 +130,7 @@ def _over_floor(tip: FloatArray, rest_m: float, planted: BoolArray, fps: float) 
     """
     floor_m = min(rest_m, 0.0)
     depth = np.where(planted, 0.0, np.maximum(floor_m - tip[:, 1], 0.0))
-    tip = tip.copy()
+    tip = tip.copy(order="K")
     if depth.any():
         wide = 2 * round(2.0 * LIFTS_S * fps) + 1
         lift = gaussian_filter1d(maximum_filter1d(depth, wide, mode="nearest"), LIFTS_S * fps, mode="nearest")
@@ -167,7 +167,7 @@ def _into_range(turned: FloatArray, foot: int) -> FloatArray:
     sign = np.array(_MIRRORED) if foot else np.ones(3)
     angles = quaternion.to_rotation_vector(turned) * sign
     inside = [softly_within(angles[:, axis], *bounds) for axis, bounds in enumerate(ANKLE_RAD)]
-    held = quaternion.from_rotation_vector(np.stack(inside, axis=1) * sign)
+    held = quaternion.from_rotation_vector(quaternion.columns(*inside) * sign)
     return quaternion.multiply(quaternion.conjugate(turned), held)
 
 

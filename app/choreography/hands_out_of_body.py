@@ -59,7 +59,7 @@ def _pushed(clip: MotionClip) -> MotionClip:
     pushes = {side: _push_m(clip, world, side) for side in ("left", "right")}
     if not any(push.any() for push in pushes.values()):
         return clip
-    rotations = clip.rotations.copy()
+    rotations = clip.rotations.copy(order="K")
     for side, push in pushes.items():
         limb = ("chest", *(f"{side}{part}" for part in ("UpperArm", "LowerArm", "Hand")))
         wrist = world.positions_m[:, 1 + SEGMENTS.index(limb[-1])]

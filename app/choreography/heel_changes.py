@@ -45,7 +45,7 @@ SOME_RAD: Final = 0.01
 """Angle in radians by which heels are raised to find how legs follow."""
 EXACT_M: Final = 1e-4
 """Distance in metres within which the tip of a standing foot stays."""
-_ACROSS: Final = np.array([1.0, 0.0, 0.0])
+_ACROSS: Final = (1.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +116,7 @@ def _calmer(clip: MotionClip, planted: BoolArray, most_rad: float, most_m: float
     found = legs_to(clip, _heels_turned(world, raised), tips, planted)
     moved = found.world()
     off = planted & (np.linalg.norm(tips_m(found, moved) - tips, axis=-1) > EXACT_M)
-    rotations, changed = clip.rotations.copy(), False
+    rotations, changed = clip.rotations.copy(order="K"), False
     for foot, here in spans:
         beside, leg = slice(max(0, here.start - 2), here.stop + 2), _leg(foot)
         inside = slice(here.start - beside.start, here.stop - beside.start)
@@ -141,10 +141,10 @@ def _leg(foot: int) -> slice:
 
 def _heels_turned(world: JointTransforms, raised: FloatArray) -> JointTransforms:
     """Turn the feet by angles (F, 2) in radians about their own axes to the left, heels up."""
-    rotations = world.rotations.copy()
+    rotations = world.rotations.copy(order="K")
     for foot, name in enumerate(FEET):
         at = 1 + SEGMENTS.index(name)
-        turn = quaternion.from_rotation_vector(raised[:, foot, None] * _ACROSS)
+        turn = quaternion.from_rotation_vector(quaternion.columns(*(raised[:, foot] * axis for axis in _ACROSS)))
         rotations[:, at] = quaternion.multiply(rotations[:, at], turn)
     return replace(world, rotations=rotations)
 

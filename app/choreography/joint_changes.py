@@ -90,7 +90,7 @@ def feet_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float)
         calm = _calm(turns, held, most_rad_s, float(clip.fps))
         if calm is turns:
             break
-        rotations = world.rotations.copy()
+        rotations = world.rotations.copy(order="K")
         rotations[:, at] = calm
         found = legs_to(clip, replace(world, rotations=rotations), tips, planted, turned_back=False)
         # A leg that does not reach as far keeps its foot as it was.
@@ -112,7 +112,7 @@ def hands_within_changes(clip: MotionClip, most_rad_s: float) -> MotionClip:
     calm = _calm(turns, np.zeros((len(clip), 2), bool), HANDS * most_rad_s, float(clip.fps))
     if calm is turns:
         return clip
-    rotations = clip.rotations.copy()
+    rotations = clip.rotations.copy(order="K")
     arms = [SEGMENTS.index(PARENT_OF[name]) for name in _HANDS]
     rotations[:, parts] = quaternion.multiply(quaternion.conjugate(world[:, arms]), calm)
     return replace(clip, rotations=quaternion.continuous(rotations))
@@ -148,7 +148,7 @@ def _calm(rotations: FloatArray, held: BoolArray, most_rad_s: float, fps: float)
         stay.append(own)
     path = np.concatenate(paths)
     change = quaternion.from_rotation_vector(bent(path, most_rad, np.concatenate(stay), ROUNDS) - path)
-    result, first = rotations.copy(), 0
+    result, first = rotations.copy(order="K"), 0
     for here, part in spans:
         stop = first + here.stop - here.start
         result[here, part] = quaternion.multiply(change[first:stop], result[here, part])

@@ -45,7 +45,7 @@ def within_speeds(clip: MotionClip, planted: BoolArray) -> MotionClip:
         turns = rotations[:, part]
         calm = _calm(turns, ROOM * float(fastest_rad_s) / fps, fps, _may_change(name, planted, fps))
         if calm is not turns:
-            rotations = rotations.copy() if rotations is clip.rotations else rotations
+            rotations = rotations.copy(order="K") if rotations is clip.rotations else rotations
             rotations[:, part] = calm
     return clip if rotations is clip.rotations else replace(clip, rotations=quaternion.continuous(rotations))
 
@@ -66,7 +66,7 @@ def turns_within_speeds(clip: MotionClip, planted: BoolArray, fastest_rad_s: Flo
     fps, world = float(clip.fps), clip.world().rotations[:, 1:]
     if (angle(world[:-1], world[1:]) * fps <= fastest_rad_s)[:, 1:].all():
         return clip
-    rotations, found = clip.rotations.copy(), {SEGMENTS[0]: world[:, 0]}
+    rotations, found = clip.rotations.copy(order="K"), {SEGMENTS[0]: world[:, 0]}
     for part, (name, parent) in list(enumerate(PARENT_OF.items()))[1:]:
         turns = quaternion.multiply(found[parent], rotations[:, part])
         found[name] = _calm(turns, ROOM * float(fastest_rad_s[part]) / fps, fps, _may_change(name, planted, fps))

@@ -65,7 +65,7 @@ def within_hinges(rotations: FloatArray, captured: FloatArray, ranges: FloatArra
     ranges : (4, 2) float64
         See `hinge_ranges`.
     """
-    result = rotations.copy()
+    result = rotations.copy(order="K")
     for (name, axis), (least, most) in zip(HINGES.items(), ranges, strict=True):
         at = SEGMENTS.index(name)
         turned = quaternion.twist_angle(rotations[:, at], axis)
@@ -99,7 +99,7 @@ def wrists_within(clip: MotionClip) -> MotionClip:
     angles = np.linalg.norm(turned, axis=-1, keepdims=True)
     if angles.max(initial=0.0) <= WRIST_RAD:
         return clip
-    rotations = clip.rotations.copy()
+    rotations = clip.rotations.copy(order="K")
     share = softly_within(angles, 0.0, WRIST_RAD) / np.maximum(angles, 1e-9)
     rotations[:, hands] = quaternion.from_rotation_vector(share * turned)
     return replace(clip, rotations=quaternion.continuous(rotations))
@@ -109,14 +109,15 @@ def unbroken(clip: MotionClip) -> MotionClip:
     """Return the motion with knees limited, so that they neither bend backwards nor so far that the shank enters the
     thigh.
     """
-    rotations = clip.rotations.copy()
+    rotations = clip.rotations.copy(order="K")
     for side in SIDES:
         shank = rotations[:, SEGMENTS.index(f"{side}LowerLeg")]
         bent_rad = quaternion.twist_angle(shank, _ACROSS)
         # A negative bend of more than 90 degrees is a knee folded past 180 degrees, not one that bends backwards.
         bent_rad = np.where(bent_rad < -0.5 * np.pi, bent_rad + 2.0 * np.pi, bent_rad)
         back_rad = softly_within(bent_rad, 0.0, FOLDED_RAD) - bent_rad
-        shank[:] = quaternion.multiply(shank, quaternion.from_rotation_vector(back_rad[:, None] * np.array(_ACROSS)))
+        back = quaternion.columns(*(back_rad * axis for axis in _ACROSS))
+        shank[:] = quaternion.multiply(shank, quaternion.from_rotation_vector(back))
     return replace(clip, rotations=quaternion.continuous(rotations))
 
 
@@ -124,7 +125,7 @@ def hinged(clip: MotionClip) -> MotionClip:
     """Return the motion with thighs rotated about their length so that knees bend about their hinges and not sideways,
     also where legs were placed apart from their thighs. Joints stay where they are, and feet keep their rotations.
     """
-    world, rotations = clip.world(), clip.rotations.copy()
+    world, rotations = clip.world(), clip.rotations.copy(order="K")
     for side in SIDES:
         thigh_at, shank_at, foot_at = (1 + SEGMENTS.index(f"{side}{part}") for part in ("UpperLeg", "LowerLeg", "Foot"))
         along = _unit(clip.shape.offsets_m[shank_at - 1])
@@ -141,7 +142,7 @@ def hinged(clip: MotionClip) -> MotionClip:
         wide = np.maximum(back, 1e-9)
         turn = np.arcsin(np.clip(np.abs(aside) / wide, 0.0, 1.0)) - np.arcsin(np.clip(kept / wide, 0.0, 1.0))
         turn *= smooth_share(back, CLEAR) * np.sign(aside) * np.sign(-way[:, 2])
-        twist = quaternion.from_rotation_vector(turn[:, None] * along)
+        twist = quaternion.from_rotation_vector(quaternion.columns(*(turn * axis for axis in along)))
         thigh = quaternion.multiply(world.rotations[:, thigh_at], twist)
         rotations[:, thigh_at - 1] = quaternion.multiply(rotations[:, thigh_at - 1], twist)
         back_in_place = quaternion.between(way, quaternion.rotate(quaternion.conjugate(twist), way))

@@ -36,7 +36,7 @@ def sized(clip: MotionClip, size: float, hinges: FloatArray) -> MotionClip:
     """
     if size == 1.0:
         return clip
-    rotations = clip.rotations.copy()
+    rotations = clip.rotations.copy(order="K")
     for at, name in enumerate(SEGMENTS):
         reach_rad = next((reach for part, reach in REACHES_RAD.items() if name.endswith(part)), None)
         if reach_rad is None:

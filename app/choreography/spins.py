@@ -43,7 +43,7 @@ def without_haste(clip: MotionClip, fastest_rad_s: float = FASTEST_HIPS_RAD_S) -
         yaw += gaussian_filter1d(excess, AROUND_S * fps, mode="nearest") - excess
     yaw = np.clip(yaw, -free, free)
     changed = np.concatenate([[0.0], np.cumsum(yaw - steps[:, 1])])
-    rotations = clip.rotations.copy()
+    rotations = clip.rotations.copy(order="K")
     rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle(_UP, changed), turns)
     return replace(clip, rotations=quaternion.continuous(rotations))
 

@@ -278,7 +278,8 @@ class _Output:
     def __init__(self, fps: Fraction, count: int, hinges: FloatArray) -> None:
         self.rate, self._hinges = float(fps), hinges
         self.hips = np.zeros((count, 3))
-        self.rotations = np.tile(quaternion.IDENTITY, (count, len(SEGMENTS), 1))
+        self.rotations = quaternion.planes(count, len(SEGMENTS), 4)
+        self.rotations[...] = quaternion.IDENTITY
         self._blend: _Blend | None = None
 
     def append(self, start: int, hips: FloatArray, rotations: FloatArray, *, seam: bool) -> None:
@@ -388,4 +389,4 @@ def on_stage(hips_m: FloatArray, fps: float) -> FloatArray:
     room = STAGE_M - gaussian_filter1d(maximum_filter1d(sway, wide, mode="nearest"), WANDERS_S * fps, mode="nearest")
     room = np.maximum(room, LEAST_ROOM * STAGE_M)[:, None]
     far = np.linalg.norm(way, axis=1, keepdims=True)
-    return np.asarray(hips_m - way * (1.0 - np.tanh(far / room) * room / np.maximum(far, 1e-9)))
+    return np.asfortranarray(hips_m - way * (1.0 - np.tanh(far / room) * room / np.maximum(far, 1e-9)))

@@ -71,6 +71,11 @@ def repeated(vector: ArrayLike, count: int) -> FloatArray:
     return _together(components)
 
 
+def planes(*shape: int) -> FloatArray:
+    """Return an uninitialised array of frames (F, ...) in which each component is contiguous in memory."""
+    return np.moveaxis(np.empty((*shape[1:], shape[0])), -1, 0)
+
+
 def _together(components: npt.NDArray[Any]) -> FloatArray:
     return components.T if components.ndim == 2 else components.transpose((*range(1, components.ndim), 0))
 
@@ -351,10 +356,12 @@ def slerp(a: ArrayLike, b: ArrayLike, share: ArrayLike) -> FloatArray:
 
 def continuous(rotations: ArrayLike) -> FloatArray:
     """Return the same rotations (F, J, 4) with signs chosen so that each frame is in the hemisphere of the previous
-    one.
+    one; the same object if it is so already.
     """
     q = np.asarray(rotations, dtype=np.float64)
     turned = np.einsum("fji,fji->fj", q[1:], q[:-1]) < 0.0
+    if not turned.any():
+        return q
     sides = np.concatenate([np.ones((1, q.shape[1])), np.where(turned, -1.0, 1.0)]).cumprod(axis=0)
     result: FloatArray = q * sides[..., None]
     return result

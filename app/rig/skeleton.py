@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -85,15 +85,25 @@ def forward(
     joints : iterable of int, optional
         Requested joints; all if absent.
     """
+    return forward_by_joint(skeleton, [rotations[:, joint] for joint in range(rotations.shape[1])], hips_m, joints)
+
+
+def forward_by_joint(
+    skeleton: Skeleton,
+    rotations: Sequence[AnyFloatArray],
+    hips_m: AnyFloatArray | None = None,
+    joints: Iterable[int] | None = None,
+) -> JointTransforms:
+    """Compute world transforms as `forward` does, from the rotations (F, 4) of each joint in a sequence."""
     requested = closure(skeleton, range(len(skeleton.names)) if joints is None else joints)
     place = {joint: index for index, joint in enumerate(requested)}
-    frames = len(rotations)
+    frames = len(rotations[0])
     hips = _hips(skeleton) if hips_m is not None else -1
-    # Computed with one contiguous plane for each joint; only the result has frames first.
-    turned = np.empty((len(requested), frames, 4))
-    placed = np.empty((len(requested), frames, 3))
+    # Each component of each joint is contiguous in memory; only the result has frames first.
+    turned = np.empty((len(requested), 4, frames)).transpose(0, 2, 1)
+    placed = np.empty((len(requested), 3, frames)).transpose(0, 2, 1)
     for index, joint in enumerate(requested):
-        local = rotations[:, joint]
+        local = rotations[joint]
         offset = hips_m if joint == hips and hips_m is not None else skeleton.offsets_m[joint]
         parent = skeleton.parents[joint]
         if parent < 0:
@@ -102,7 +112,7 @@ def forward(
         else:
             above = place[parent]
             turned[index] = quaternion.multiply(turned[above], local)
-            placed[index] = placed[above] + quaternion.rotate(turned[above], offset)
+            np.add(placed[above], quaternion.rotate(turned[above], offset), out=placed[index])
     return JointTransforms(requested, placed.transpose(1, 0, 2), turned.transpose(1, 0, 2))
 
 
