@@ -11,12 +11,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from app.arrays import BoolArray, FloatArray
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.accent_grid import AccentGrid
 from app.choreography.segment_arrivals import STEPPED_S
 from app.choreography.transition_scores import SPEEDS
@@ -44,6 +44,8 @@ MOVED: Final = 0.2
 _TOLERANCE: Final = 0.06
 """Relative tolerance of the limits of speed, which allows choices based on rounded times."""
 _STEP_S: Final = 0.002
+_TOGETHER: Final = 256
+"""Number of moments whose costs are computed at a time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,16 +117,18 @@ def map_with_arrivals(
         Put footfalls on beats too where no body arrives.
     """
     held = np.zeros(len(plain.times_s), bool) if plain.held is None else plain.held
-    knots = zip(plain.times_s.tolist(), plain.along_s.tolist(), np.where(held, HELD, ANCHOR).tolist(), strict=True)
-    items = [_Item(along, ((time, worth),)) for time, along, worth in list(knots)[1:-1]]
+    knots = _Items(plain.along_s[1:-1], plain.times_s[1:-1, None], np.where(held, HELD, ANCHOR)[1:-1, None])
     falls = np.zeros(0) if footfalls is None else footfalls
-    stepped = np.abs(arrivals[:, None] - falls).min(axis=1, initial=np.inf) <= STEPPED_S
-    items += _to_meet(plain, arrivals[stepped], grid, ARRIVES + STEPPED)
-    items += _to_meet(plain, arrivals[~stepped], grid, ARRIVES)
+    stepped = nearest_s(arrivals, falls) <= STEPPED_S
+    items = [
+        knots,
+        _to_meet(plain, arrivals[stepped], grid, ARRIVES + STEPPED),
+        _to_meet(plain, arrivals[~stepped], grid, ARRIVES),
+    ]
     if with_falls:
-        alone = np.abs(falls[:, None] - arrivals).min(axis=1, initial=np.inf) > STEPPED_S
-        items += _to_meet(plain, falls[alone], grid, FALLS)
-    met = _met(sorted(items, key=lambda item: item.along_s))
+        alone = nearest_s(falls, arrivals) > STEPPED_S
+        items.append(_to_meet(plain, falls[alone], grid, FALLS))
+    met = _met(_in_order(items))
     if not met:
         return plain
     (first_s, first_along), (last_s, last_along) = met[0], met[-1]
@@ -139,66 +143,104 @@ def map_with_arrivals(
     return TimeMap(all_met[apart, 0], all_met[apart, 1]) if apart.sum() > 1 else plain
 
 
-@dataclass(frozen=True)
-class _Item:
-    """A moment along the motions, with the times in the piece at which it may be shown, and the value of each."""
+class _Items(NamedTuple):
+    """Moments along the motions, with the times in the piece at which each may be shown.
 
-    along_s: float
-    options: tuple[tuple[float, float], ...]
+    Attributes
+    ----------
+    along_s : (N,) float64
+        Position of each moment in seconds.
+    times_s : (N, K) float64
+        Possible times in seconds; NaN pads shorter rows.
+    worths : (N, K) float64
+        Value of each time.
+    """
+
+    along_s: FloatArray
+    times_s: FloatArray
+    worths: FloatArray
 
 
-def _to_meet(plain: TimeMap, moments: FloatArray, grid: AccentGrid, on_beat: float) -> list[_Item]:
+def nearest_s(moments: FloatArray, others: FloatArray) -> FloatArray:
+    """Return the distance (N,) of each moment from the nearest of the others, both ascending; infinite without any."""
+    if not len(others):
+        return np.full(len(moments), np.inf)
+    after = np.searchsorted(others, moments)
+    before_s, after_s = others[np.maximum(after - 1, 0)], others[np.minimum(after, len(others) - 1)]
+    return np.minimum(np.abs(moments - before_s), np.abs(moments - after_s))
+
+
+def _to_meet(plain: TimeMap, moments: FloatArray, grid: AccentGrid, on_beat: float) -> _Items:
     """Collect the moments along the motions that may be put on accents of the grid, with the possible times and values
     of each.
     """
-    items = []
-    for along, time in zip(moments.tolist(), plain.when(moments).tolist(), strict=True):
-        near = range(*np.searchsorted(grid.times_s, time + np.array([-MOST_S, MOST_S])).tolist())
-        options = []
-        for at in near:
-            place_s = float(grid.times_s[at])
-            moved = MOVED * ((place_s - time) / MOST_S) ** 2
-            strength = float(grid.strengths[at])
-            options.append((place_s, strength * on_beat + (1.0 - strength) * ARRIVES_BETWEEN - moved))
-        items.append(_Item(along, tuple(options)))
-    return items
+    times_s = plain.when(moments)
+    first, stop = np.searchsorted(grid.times_s, times_s[None] + np.array([[-MOST_S], [MOST_S]]))
+    most = int((stop - first).max(initial=0))
+    at = first[:, None] + np.arange(most)
+    possible = at < stop[:, None]
+    at = np.where(possible, at, 0)
+    places_s, strengths = grid.times_s[at], grid.strengths[at]
+    moved = MOVED * ((places_s - times_s[:, None]) / MOST_S) ** 2
+    worths = strengths * on_beat + (1.0 - strengths) * ARRIVES_BETWEEN - moved
+    return _Items(moments, np.where(possible, places_s, np.nan), np.where(possible, worths, 0.0))
 
 
-def _met(items: Sequence[_Item]) -> list[tuple[float, float]]:
+def _in_order(parts: Sequence[_Items]) -> _Items:
+    """Join moments in their order along the motions; of equal ones, those of earlier parts are first."""
+    most = max(part.times_s.shape[1] for part in parts)
+    times_s, worths = (
+        np.concatenate([np.pad(values, ((0, 0), (0, most - values.shape[1])), constant_values=pad) for values in every])
+        for every, pad in (([part.times_s for part in parts], np.nan), ([part.worths for part in parts], 0.0))
+    )
+    along_s = np.concatenate([part.along_s for part in parts])
+    order = np.argsort(along_s, kind="stable")
+    return _Items(along_s[order], times_s[order], worths[order])
+
+
+def _met(items: _Items) -> list[tuple[float, float]]:
     """Choose a time for each moment, both ascending, with the greatest total value, by dynamic programming; returns
     pairs of time and moment.
     """
-    limit = float(np.log(SPEEDS[1]))
-    times = [np.array([time_s for time_s, _ in item.options]) for item in items]
-    best: list[FloatArray] = []
-    came: list[list[tuple[int, int] | None]] = []
-    for at, item in enumerate(items):
-        worth = np.array([worth for _, worth in item.options])
-        seen = [
-            earlier for earlier in range(max(0, at - LOOK_BACK), at) if item.along_s - items[earlier].along_s >= 1e-3
-        ]
-        numbers = [(earlier, number) for earlier in seen for number in range(len(times[earlier]))]
-        if not numbers or not len(worth):
-            best.append(worth)
-            came.append([None] * len(worth))
-            continue
-        before_s = np.concatenate([times[earlier] for earlier in seen])
-        way_s = np.concatenate(
-            [np.full(len(times[earlier]), item.along_s - items[earlier].along_s) for earlier in seen]
-        )
-        gap_s = times[at][:, None] - before_s
-        off = np.abs(np.log(way_s / np.maximum(gap_s, 1e-3))) / limit
-        value = np.concatenate([best[earlier] for earlier in seen]) - SPEED * off * off
-        value[(off > 1.0 + _TOLERANCE) | (gap_s < 1e-3)] = 0.0
+    count, most = items.times_s.shape
+    if not items.times_s.size:
+        return []
+    possible = ~np.isnan(items.times_s)
+    # Best total of the ways that end with each time of each moment; before the first moment there are none.
+    best = np.zeros((LOOK_BACK + count, most))
+    came = np.full((count, most), -1)
+    rows = np.arange(most) * LOOK_BACK * most
+    for at in range(count):
+        if not at % _TOGETHER:
+            costs, excluded = _pace_costs(items, np.arange(at, min(count, at + _TOGETHER)))
+        value = best[at : at + LOOK_BACK].ravel() - costs[at % _TOGETHER]
+        value[excluded[at % _TOGETHER]] = 0.0
         chosen = value.argmax(axis=1)
-        reached = np.maximum(value[np.arange(len(worth)), chosen], 0.0)
-        best.append(reached + worth)
-        came.append([numbers[number] if top > 0.0 else None for number, top in zip(chosen, reached, strict=True)])
-    ends = [(value, at, number) for at, here in enumerate(best) for number, value in enumerate(here.tolist())]
-    way: tuple[int, int] | None = max(ends)[1:] if ends else None
+        reached = np.maximum(value.take(rows + chosen), 0.0)
+        best[LOOK_BACK + at] = reached + items.worths[at]
+        came[at] = np.where(reached > 0.0, (at - LOOK_BACK) * most + chosen, -1)
+    ends = np.where(possible, best[LOOK_BACK:], -np.inf).ravel()
+    # Of equal ends the last one.
+    way = int(ends.size - 1 - ends[::-1].argmax())
     found: list[tuple[float, float]] = []
-    while way is not None:
-        item, number = items[way[0]], way[1]
-        found.append((item.options[number][0], item.along_s))
-        way = came[way[0]][number]
+    while way >= 0:
+        at, number = divmod(way, most)
+        found.append((float(items.times_s[at, number]), float(items.along_s[at])))
+        way = int(came[at, number])
     return found[::-1]
+
+
+def _pace_costs(items: _Items, some: IntArray) -> tuple[FloatArray, BoolArray]:
+    """Return the costs (S, K, `LOOK_BACK` * K) of going to each time of some moments, given as indices (S,), from each
+    time of the moments before it, by the speed on the way, and which of these ways are excluded; the costs of these are
+    0.
+    """
+    before = some[:, None] + np.arange(-LOOK_BACK, 0)
+    first, before = before < 0, np.maximum(before, 0)
+    way_s = np.where(first, 0.0, items.along_s[some, None] - items.along_s[before])
+    gap_s = items.times_s[some, :, None] - items.times_s[before].reshape(len(some), 1, -1)
+    far = np.repeat(way_s, items.times_s.shape[1], axis=1)[:, None]
+    excluded = np.isnan(gap_s) | (far < 1e-3) | (gap_s < 1e-3)
+    off = np.abs(np.log(np.where(excluded, 1.0, far) / np.where(excluded, 1.0, gap_s))) / float(np.log(SPEEDS[1]))
+    excluded |= off > 1.0 + _TOLERANCE
+    return np.where(excluded, 0.0, SPEED * off * off), excluded
