@@ -326,8 +326,10 @@ class _Search:
                 better = reached > best[row]
                 np.copyto(best[row], reached, where=better)
                 np.copyto(came[row], earlier * segments + from_segment, where=better)
-                danced[row, better, 0] = from_segment[better]
-                danced[row, better, 1:] = danced[earlier - first, from_segment[better], :-1]
+            (reached_from,) = np.nonzero(came[row] >= 0)
+            rows, from_segment = np.divmod(came[row, reached_from] - first * segments, segments)
+            danced[row, reached_from, 0] = from_segment
+            danced[row, reached_from, 1:] = danced[rows, from_segment, :-1]
         return self._way_back(best + ends, came, first, stop)
 
     def latest(self, place: int) -> int:

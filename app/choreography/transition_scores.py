@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import Final, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from app.arrays import BoolArray, FloatArray, IntArray, SingleArray
 from app.choreography.accent_grid import AccentGrid
@@ -89,6 +90,14 @@ class MoveTable:
         """Index (S,) of the first element of each row in the flattened table."""
         return np.asarray(np.arange(len(self.starts)) * self.starts.shape[1])
 
+    @cached_property
+    def places(self) -> npt.NDArray[np.unsignedinteger]:
+        """Index (S + 1, S) of each predecessor in the row of each segment; K where it is none, as in the last row."""
+        count, most = self.starts.shape
+        result = np.full((count + 1, count), most, np.min_scalar_type(most))
+        np.put_along_axis(result[:-1], self.starts, np.arange(most, dtype=result.dtype)[None], axis=1)
+        return result
+
     def best(
         self, before: SingleArray, heard: SingleArray | None, danced: IntArray | None = None, repeats: float = 0.0
     ) -> tuple[IntArray, SingleArray]:
@@ -110,9 +119,11 @@ class MoveTable:
             scores += heard.take(self.of_start, out=self.taken, mode="clip")
             scores -= heard.take(self.of_end, out=self.taken, mode="clip")
         if danced is not None:
-            own = np.arange(len(self.starts))[:, None]
-            for earlier in danced.T:
-                scores -= np.float32(repeats) * (earlier.take(self.starts) == own)
+            # The last row of places serves a segment of -1: none.
+            count, most = self.starts.shape
+            places = self.places.take(danced * count + np.arange(count)[:, None], mode="wrap")
+            again = places < most
+            np.subtract.at(scores.ravel(), danced[again] * most + places[again], np.float32(repeats))
         chosen = scores.argmax(axis=1) + self.rows
         return np.asarray(self.starts.take(chosen)), np.asarray(scores.take(chosen))
 
