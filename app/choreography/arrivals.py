@@ -14,11 +14,9 @@ from scipy.ndimage import gaussian_filter1d
 
 from app.arrays import FloatArray, IntArray
 from app.choreography.accent_grid import AccentGrid
-from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
-from app.choreography.features import points_m
 from app.choreography.music_offset import speed_minima
-from app.choreography.warp import TimeMap, map_with_arrivals
+from app.choreography.warp import TimeMap, map_with_arrivals, nearest_s
 
 SMOOTHING_S: Final = 5.0 / 60.0
 """Standard deviation in seconds of the Gaussian that smooths speed before arrivals are found (Li et al., "AI
@@ -44,7 +42,7 @@ TRIES: Final = 3
 
 def joint_speed_m_s(clip: MotionClip) -> FloatArray:
     """Return the mean speed (F,) of the joints, scaled to the body's size."""
-    joints = points_m(clip)[:, : len(SEGMENTS)]
+    joints = clip.world().positions_m[:, 1:]
     return np.asarray(np.linalg.norm(np.gradient(joints, axis=0), axis=-1).mean(axis=-1) * float(clip.fps))
 
 
@@ -67,8 +65,12 @@ def alignment(arrivals_s: FloatArray, beats_s: FloatArray) -> float:
     """
     if not len(arrivals_s) or not len(beats_s):
         return 0.0
-    fits = np.exp(-np.square(arrivals_s[:, None] - beats_s[None, :]) / (2.0 * NEAR_S**2))
-    return float(fits.max(axis=1).mean() + fits.max(axis=0).mean())
+    return _closeness(arrivals_s, beats_s) + _closeness(beats_s, arrivals_s)
+
+
+def _closeness(moments_s: FloatArray, others_s: FloatArray) -> float:
+    """Mean closeness of moments to the nearest of others, both ascending."""
+    return float(np.exp(-np.square(nearest_s(moments_s, others_s)) / (2.0 * NEAR_S**2)).mean())
 
 
 def beats_met(arrivals_s: FloatArray, falls_s: FloatArray, grid: AccentGrid) -> float:
@@ -97,8 +99,8 @@ def chance_of_falls(falls_s: FloatArray, beats_s: FloatArray) -> float:
 
 
 def best_arrival_map(
-    draft: MotionClip,
-    first_s: float,
+    speed_m_s: FloatArray,
+    draft_s: FloatArray,
     shown: TimeMap,
     plain: TimeMap,
     grid: AccentGrid,
@@ -111,10 +113,10 @@ def best_arrival_map(
 
     Parameters
     ----------
-    draft : MotionClip
-        Draft of the dance, made with the time map ``shown``.
-    first_s : float
-        Time of the draft's frame 0 in seconds.
+    speed_m_s : (F,) float64
+        Mean speed of the joints in a draft of the dance, made with the time map ``shown``.
+    draft_s : (F,) float64
+        Times of its frames in seconds.
     shown : TimeMap
         Time map of the draft.
     plain : TimeMap
@@ -124,11 +126,11 @@ def best_arrival_map(
     with_falls : bool
         Whether footfalls without an arrival of the body are put on beats too.
     """
-    along, speeds = shown.at(first_s + np.arange(len(draft)) / float(draft.fps))
+    along, speeds = shown.at(draft_s)
     seen = speeds > LEAST_SPEED
     if seen.sum() < 2:
         return shown
-    along, speed = along[seen], (joint_speed_m_s(draft) / np.maximum(speeds, LEAST_SPEED))[seen]
+    along, speed = along[seen], (speed_m_s / np.maximum(speeds, LEAST_SPEED))[seen]
     times_s = np.arange(plain.times_s[0], plain.times_s[-1], 1.0 / FPS)
     falls_along, _ = shown.at(falls)
     beats_s, felt_s = grid.times_s[grid.strengths == 1.0], grid.times_s[grid.on_beat]

@@ -18,6 +18,7 @@ from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.features import height_m
 from app.choreography.feet_on_floor import rest_tip_m, soles_m
+from app.choreography.foot_plants import REACHED_M, FootPlant
 from app.choreography.joins import (
     LEANS_RAD,
     MOST_CARRIED_RAD,
@@ -28,7 +29,7 @@ from app.choreography.joins import (
     fading_turn,
 )
 from app.choreography.limbs import within_hinges
-from app.choreography.standing_feet import REACHED_M, FootPlant, planted
+from app.choreography.standing_feet import planted
 from app.rig import quaternion
 
 RESTS_S: Final = 0.75
@@ -212,11 +213,9 @@ def _to_rest(clip: MotionClip, contacts: BoolArray, start: int, stands: Captured
     stays = np.repeat(there, count, axis=0)
     rotations = facing_together(within_hinges(quaternion.multiply(fading, stays), stays, stands.hinges))
     contacts[start:] = stayed | (times_s >= LANDED * rests_s)[:, None]
-    return replace(
-        clip,
-        hips_m=np.concatenate([clip.hips_m[:start], hips_m]),
-        rotations=quaternion.continuous(np.concatenate([clip.rotations[:start], rotations])),
-    )
+    every_hips_m, every = clip.hips_m.copy(order="K"), clip.rotations.copy(order="K")
+    every_hips_m[start:], every[start:] = hips_m, rotations
+    return replace(clip, hips_m=every_hips_m, rotations=quaternion.continuous(every))
 
 
 def _stand(last: MotionClip, contacts: BoolArray, stands: CapturedStands) -> tuple[MotionClip, BoolArray]:

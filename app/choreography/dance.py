@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
-from app.choreography.standing_feet import FootPlant
+from app.choreography.foot_plants import FootPlant
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,8 @@ from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.damage import Damage, damage
+from app.choreography.foot_plants import FootPlant
 from app.choreography.resample import resampled
-from app.choreography.standing_feet import FootPlant
 from app.rig import quaternion
 
 JERKS: Final = 1.25

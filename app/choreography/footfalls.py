@@ -6,6 +6,7 @@ Steps have the duration of the captured dancers' steps.
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -18,7 +19,7 @@ from app.arrays import FloatArray
 from app.choreography.accent_grid import AccentGrid
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts
-from app.choreography.standing_feet import SAME_M, FootPlant
+from app.choreography.foot_plants import SAME_M, FootPlant
 
 REACH_S: Final = 0.2
 """Greatest shift of a footfall in seconds."""
@@ -82,7 +83,7 @@ def on_beats(
     Parameters
     ----------
     standing : sequence of FootPlant
-        Foot plants ordered by start, from `app.choreography.standing_feet.stands`.
+        Foot plants ordered by start, from `app.choreography.foot_plants.stands`.
     frames : int
         Number of frames of the motion.
     first_s : float
@@ -115,12 +116,17 @@ def on_beats(
     moved = [replace(stand, start=round(starts[at])) for at, stand in enumerate(standing)]
     shown = np.tile(np.arange(frames, dtype=np.float64)[:, None], (1, 2))
     for foot, own in enumerate(by_foot):
-        others = [(stand, new) for stand, new in zip(standing, moved, strict=True) if stand.foot != foot]
+        others = by_foot[1 - foot]
+        began = [standing[at].start for at in others]
         for at, following in pairwise(own):
             if at in kept:
                 continue
             starts_at = moved[at].start, moved[following].start
-            stop = _leaves(standing[at], standing[following], *starts_at, others, fps, step_s)
+            left = standing[at].stop
+            # The stand of the other foot in which this one leaves the floor.
+            during = [other for other in others[: bisect_right(began, left)][-1:] if left < standing[other].stop]
+            lands = max((moved[other].start for other in during), default=0)
+            stop = _leaves(standing[at], standing[following], *starts_at, lands, fps, step_s)
             moved[at] = replace(moved[at], stop=stop)
         shown[:, foot] = _shown(own, standing, moved, kicked, frames, fps)
     moved.sort(key=lambda stand: (stand.start, stand.foot))
@@ -193,24 +199,21 @@ def _leaves(
     after: FootPlant,
     came: int,
     comes: int,
-    others: Sequence[tuple[FootPlant, FootPlant]],
+    lands: int,
     fps: float,
     step_s: float,
 ) -> int:
     """Choose the frame in which a foot leaves the floor between two of its landings, which were moved to the frames
     ``came`` and ``comes``.
 
-    It does not leave before the other foot has landed, if the motion has them in this order.
+    It does not leave before the other foot has landed in the frame ``lands``, if the motion has them in this order.
     """
     swing = after.start - before.stop
     way_m = float(np.linalg.norm(np.subtract(after.place_m, before.place_m)))
     takes = max(swing, math.ceil(STEP_SHARE * step_s * fps)) if way_m > SAME_M else swing
     first = came + min(before.stop - before.start, round(LEAST_STAND_S * fps))
     last = comes - min(swing, round(LEAST_SWING_S * fps))
-    for other, new in others:
-        if other.start <= before.stop < other.stop:
-            first = max(first, new.start)
-    return max(came + 1, min(max(comes - takes, first), last))
+    return max(came + 1, min(max(comes - takes, first, lands), last))
 
 
 def _chosen(

@@ -20,7 +20,8 @@ from app.choreography.coming_to_rest import CapturedStands, between_stands, capt
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.dance_flaws import usual_change_rad_s
 from app.choreography.drums_of_dancers import TakeShares, take_shares
-from app.choreography.footfalls import Footfalls, on_beats, touch_leads
+from app.choreography.feet_on_beats import feet_on_beats
+from app.choreography.foot_plants import STEP_S, FootPlant, stands, steps_s
 from app.choreography.hands_out_of_body import out_of_body
 from app.choreography.hit_log_odds import Hearing, hearing
 from app.choreography.idling import idling_odds
@@ -36,7 +37,6 @@ from app.choreography.sequence import Constraints, SegmentCandidates, Weights, c
 from app.choreography.shortest_times import ShortestTimes
 from app.choreography.sized import sized
 from app.choreography.spins import hips_within
-from app.choreography.standing_feet import STEP_S, FootPlant, foot_speeds_m_s, planted, stands, steps_s
 from app.choreography.step_balance import step_balance
 from app.choreography.stitch import Frames, Stitcher, on_stage
 from app.choreography.sudden_ends import UsualAccelerations, usual_accelerations, within_limits
@@ -81,6 +81,16 @@ class _Motion(NamedTuple):
     contacts: BoolArray
     seams: tuple[int, ...]
     speeds: FloatArray
+
+
+class _Draft(NamedTuple):
+    """Mean speed (F,) in m/s of the joints in a draft, and the times (K,) in seconds of its footfalls before and after
+    they were moved to beats.
+    """
+
+    speed_m_s: FloatArray
+    falls_s: FloatArray
+    down_s: FloatArray
 
 
 class Choreographer:
@@ -215,8 +225,8 @@ class Choreographer:
             clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
         clip = hips_within(clip, self._shortest.hips_rad_s, usual := self.usual_change_rad_s(fps))
         clip, fastest = wrists_within(out_of_body(clip)), self._shortest.fastest_rad_s(manner)
-        shown, falls, _ = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm), manner.weight)
-        clip, standing = with_legs_apart(clip, shown, falls, manner.weight)
+        feet = feet_on_beats(clip, contacts, moved_m, first_s, grid_of(rhythm), self._step_s, manner.weight)
+        clip, standing = with_legs_apart(clip, feet.clip, feet.falls, manner.weight)
         # Knees that swing from side to side turn their thighs suddenly, so that they are turned before the limits too.
         clip = within_limits(hinged(clip), standing, self._usual_accelerations(fps), usual, fastest)
         # Legs slowed down in the air may enter each other again.
@@ -321,44 +331,30 @@ class Choreographer:
             shown = self._shortest.calmed(shown, segments, hits, hits + after)
             if len(draft_s) < 2:
                 return planned(shown)
-            for _ in range(DRAFTS):
-                clip, falls_s, down_s = self._draft(planned(shown), body, draft_s, grid)
-                worth = beats_met(draft_s[arrival_frames(joint_speed_m_s(clip), fps)], down_s, grid)
+            for number in range(DRAFTS):
+                draft = self._draft(planned(shown), body, draft_s, grid)
+                worth = beats_met(draft_s[arrival_frames(draft.speed_m_s, fps)], draft.down_s, grid)
                 if worth > best_worth:
                     best, best_worth = shown, worth
-                following = best_arrival_map(clip, first_s, shown, plain, grid, falls_s, with_falls=with_falls)
+                if number == DRAFTS - 1:
+                    break
+                following = best_arrival_map(
+                    draft.speed_m_s, draft_s, shown, plain, grid, draft.falls_s, with_falls=with_falls
+                )
                 if following is shown:
                     break
                 shown = self._shortest.calmed(following, segments, hits, hits + after)
         return planned(best)
 
-    def _draft(
-        self, plan: _Plan, body: int, times_s: FloatArray, grid: AccentGrid
-    ) -> tuple[MotionClip, FloatArray, FloatArray]:
-        """Compute a draft of a plan's motion at `DRAFT_FPS`, with feet moved to beats, and the times (K,) in seconds of
-        its footfalls before and after that.
-        """
+    def _draft(self, plan: _Plan, body: int, times_s: FloatArray, grid: AccentGrid) -> _Draft:
+        """Compute a draft of a plan's motion at `DRAFT_FPS`, with feet moved to beats."""
         draft = self._motion(plan, body, DRAFT_FPS, times_s)
-        standing = stands(draft.clip, draft.contacts, draft.moved_m)
-        clip, falls, leads = self._on_beats(draft.clip, standing, float(times_s[0]), grid)
-        frames = sorted(stand.start for stand in standing if stand.start)
-        down = np.array([stand.start - lead for stand, lead in zip(falls.standing, leads, strict=True) if stand.start])
-        return clip, times_s[frames], float(times_s[0]) + np.sort(down) / float(DRAFT_FPS)
-
-    def _on_beats(
-        self, clip: MotionClip, standing: tuple[FootPlant, ...], first_s: float, grid: AccentGrid, weight: float = 0.0
-    ) -> tuple[MotionClip, Footfalls, FloatArray]:
-        """Return a clip with its feet planted, so that they touch the floor on accents of the music (see
-        `app.choreography.footfalls.on_beats`), the stands, and the number of frames by which each touches earlier than
-        its stand begins; ``first_s`` is the time of the clip's first frame."""
-        fps = float(clip.fps)
-        speeds_m_s = foot_speeds_m_s(clip) if len(clip) > 1 else None
-        leads = np.zeros(len(standing))
-        for _ in range(2):
-            falls = on_beats(standing, len(clip), fps, first_s, grid, self._step_s, speeds_m_s, leads=leads)
-            shown = planted(clip, falls.standing, weight, falls.shown)
-            leads = touch_leads(shown, falls.standing)
-        return shown, falls, leads
+        first_s = float(times_s[0])
+        feet = feet_on_beats(draft.clip, draft.contacts, draft.moved_m, first_s, grid, self._step_s)
+        frames = sorted(stand.start for stand in feet.captured if stand.start)
+        pairs = zip(feet.falls.standing, feet.leads, strict=True)
+        down = np.sort(np.array([stand.start - lead for stand, lead in pairs if stand.start]))
+        return _Draft(joint_speed_m_s(feet.clip), times_s[frames], first_s + down / float(DRAFT_FPS))
 
     def _arrivals_s(self, segments: IntArray, hits: FloatArray) -> FloatArray:
         """Times (K,) of the arrivals (speed minima) in the given segments, in seconds along the segments placed one

@@ -20,9 +20,10 @@ from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.features import facing, height_m
 from app.choreography.feet_on_floor import FREE_S, free, legs_to
+from app.choreography.foot_plants import FootPlant, planted_frames
 from app.choreography.footfalls import Footfalls
 from app.choreography.limbs import smooth_share
-from app.choreography.standing_feet import FootPlant, planted, planted_frames
+from app.choreography.standing_feet import planted
 from app.choreography.ways_apart import Span, least_way, overlaps
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
@@ -85,7 +86,7 @@ def with_legs_apart(
     standing : tuple of FootPlant
         Foot plants, at the same times.
     """
-    standing, aside_m = falls.standing, np.zeros((len(clip), 2, 3))
+    standing, aside_m = falls.standing, np.zeros((2, 3, len(clip))).transpose(2, 0, 1)
     for _ in range(PASSES):
         apart = feet_apart(shown, standing, aside_m)
         if apart is None:
@@ -101,7 +102,7 @@ def with_swings_apart(clip: MotionClip, standing: Sequence[FootPlant]) -> Motion
     """Return the motion with feet in the air swung around each other and knees turned where its legs enter each other;
     standing feet and the hips stay. The same object is returned if legs are apart.
     """
-    on_floor, aside_m = planted_frames(standing, len(clip)), np.zeros((len(clip), 2, 3))
+    on_floor, aside_m = planted_frames(standing, len(clip)), np.zeros((2, 3, len(clip))).transpose(2, 0, 1)
     for _ in range(PASSES):
         apart = feet_apart(clip, standing, aside_m)
         if apart is None:
@@ -110,7 +111,7 @@ def with_swings_apart(clip: MotionClip, standing: Sequence[FootPlant]) -> Motion
         some = np.flatnonzero(more_m.any(axis=(1, 2)))
         if not len(some):
             break
-        world, rotations = clip.world(), clip.rotations.copy()
+        world, rotations = clip.world(), clip.rotations.copy(order="K")
         moved = legs_to(clip, world, tips_m(clip, world) + more_m, on_floor, turned_back=False)
         rotations[some] = moved.rotations[some]
         clip = replace(clip, rotations=quaternion.continuous(rotations))
@@ -186,7 +187,7 @@ def feet_apart(clip: MotionClip, standing: Sequence[FootPlant], aside_m: FloatAr
         return None
     on_floor = planted_frames(standing, len(clip))
     may = np.stack([free(on_floor[:, foot], fps) for foot in range(2)], axis=1)
-    aside, places = aside_m.copy(), [np.array(stand.place_m) for stand in standing]
+    aside, places = aside_m.copy(order="K"), [np.array(stand.place_m) for stand in standing]
     for start, stop in spans:
         before = np.subtract(*np.moveaxis(aside_m[start:stop], 1, 0)).sum(axis=0)
         feet = _Feet(standing, may, _shares(standing, may, start, stop), fps)
@@ -294,7 +295,7 @@ def knees_apart(clip: MotionClip) -> MotionClip:
 
 def _knees_turned(clip: MotionClip, world: JointTransforms, angles_rad: FloatArray) -> MotionClip:
     """Turn the knees of a motion about the lines between hip joints and ankles by ``angles_rad`` (2, F)."""
-    rotations = clip.rotations.copy()
+    rotations = clip.rotations.copy(order="K")
     hips = world.rotations[:, 1]
     for foot, side in enumerate(SIDES):
         thigh_at, shank_at, foot_at = (1 + SEGMENTS.index(f"{side}{part}") for part in ("UpperLeg", "LowerLeg", "Foot"))

@@ -17,8 +17,8 @@ from app.arrays import BoolArray, FloatArray
 from app.chance import chance
 from app.choreography.dance import Dance
 from app.choreography.features import facing
+from app.choreography.foot_plants import FootPlant
 from app.choreography.rhythm import Rhythm
-from app.choreography.standing_feet import FootPlant
 from app.motion.gestures.danced_feet import MOVE_KINDS, DancedFeet, MoveKind
 from app.rig import quaternion
 

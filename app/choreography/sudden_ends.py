@@ -22,13 +22,13 @@ from app.choreography.body_speeds import runs
 from app.choreography.clip import MotionClip
 from app.choreography.features import height_m
 from app.choreography.feet_on_floor import AHEAD, LEG, grounded
+from app.choreography.foot_plants import FootPlant, planted_frames
 from app.choreography.hands_out_of_body import ELBOW
 from app.choreography.heel_changes import heels_within_changes
 from app.choreography.joint_changes import feet_within_changes, hands_within_changes, within_changes
 from app.choreography.joint_speeds import turns_within_speeds, within_speeds
 from app.choreography.limbs import bend, smooth_share
 from app.choreography.resample import resampled
-from app.choreography.standing_feet import FootPlant, planted_frames
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
 from app.rig.sole import SIDES
@@ -161,7 +161,7 @@ def _arms_smoothed(clip: MotionClip, most_rad_s: float) -> MotionClip:
             near = maximum_filter1d(np.pad(sudden, 1).astype(np.float64), around)
             share = gaussian_filter1d(near, EDGES_S * fps)[:, None, None]
             smooth = gaussian_filter1d(turns, SMOOTHS_S * fps, axis=0, mode="nearest")
-            rotations = rotations.copy() if rotations is clip.rotations else rotations
+            rotations = rotations.copy(order="K") if rotations is clip.rotations else rotations
             rotations[:, arm] = quaternion.normalize(turns + share * (smooth - turns))
     return clip if rotations is clip.rotations else replace(clip, rotations=quaternion.continuous(rotations))
 
@@ -179,7 +179,7 @@ def without_twitches(clip: MotionClip, standing: Sequence[FootPlant], usual: Usu
 
 def _calmer(clip: MotionClip, planted: BoolArray, usual: UsualAccelerations) -> MotionClip:
     """Smooth too sudden changes of speed; the same object is returned if there are none."""
-    world, rotations = clip.world(), clip.rotations.copy()
+    world, rotations = clip.world(), clip.rotations.copy(order="K")
     nowhere = np.zeros(len(clip), bool)
     found = False
     for foot, side in enumerate(SIDES):

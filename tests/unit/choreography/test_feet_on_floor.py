@@ -14,9 +14,10 @@ from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.dance import Manner
 from app.choreography.feet_on_floor import ANKLE_RAD, SINKS_M, grounded, legs_to, soles_m
+from app.choreography.foot_plants import FootPlant
 from app.choreography.generate import Choreographer
 from app.choreography.limbs import STRETCHED_RAD
-from app.choreography.standing_feet import FootPlant, planted
+from app.choreography.standing_feet import planted
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps
 from tests.support.dances import beaten, model, still

@@ -9,8 +9,9 @@ import pytest
 
 from app.choreography.accent_grid import grid_of
 from app.choreography.contacts import foot_contacts, tips_m
+from app.choreography.foot_plants import FootPlant, stands
 from app.choreography.footfalls import REACH_S, on_beats, touch_leads
-from app.choreography.standing_feet import FootPlant, planted, stands
+from app.choreography.standing_feet import planted
 from tests.support.dances import beaten, stepping
 
 FPS = 60.0

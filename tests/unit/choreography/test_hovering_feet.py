@@ -11,7 +11,8 @@ from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import soles_m
-from app.choreography.standing_feet import FootPlant, planted
+from app.choreography.foot_plants import FootPlant
+from app.choreography.standing_feet import planted
 from tests.support.dances import still
 
 FRAMES, FIRST, LAST = 120, 40, 80

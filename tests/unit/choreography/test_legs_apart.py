@@ -11,10 +11,11 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import AHEAD
+from app.choreography.foot_plants import FootPlant
 from app.choreography.footfalls import Footfalls
 from app.choreography.legs_apart import depths_m, knees_apart, with_legs_apart, with_swings_apart
 from app.choreography.limbs import bend
-from app.choreography.standing_feet import FootPlant, planted
+from app.choreography.standing_feet import planted
 from app.rig import quaternion
 from app.rig.sole import SIDES
 from tests.support.dance_measures import angular_jumps

@@ -14,9 +14,10 @@ from scipy.spatial.transform import Rotation
 from app.arrays import FloatArray
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.contacts import foot_contacts
+from app.choreography.foot_plants import stands
 from app.choreography.place_units import PLACE_UNITS_M
 from app.choreography.read_motion import guesses, motion_of, read_motion
-from app.choreography.standing_feet import planted, stands
+from app.choreography.standing_feet import planted
 from app.errors import FileError
 from app.formats.bvh.clip import BvhClip
 from app.messages import text

@@ -11,8 +11,9 @@ from app.arrays import BoolArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
+from app.choreography.foot_plants import STEP_S, FootPlant, stands
 from app.choreography.limbs import FOLDED_RAD, HINGES, STRETCHED_RAD, hinge_ranges, unbroken, within_hinges
-from app.choreography.standing_feet import DEEPER, HIGHER, STEP_S, FootPlant, planted, stands
+from app.choreography.standing_feet import DEEPER, HIGHER, planted
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps
 from tests.support.dances import SHANK_M, THIGH_M, stepping, still

@@ -15,8 +15,9 @@ from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.damage import FASTEST
 from app.choreography.features import height_m, points_m
+from app.choreography.foot_plants import stands
 from app.choreography.joint_speeds import within_speeds
-from app.choreography.standing_feet import planted, stands
+from app.choreography.standing_feet import planted
 from app.choreography.sudden_ends import (
     MOST,
     UsualAccelerations,
