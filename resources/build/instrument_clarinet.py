@@ -331,7 +331,7 @@ def bell(body: Wall, along: float, length: float, radius: float) -> Pieces:
 
 
 PEG = Pin(
-    tube=(0.000, 0.074), tip=0.088, most_m=0.164, tip_profile=((0.016, 0.0062), (0.004, 0.0076), (0.0, 0.0060)),
+    tube=(0.000, 0.074), tip=0.088, most_m=0.250, tip_profile=((0.016, 0.0062), (0.004, 0.0076), (0.0, 0.0060)),
     tip_material="rubber",
 )  # fmt: skip
 
