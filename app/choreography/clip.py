@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from app.arrays import FloatArray
+from app.arrays import FloatArray, IntArray
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS, body_skeleton
 from app.formats.bvh.clip import BvhClip
 from app.formats.bvh.write import write_bvh
@@ -70,6 +70,10 @@ class MotionClip:
     def span(self, start: int, stop: int) -> MotionClip:
         """Return the frames ``start`` to before ``stop`` as a clip."""
         return MotionClip(self.shape, self.fps, self.hips_m[start:stop], self.rotations[start:stop])
+
+    def at(self, frames: IntArray) -> MotionClip:
+        """Return some frames (N,) as a clip."""
+        return MotionClip(self.shape, self.fps, self.hips_m[frames], self.rotations[frames])
 
     def mirrored(self) -> MotionClip:
         """Return the motion with left and right exchanged."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d, label
+from scipy.ndimage import gaussian_filter1d, label, minimum_filter1d
 
 from app.arrays import BoolArray, FloatArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
+from app.choreography.body_speeds import runs
 from app.choreography.clip import MotionClip
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
@@ -52,15 +53,12 @@ def foot_contacts(clip: MotionClip) -> BoolArray:
     around = max(1, round(AROUND_S * fps))
     for foot in range(2):
         height = tips[:, foot, 1]
-        padded = np.pad(height, around, mode="edge")
-        lowest = np.lib.stride_tricks.sliding_window_view(padded, 2 * around + 1).min(axis=-1)
+        lowest = minimum_filter1d(height, 2 * around + 1, mode="nearest")
         low = height < lowest + NEAR_M
         result[:, foot] = _hysteresis(low & (speed[:, foot] < STANDS_M_S), low & (speed[:, foot] < LEAVES_M_S))
-        spans, count = label(result[:, foot])
-        for number in range(1, count + 1):
-            here = spans == number
-            if here.sum() < LEAST_S * fps:
-                result[here, foot] = False
+        for start, stop in runs(result[:, foot]):
+            if stop - start < LEAST_S * fps:
+                result[start:stop, foot] = False
     return result
 
 

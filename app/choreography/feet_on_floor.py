@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
-from app.arrays import BoolArray, FloatArray
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.body_speeds import angle
 from app.choreography.clip import MotionClip
@@ -58,25 +58,63 @@ def legs_to(
         Turn feet that are beyond the range of their ankles back into it; softly, so that those turned back before
         would be turned again.
     """
+    return legs_along(clip, world, foot_paths(clip, tips, planted), turned_back=turned_back)
+
+
+class FootPaths(NamedTuple):
+    """Paths of the tips of both feet over the floor.
+
+    Attributes
+    ----------
+    tips : (F, 2, 3) float64
+        World positions in metres of the left and the right tip.
+    planted : (F, 2) bool
+        Frames in which the foot stands.
+    free : (F, 2) float64
+        See `free`.
+    """
+
+    tips: FloatArray
+    planted: BoolArray
+    free: FloatArray
+
+    def at(self, frames: IntArray) -> FootPaths:
+        """Return the paths in some frames (N,)."""
+        return FootPaths(self.tips[frames], self.planted[frames], self.free[frames])
+
+
+def foot_paths(clip: MotionClip, tips: FloatArray, planted: BoolArray) -> FootPaths:
+    """Return the paths of tips (F, 2, 3), lifted smoothly where they are under the floor and do not stand."""
+    fps, lifted, shares = float(clip.fps), tips.copy(order="K"), np.empty(planted.shape, order="F")
+    for foot in range(2):
+        lifted[:, foot] = _over_floor(tips[:, foot], rest_tip_m(clip, foot), planted[:, foot], fps)
+        shares[:, foot] = free(planted[:, foot], fps)
+    return FootPaths(lifted, planted, shares)
+
+
+def legs_along(clip: MotionClip, world: JointTransforms, paths: FootPaths, *, turned_back: bool = True) -> MotionClip:
+    """Bend the legs of a motion so that the tips of its feet follow paths (see `legs_to`). Every frame is bent alone,
+    so that frames need not be consecutive.
+    """
     rotations = clip.rotations.copy(order="K")
     for foot, side in enumerate(SIDES):
         limb = ("hips", *(f"{side}{part}" for part in LEG))
         at, end = 1 + SEGMENTS.index(FEET[foot]), clip.shape.ends_m[ENDS.index(FEET[foot])]
-        world = replace(world, rotations=world.rotations.copy(order="K"), positions_m=world.positions_m.copy(order="K"))
-        tip = _over_floor(tips[:, foot], rest_tip_m(clip, foot), planted[:, foot], float(clip.fps))
-        bend(clip, world, limb, tip - quaternion.rotate(world.rotations[:, at], end), AHEAD, rotations)
-        _move(clip, world, limb, rotations)
-        was, fps = world.rotations[:, at], float(clip.fps)
+        own = world.only([1 + SEGMENTS.index(name) for name in limb])
+        tip, planted = paths.tips[:, foot].copy(order="K"), paths.planted[:, foot]
+        bend(clip, own, limb, tip - quaternion.rotate(own.of(at)[1], end), AHEAD, rotations)
+        _move(clip, own, limb, rotations)
+        was = own.of(at)[1]
         turned = quaternion.multiply(was, _into_range(rotations[:, at - 1], foot)) if turned_back else was
         # In the air a foot is turned about its ankle, on the floor about its tip.
         way = quaternion.rotate(turned, end) - quaternion.rotate(was, end)
-        tip += free(planted[:, foot], fps)[:, None] * way
-        tip[:, 1] = _above(tip[:, 1], rest_tip_m(clip, foot), planted[:, foot])
+        tip += paths.free[:, foot, None] * way
+        tip[:, 1] = _above(tip[:, 1], rest_tip_m(clip, foot), planted)
         turned = _heel_up(turned, tip[:, 1], end)
         some = np.flatnonzero(angle(was, turned) > LEAST_RAD)
         if len(some):
-            world.rotations[some, at] = turned[some]
-            part = JointTransforms(world.joints, world.positions_m[some], world.rotations[some])
+            part = own.at(some)
+            part.of(at)[1][:] = turned[some]
             solved = rotations[some]
             bend(clip, part, limb, tip[some] - quaternion.rotate(turned[some], end), AHEAD, solved)
             rotations[some] = solved
@@ -87,13 +125,13 @@ def _move(clip: MotionClip, world: JointTransforms, limb: tuple[str, ...], rotat
     """Update the world transforms ``world`` in place for a leg: from ``rotations`` (F, 16, 4), the local ones of the
     clip, follow positions of its joints and rotations of thigh and shank.
     """
-    above = 1 + SEGMENTS.index(limb[0])
+    above_m, above = world.of(1 + SEGMENTS.index(limb[0]))
     for name in limb[1:]:
         at = 1 + SEGMENTS.index(name)
-        way = quaternion.rotate(world.rotations[:, above], clip.shape.offsets_m[at - 1])
-        world.positions_m[:, at] = world.positions_m[:, above] + way
-        world.rotations[:, at] = quaternion.multiply(world.rotations[:, above], rotations[:, at - 1])
-        above = at
+        place_m, turned = world.of(at)
+        np.add(above_m, quaternion.rotate(above, clip.shape.offsets_m[at - 1]), out=place_m)
+        turned[:] = quaternion.multiply(above, rotations[:, at - 1])
+        above_m, above = place_m, turned
 
 
 def rest_tip_m(clip: MotionClip, foot: int) -> float:
@@ -109,16 +147,16 @@ def soles_m(clip: MotionClip, world: JointTransforms) -> FloatArray:
     found = []
     for name in FEET:
         at, end = 1 + SEGMENTS.index(name), clip.shape.ends_m[ENDS.index(name)]
-        ankle, turned = world.positions_m[:, at], world.rotations[:, at]
+        ankle, turned = world.of(at)
         found.append([(ankle + quaternion.rotate(turned, way))[:, 1] for way in (end, end * _UP)])
     return np.moveaxis(np.array(found), -1, 0)
 
 
 def grounded(clip: MotionClip, planted: BoolArray) -> MotionClip:
     """Return the motion with soles on or above the floor; the same object if none is below it."""
-    world = clip.world()
-    if soles_m(clip, world).min(initial=0.0) >= -SINKS_M:
+    if soles_m(clip, clip.world([1 + SEGMENTS.index(name) for name in FEET])).min(initial=0.0) >= -SINKS_M:
         return clip
+    world = clip.world()
     ends = [(1 + SEGMENTS.index(name), clip.shape.ends_m[ENDS.index(name)]) for name in FEET]
     tips = [world.positions_m[:, at] + quaternion.rotate(world.rotations[:, at], end) for at, end in ends]
     return legs_to(clip, world, np.stack(tips, axis=1), planted, turned_back=False)

@@ -209,7 +209,7 @@ def _leaves(
     It does not leave before the other foot has landed in the frame ``lands``, if the motion has them in this order.
     """
     swing = after.start - before.stop
-    way_m = float(np.linalg.norm(np.subtract(after.place_m, before.place_m)))
+    way_m = math.dist(after.place_m, before.place_m)
     takes = max(swing, math.ceil(STEP_SHARE * step_s * fps)) if way_m > SAME_M else swing
     first = came + min(before.stop - before.start, round(LEAST_STAND_S * fps))
     last = comes - min(swing, round(LEAST_SWING_S * fps))
@@ -229,17 +229,14 @@ def _chosen(
     # Best total so far for each pair of options of the last two landings.
     value = np.zeros((1, 1))
     back: list[np.ndarray] = []
-    for at, own in enumerate(options):
-        new = np.array([place for place, _ in own])
-        worth = np.array([worth for _, worth in own])
-        earlier = np.array([place for place, _ in options[at - 1]]) if at else np.array([-np.inf])
-        before = np.array([place for place, _ in options[at - 2]]) if at > 1 else np.array([-np.inf])
-        fits = np.zeros((len(before), len(earlier), len(new)))
+    pairs = [np.array(own).T for own in options]
+    for at, (new, worth) in enumerate(pairs):
+        fits = np.zeros((1, len(new)))
         if at:
-            fits[:, ~_possible(falls, times, at - 1, at, earlier, new)] = NEVER
+            fits = np.where(_possible(falls, times, at - 1, at, pairs[at - 1][0], new), 0.0, NEVER)
         if at > 1 and falls[at - 2].foot == falls[at].foot:
-            possible = _possible(falls, times, at - 2, at, before, new)
-            fits += np.where(possible, 0.0, NEVER)[:, None, :]
+            possible = _possible(falls, times, at - 2, at, pairs[at - 2][0], new)
+            fits = fits + np.where(possible, 0.0, NEVER)[:, None, :]
         total = value[:, :, None] + fits
         back.append(total.argmax(axis=0))
         value = total.max(axis=0) + worth

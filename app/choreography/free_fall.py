@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -59,16 +58,22 @@ def supported(high_m: FloatArray, down_m_s2: FloatArray, fps: float) -> FloatArr
     down_m_s2 : (F,) float64
         See `falls_m_s2`.
     """
-    result = np.zeros(len(high_m))
-    falls_g = np.clip(down_m_s2 / G_M_S2, 0.0, 1.0)
+    result, above = np.zeros(len(high_m)), high_m > 0.0
+    frames, weights = np.flatnonzero(above), np.square(high_m[above])
+    if not len(frames):
+        return result
+    firsts = frames[np.diff(frames, prepend=-2) > 1]
     touches = prominent_peaks(-high_m, JUMPS_M)[0]
-    for first, last in runs(high_m > 0.0):
-        inside = touches[(touches > first) & (touches < last)].tolist()
-        for start, stop in pairwise([first, *inside, last]):
-            # The higher a body is, the more certainly it is off the floor.
-            mean = np.average(falls_g[start:stop], weights=np.square(high_m[start:stop]))
-            hovers = 1.0 - smooth_share(np.asarray(mean), FALLS_G)
-            result[start:stop] = hovers * (1.0 - smooth_share(high_m[start:stop].max(), HOVERS_M))
-        if inside:
+    inside = touches[above[touches] & above[touches - 1]]
+    # The body goes from touch to touch, the first frames in the air included.
+    ways = np.searchsorted(frames, np.sort(np.concatenate([firsts, inside])))
+    # The higher a body is, the more certainly it is off the floor.
+    falls_g = np.clip(down_m_s2[above] / G_M_S2, 0.0, 1.0)
+    mean_g = np.add.reduceat(falls_g * weights, ways) / np.add.reduceat(weights, ways)
+    hovers = 1.0 - smooth_share(mean_g, FALLS_G)
+    hovers *= 1.0 - smooth_share(np.maximum.reduceat(high_m[above], ways), HOVERS_M)
+    result[frames] = np.repeat(hovers, np.diff(ways, append=len(frames)))
+    for first, last in runs(above):
+        if ((inside > first) & (inside < last)).any():
             result[first:last] = gaussian_filter1d(result[first:last], TURNS_S * fps, mode="nearest")
     return result

@@ -19,7 +19,7 @@ from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.body_speeds import runs
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
-from app.choreography.feet_on_floor import LEG, legs_to, soles_m
+from app.choreography.feet_on_floor import LEG, foot_paths, legs_along, soles_m
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
 from app.rig.sole import SIDES
@@ -46,6 +46,7 @@ SOME_RAD: Final = 0.01
 EXACT_M: Final = 1e-4
 """Distance in metres within which the tip of a standing foot stays."""
 _ACROSS: Final = (1.0, 0.0, 0.0)
+_ANKLES: Final = tuple(1 + SEGMENTS.index(name) for name in FEET)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,43 +91,54 @@ def _calmer(clip: MotionClip, planted: BoolArray, most_rad: float, most_m: float
     returned if none does, or if heels cannot help. Second differences of ankles greater than ``most_m`` do not grow.
     """
     around = 2 * (round(AROUND_S * float(clip.fps)) + EDGE) + 1
+    turns = [_turns(clip.rotations[:-1, leg], clip.rotations[1:, leg]) for leg in map(_leg, range(2))]
     spans = [
         (foot, slice(start, stop))
         for foot in range(2)
-        for start, stop in runs(
-            maximum_filter1d(_excess(clip.rotations[:, _leg(foot)], FROM / ROOM * most_rad) > 0.0, around)
-        )
+        for start, stop in runs(maximum_filter1d(_excess(turns[foot], FROM / ROOM * most_rad) > 0.0, around))
     ]
     if not spans:
         return clip
-    world = clip.world()
-    tips, highest = tips_m(clip, world), soles_m(clip, world)[..., 1]
-    some = legs_to(clip, _heels_turned(world, np.full(planted.shape, SOME_RAD)), tips, planted)
+    legs_world, moves = clip.world(_ANKLES), np.zeros(len(clip), bool)
+    tips = tips_m(clip, legs_world)
+    for _, here in spans:
+        moves[here] = True
+    frames = np.flatnonzero(moves)
+    paths = foot_paths(clip, tips, planted).at(frames)
+    # Legs are bent only in the frames of the spans, of which ``along`` are the places among these frames.
+    part, along = clip.at(frames), np.cumsum(moves) - 1
+    world = part.world(_ANKLES)
+    highest = soles_m(part, world)[..., 1]
+    some = legs_along(part, _heels_turned(world, np.full((len(frames), 2), SOME_RAD)), paths)
     lengths = [here.stop - here.start for _, here in spans]
     legs, least = [], []
-    for foot, here in spans:
-        legs.append(_legs(clip.rotations[here, _leg(foot)], some.rotations[here, _leg(foot)]))
+    follow = [_turns(part.rotations[:, leg], some.rotations[:, leg]) / SOME_RAD for leg in map(_leg, range(2))]
+    places = [slice(along[here.start], along[here.start] + here.stop - here.start) for _, here in spans]
+    for (foot, here), place in zip(spans, places, strict=True):
+        path = np.pad(np.cumsum(turns[foot][here.start : here.stop - 1], axis=0), ((1, 0), (0, 0), (0, 0)))
+        legs.append(_Legs(path, follow[foot][place]))
         reach_m = float(np.linalg.norm(clip.shape.ends_m[ENDS.index(FEET[foot])]))
-        least.append(-np.minimum(np.maximum(highest[here, foot], 0.0) / reach_m, MOST_RAD))
-    raised = np.zeros(planted.shape)
+        least.append(-np.minimum(np.maximum(highest[place, foot], 0.0) / reach_m, MOST_RAD))
+    raised = np.zeros((len(frames), 2))
     # All spans are one path: the frames at which they meet stay.
     every = _angles(_joined(legs), np.concatenate(least), _inside(lengths), most_rad)
-    for (foot, here), angles in zip(spans, np.split(every, np.cumsum(lengths)[:-1]), strict=True):
-        raised[here, foot] = angles
-    found = legs_to(clip, _heels_turned(world, raised), tips, planted)
-    moved = found.world()
-    off = planted & (np.linalg.norm(tips_m(found, moved) - tips, axis=-1) > EXACT_M)
+    for (foot, _), place, angles in zip(spans, places, np.split(every, np.cumsum(lengths)[:-1]), strict=True):
+        raised[place, foot] = angles
+    found = legs_along(part, _heels_turned(world, raised), paths)
+    moved = found.world(_ANKLES)
+    off = planted[frames] & (np.linalg.norm(tips_m(found, moved) - tips[frames], axis=-1) > EXACT_M)
     rotations, changed = clip.rotations.copy(order="K"), False
-    for foot, here in spans:
+    for (foot, here), place in zip(spans, places, strict=True):
         beside, leg = slice(max(0, here.start - 2), here.stop + 2), _leg(foot)
         inside = slice(here.start - beside.start, here.stop - beside.start)
         new = rotations[beside].copy()
-        new[inside, leg] = found.rotations[here, leg]
-        ankle = world.positions_m[beside, leg.stop].copy()
+        new[inside, leg] = found.rotations[place, leg]
+        ankle = legs_world.of(leg.stop)[0][beside].copy()
         before = _acceleration(ankle)
-        ankle[inside] = moved.positions_m[here, leg.stop]
-        better = _square(new[:, leg], most_rad) < _square(rotations[beside, leg], most_rad)
-        if better and _acceleration(ankle) <= max(most_m, before) and not off[here, foot].any():
+        ankle[inside] = moved.of(leg.stop)[0][place]
+        if off[place, foot].any() or _acceleration(ankle) > max(most_m, before):
+            continue
+        if _square(new[:, leg], most_rad) < _square(rotations[beside, leg], most_rad):
             rotations[beside] = new
             changed = True
     return replace(clip, rotations=quaternion.continuous(rotations)) if changed else clip
@@ -141,12 +153,12 @@ def _leg(foot: int) -> slice:
 
 def _heels_turned(world: JointTransforms, raised: FloatArray) -> JointTransforms:
     """Turn the feet by angles (F, 2) in radians about their own axes to the left, heels up."""
-    rotations = world.rotations.copy(order="K")
-    for foot, name in enumerate(FEET):
-        at = 1 + SEGMENTS.index(name)
+    result = world.only(world.joints)
+    for foot, joint in enumerate(_ANKLES):
         turn = quaternion.from_rotation_vector(quaternion.columns(*(raised[:, foot] * axis for axis in _ACROSS)))
-        rotations[:, at] = quaternion.multiply(rotations[:, at], turn)
-    return replace(world, rotations=rotations)
+        turned = result.of(joint)[1]
+        turned[:] = quaternion.multiply(turned, turn)
+    return result
 
 
 def _turns(rotations: FloatArray, others: FloatArray) -> FloatArray:
@@ -154,13 +166,13 @@ def _turns(rotations: FloatArray, others: FloatArray) -> FloatArray:
     return quaternion.to_rotation_vector(quaternion.multiply(others, quaternion.conjugate(rotations)))
 
 
-def _excess(rotations: FloatArray, most_rad: float) -> FloatArray:
-    """Greatest change (F,) of the turns of joints (F, 3, 4) between adjacent frame intervals beyond ``most_rad``; 0 at
-    the ends.
+def _excess(turns: FloatArray, most_rad: float) -> FloatArray:
+    """Greatest change (F,) beyond ``most_rad`` of the turns of joints from frame to frame (F - 1, 3, 3); 0 at the
+    ends.
     """
-    if len(rotations) < 3:
-        return np.zeros(len(rotations))
-    change = np.linalg.norm(np.diff(_turns(rotations[:-1], rotations[1:]), axis=0), axis=-1).max(axis=1)
+    if len(turns) < 2:
+        return np.zeros(len(turns) + 1)
+    change = np.linalg.norm(np.diff(turns, axis=0), axis=-1).max(axis=1)
     return np.pad(np.maximum(change - most_rad, 0.0), 1)
 
 
@@ -170,18 +182,15 @@ def _acceleration(path_m: FloatArray) -> float:
 
 
 def _square(rotations: FloatArray, most_rad: float) -> float:
-    return float(np.square(_excess(rotations, most_rad)).sum())
-
-
-def _legs(rotations: FloatArray, some: FloatArray) -> _Legs:
-    """Find how joints (F, 3, 4) turn from frame to frame and, from those with heels raised by `SOME_RAD`, how they
-    follow."""
-    path = np.pad(np.cumsum(_turns(rotations[:-1], rotations[1:]), axis=0), ((1, 0), (0, 0), (0, 0)))
-    return _Legs(path, _turns(rotations, some) / SOME_RAD)
+    return float(np.square(_excess(_turns(rotations[:-1], rotations[1:]), most_rad)).sum())
 
 
 def _joined(legs: Sequence[_Legs]) -> _Legs:
-    return _Legs(np.concatenate([one.path for one in legs]), np.concatenate([one.follow for one in legs]))
+    frames = sum(len(one.path) for one in legs)
+    joined = _Legs(quaternion.planes(frames, 3, 3), quaternion.planes(frames, 3, 3))
+    np.concatenate([one.path for one in legs], out=joined.path)
+    np.concatenate([one.follow for one in legs], out=joined.follow)
+    return joined
 
 
 def _inside(lengths: Sequence[int]) -> BoolArray:

@@ -24,21 +24,23 @@ BOTH_M: Final = 0.004
 _UP: Final = np.array([0.0, 1.0, 0.0])
 
 
-def hover_m(clip: MotionClip, world: JointTransforms, tips: FloatArray) -> FloatArray:
+def hover_m(clip: MotionClip, world: JointTransforms, legs: JointTransforms, tips: FloatArray) -> FloatArray:
     """Return the distance (F,) in metres by which both feet must be lowered so that one is near the floor; 0 while
     either is there and in free fall.
 
     Parameters
     ----------
     world : JointTransforms
-        World transforms of the clip, with the desired rotations of the feet.
+        World transforms of the clip.
+    legs : JointTransforms
+        Those of the legs, with the desired rotations of the feet.
     tips : (F, 2, 3) float64
         Desired positions in metres of the left and the right tip.
     """
     soles = []
     for foot, name in enumerate(FEET):
         end = clip.shape.ends_m[ENDS.index(name)]
-        heel = quaternion.rotate(world.rotations[:, 1 + SEGMENTS.index(name)], end * (_UP - 1.0))[:, 1]
+        heel = quaternion.rotate(legs.of(1 + SEGMENTS.index(name))[1], end * (_UP - 1.0))[:, 1]
         soles.append(tips[:, foot, 1] + np.minimum(heel, 0.0) - rest_tip_m(clip, foot))
     lower_m = -BOTH_M * np.logaddexp(*(-np.array(soles) / BOTH_M))
     over_m: FloatArray = np.maximum(lower_m - NEAR_M, 0.0)

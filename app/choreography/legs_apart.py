@@ -19,7 +19,7 @@ from app.choreography.capsules import Capsules, depth_m
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.features import facing, height_m
-from app.choreography.feet_on_floor import FREE_S, free, legs_to
+from app.choreography.feet_on_floor import FREE_S, foot_paths, free, legs_along
 from app.choreography.foot_plants import FootPlant, planted_frames
 from app.choreography.footfalls import Footfalls
 from app.choreography.limbs import smooth_share
@@ -111,9 +111,9 @@ def with_swings_apart(clip: MotionClip, standing: Sequence[FootPlant]) -> Motion
         some = np.flatnonzero(more_m.any(axis=(1, 2)))
         if not len(some):
             break
-        world, rotations = clip.world(), clip.rotations.copy(order="K")
-        moved = legs_to(clip, world, tips_m(clip, world) + more_m, on_floor, turned_back=False)
-        rotations[some] = moved.rotations[some]
+        rotations, paths = clip.rotations.copy(order="K"), foot_paths(clip, tips_m(clip) + more_m, on_floor)
+        part = clip.at(some)
+        rotations[some] = legs_along(part, part.world(), paths.at(some), turned_back=False).rotations
         clip = replace(clip, rotations=quaternion.continuous(rotations))
     return knees_apart(clip)
 

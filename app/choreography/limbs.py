@@ -170,7 +170,7 @@ def bend(
     Parameters
     ----------
     world : JointTransforms
-        World transforms of the clip.
+        World transforms of the limb in the clip.
     limb : tuple of str
         Names of the segments: parent of the limb, its two parts, and its foot or hand.
     ankle : (F, 3) float64
@@ -181,8 +181,7 @@ def bend(
         Array that receives the limb's new rotations.
     """
     hip_at, thigh_at, shank_at, foot_at = (1 + SEGMENTS.index(name) for name in limb)
-    hip, knee, was = (world.positions_m[:, at] for at in (thigh_at, shank_at, foot_at))
-    thigh, shank, foot = (world.rotations[:, at] for at in (thigh_at, shank_at, foot_at))
+    (hip, thigh), (knee, shank), (was, foot) = (world.of(at) for at in (thigh_at, shank_at, foot_at))
     upper, lower = (float(np.linalg.norm(clip.shape.offsets_m[at - 1])) for at in (shank_at, foot_at))
     line = ankle - hip
     requested = np.linalg.norm(line, axis=-1)
@@ -210,7 +209,7 @@ def bend(
     new_shank = quaternion.multiply(
         quaternion.between(_unit(was - knee), _unit(way * distance[:, None] - new_knee)), shank
     )
-    rotations[:, thigh_at - 1] = quaternion.multiply(quaternion.conjugate(world.rotations[:, hip_at]), new_thigh)
+    rotations[:, thigh_at - 1] = quaternion.multiply(quaternion.conjugate(world.of(hip_at)[1]), new_thigh)
     rotations[:, shank_at - 1] = quaternion.multiply(quaternion.conjugate(new_thigh), new_shank)
     rotations[:, foot_at - 1] = quaternion.multiply(quaternion.conjugate(new_shank), foot)
 

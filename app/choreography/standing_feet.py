@@ -45,6 +45,9 @@ SINK_S: Final = 0.12
 """Standard deviation in seconds of the hips' lowering and of their way towards a foot."""
 
 _UP: Final = np.array([0.0, 1.0, 0.0])
+_LEGS: Final = tuple(
+    1 + at for at, name in enumerate(SEGMENTS) if name == "hips" or name.endswith(("UpperLeg", "LowerLeg", "Foot"))
+)
 
 
 def planted(
@@ -72,46 +75,44 @@ def planted(
     if not standing and not weight:
         return clip
     world = clip.world() if world is None else world
-    tips = tips_m(clip, world)
+    tips, legs = tips_m(clip, world), world.only(_LEGS)
     if shown is not None:
-        tips, world = _feet_at(tips, world, shown, planted_frames(standing, len(clip)), float(clip.fps))
+        tips = _feet_at(tips, legs, shown, planted_frames(standing, len(clip)), float(clip.fps))
     targets = tips.copy(order="K") if aside_m is None else tips + aside_m
     own = [[stand for stand in standing if stand.foot == foot] for foot in range(2)]
     for foot in range(2):
         targets[:, foot] += _correction(tips[:, foot], own[foot], float(clip.fps))
-    hover = hover_m(clip, world, targets)
+    hover = hover_m(clip, world, legs, targets)
     targets[..., 1] -= hover[:, None]
     for foot in range(2):
         targets[:, foot, 1] = _cleared(targets[:, foot], own[foot], rest_tip_m(clip, foot))
     carried = [FootPlant(*span, (0.0, 0.0, 0.0)) for span in supporting(hover, targets)]
     length_m = leg(clip.shape.skeleton, "left").length_m
     lower_m = weight * length_m * (DEEPER if weight > 0.0 else HIGHER)
-    towards = _towards_m(clip, world, targets, standing, lower_m)
-    world = replace(world, positions_m=world.positions_m + towards[:, None])
-    lower = lower_m + _sink_m(clip, world, targets, (*standing, *carried), lower_m)
+    towards = _towards_m(clip, legs, targets, standing, lower_m)
+    legs = replace(legs, positions_m=legs.positions_m + towards[:, None])
+    lower = lower_m + _sink_m(clip, legs, targets, (*standing, *carried), lower_m)
     lower = quaternion.columns(0.0, lower, 0.0)
     clip = replace(clip, hips_m=clip.hips_m + towards - lower)
-    world = replace(world, positions_m=world.positions_m - lower[:, None])
-    return legs_to(clip, world, targets, planted_frames(standing, len(clip)))
+    legs = replace(legs, positions_m=legs.positions_m - lower[:, None])
+    return legs_to(clip, legs, targets, planted_frames(standing, len(clip)))
 
 
-def _feet_at(
-    tips: FloatArray, world: JointTransforms, shown: FloatArray, on_floor: BoolArray, fps: float
-) -> tuple[FloatArray, JointTransforms]:
-    """World positions of foot tips (F, feet, 3) and world transforms of the feet, taken for each foot from the frame
-    ``shown`` (F, feet), which may be fractional; a foot in the air turns along with the hips, as it does in a spin.
+def _feet_at(tips: FloatArray, legs: JointTransforms, shown: FloatArray, on_floor: BoolArray, fps: float) -> FloatArray:
+    """World positions of foot tips (F, feet, 3), taken for each foot from the frame ``shown`` (F, feet), which may be
+    fractional. The feet are turned likewise, in place in ``legs``; a foot in the air turns along with the hips, as it
+    does in a spin.
     """
-    frames = np.arange(len(tips))
-    tips, rotations = tips.copy(order="K"), world.rotations.copy(order="K")
-    facing = np.unwrap(quaternion.twist_angle(rotations[:, 1 + SEGMENTS.index("hips")], _UP))
+    frames, tips = np.arange(len(tips)), tips.copy(order="K")
+    facing = np.unwrap(quaternion.twist_angle(legs.of(1 + SEGMENTS.index("hips"))[1], _UP))
     for foot, name in enumerate(FEET):
         tips[:, foot] = CubicSpline(frames, tips[:, foot])(shown[:, foot])
-        at = 1 + SEGMENTS.index(name)
-        way = CubicSpline(frames, quaternion.continuous(rotations[:, at, None])[:, 0])(shown[:, foot])
+        rotations = legs.of(1 + SEGMENTS.index(name))[1]
+        way = CubicSpline(frames, quaternion.continuous(rotations[:, None])[:, 0])(shown[:, foot])
         turned = quaternion.normalize(np.asfortranarray(way))
         along = free(on_floor[:, foot], fps) * (facing - np.interp(shown[:, foot], frames, facing))
-        rotations[:, at] = quaternion.multiply(quaternion.from_axis_angle(_UP, along), turned)
-    return tips, replace(world, rotations=rotations)
+        rotations[:] = quaternion.multiply(quaternion.from_axis_angle(_UP, along), turned)
+    return tips
 
 
 class _Air(NamedTuple):
@@ -220,14 +221,14 @@ def _cleared(tip_m: FloatArray, standing: list[FootPlant], rest_m: float) -> Flo
 
 
 def _towards_m(
-    clip: MotionClip, world: JointTransforms, targets: FloatArray, standing: tuple[FootPlant, ...], lower_m: float
+    clip: MotionClip, legs: JointTransforms, targets: FloatArray, standing: tuple[FootPlant, ...], lower_m: float
 ) -> FloatArray:
     """Horizontal displacement (F, 3) of the hips in metres that brings planted feet within reach which are too far even
     with the hips at `LOWEST_SHARE`.
     """
     towards, on_floor = np.zeros((3, len(clip))).T, planted_frames(standing, len(clip))
     for foot in range(2):
-        way, length_m = _ankle_to_hip_m(clip, world, targets, foot)
+        way, length_m = _ankle_to_hip_m(clip, legs, targets, foot)
         across = np.hypot(way[:, 0], way[:, 2])
         height = np.minimum(way[:, 1] - lower_m, LOWEST_SHARE * length_m)
         reach = np.sqrt(np.maximum((REACH_SHARE * length_m) ** 2 - np.square(height), 0.0))
@@ -240,14 +241,14 @@ def _towards_m(
 
 
 def _sink_m(
-    clip: MotionClip, world: JointTransforms, targets: FloatArray, standing: tuple[FootPlant, ...], lower_m: float
+    clip: MotionClip, legs: JointTransforms, targets: FloatArray, standing: tuple[FootPlant, ...], lower_m: float
 ) -> FloatArray:
     """Distance (F,) in metres by which the hips are lowered, in addition to ``lower_m``, where a planted foot would be
     out of reach.
     """
     sink, on_floor = np.zeros(len(clip)), planted_frames(standing, len(clip))
     for foot in range(2):
-        way, length_m = _ankle_to_hip_m(clip, world, targets, foot)
+        way, length_m = _ankle_to_hip_m(clip, legs, targets, foot)
         across2 = np.square(way[:, 0]) + np.square(way[:, 2])
         allowed = np.sqrt(np.maximum((REACH_SHARE * length_m) ** 2 - across2, (LOWEST_SHARE * length_m) ** 2))
         sink = np.where(on_floor[:, foot], np.maximum(sink, way[:, 1] - lower_m - allowed), sink)
@@ -255,15 +256,15 @@ def _sink_m(
 
 
 def _ankle_to_hip_m(
-    clip: MotionClip, world: JointTransforms, targets: FloatArray, foot: int
+    clip: MotionClip, legs: JointTransforms, targets: FloatArray, foot: int
 ) -> tuple[FloatArray, float]:
     """Vector (F, 3) in metres from a foot's ankle, with the foot's tip at its target, to the hip joint; and the length
     of the leg.
     """
     limb = leg(clip.shape.skeleton, SIDES[foot])
     end = clip.shape.ends_m[ENDS.index(FEET[foot])]
-    ankle = targets[:, foot] - quaternion.rotate(world.rotations[:, limb.end], end)
-    return world.positions_m[:, limb.upper] - ankle, limb.length_m
+    ankle = targets[:, foot] - quaternion.rotate(legs.of(limb.end)[1], end)
+    return legs.of(limb.upper)[0] - ankle, limb.length_m
 
 
 def _spread(values: FloatArray, fps: float) -> FloatArray:

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from app.arrays import AnyFloatArray, FloatArray
+from app.arrays import AnyFloatArray, FloatArray, IntArray
 from app.rig import quaternion
 from app.rig.model import Skeleton
 
@@ -39,6 +39,22 @@ class JointTransforms:
         """Return positions (F, 3) and rotations (F, 4) of one joint."""
         place = self.place(joint)
         return self.positions_m[:, place], self.rotations[:, place]
+
+    def at(self, frames: IntArray) -> JointTransforms:
+        """Return the transforms in some frames (N,)."""
+        return JointTransforms(self.joints, self.positions_m[frames], self.rotations[frames])
+
+    def only(self, joints: Sequence[int]) -> JointTransforms:
+        """Return a copy of the transforms of some joints, given in ascending order."""
+        frames = len(self.positions_m)
+        result = JointTransforms(
+            tuple(joints),
+            quaternion.planes(frames, len(joints), 3),
+            quaternion.planes(frames, len(joints), 4),
+        )
+        for index, joint in enumerate(joints):
+            result.positions_m[:, index], result.rotations[:, index] = self.of(joint)
+        return result
 
     def matrices(self) -> FloatArray:
         """Return ``world_from_joint`` as (F, len(joints), 3, 4) matrices."""
