@@ -20,7 +20,7 @@ CANON_BEATS: Final = 4.0
 """Felt beats between the starts of two dancers in canon."""
 APART_M: Final[dict[Formation, float]] = {"unison": 2.0, "canon": 3.0, "mirror": 3.0, "individual": 3.6}
 """Distance in metres between neighbouring dancers: those who dance alike simultaneously do not collide, others keep
-within about `app.choreography.stitch.STAGE_M` of their places.
+within about `app.choreography.stage.STAGE_M` of their places.
 """
 ENDS_S: Final = 2.0
 """Seconds after the last beat within which all dancers come to rest."""

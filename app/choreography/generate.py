@@ -19,6 +19,7 @@ from app.choreography.clip import MotionClip
 from app.choreography.coming_to_rest import CapturedStands, between_stands, captured_stands
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.dance_flaws import usual_change_rad_s
+from app.choreography.drafts import DRAFT_FPS, DRAFTS, draft_of
 from app.choreography.drums_of_dancers import TakeShares, take_shares
 from app.choreography.feet_on_beats import feet_on_beats
 from app.choreography.foot_plants import STEP_S, FootPlant, stands, steps_s
@@ -37,15 +38,12 @@ from app.choreography.sequence import Constraints, SegmentCandidates, Weights, c
 from app.choreography.shortest_times import ShortestTimes
 from app.choreography.sized import sized
 from app.choreography.spins import hips_within
+from app.choreography.stage import on_stage
 from app.choreography.step_balance import step_balance
-from app.choreography.stitch import Frames, Stitcher, on_stage
+from app.choreography.stitch import Frames, Stitcher
 from app.choreography.sudden_ends import UsualAccelerations, usual_accelerations, within_limits
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
 
-DRAFT_FPS: Final = Fraction(60)
-"""Frame rate of the drafts in which arrivals and footfalls are found; at half of it contacts differ from the dance."""
-DRAFTS: Final = 4
-"""Greatest number of drafts, each with the best time map of the previous one, with and without footfalls on beats."""
 _LEAST_S: Final = 0.01
 """Margin in seconds beyond the first start and the last end, since a segment's beat may be at either."""
 STANDING: Final = 4.0
@@ -81,16 +79,6 @@ class _Motion(NamedTuple):
     contacts: BoolArray
     seams: tuple[int, ...]
     speeds: FloatArray
-
-
-class _Draft(NamedTuple):
-    """Mean speed (F,) in m/s of the joints in a draft, and the times (K,) in seconds of its footfalls before and after
-    they were moved to beats.
-    """
-
-    speed_m_s: FloatArray
-    falls_s: FloatArray
-    down_s: FloatArray
 
 
 class Choreographer:
@@ -332,7 +320,8 @@ class Choreographer:
             if len(draft_s) < 2:
                 return planned(shown)
             for number in range(DRAFTS):
-                draft = self._draft(planned(shown), body, draft_s, grid)
+                motion = self._motion(planned(shown), body, DRAFT_FPS, draft_s)
+                draft = draft_of(motion.clip, motion.contacts, motion.moved_m, draft_s, grid, self._step_s)
                 worth = beats_met(draft_s[arrival_frames(draft.speed_m_s, fps)], draft.down_s, grid)
                 if worth > best_worth:
                     best, best_worth = shown, worth
@@ -345,16 +334,6 @@ class Choreographer:
                     break
                 shown = self._shortest.calmed(following, segments, hits, hits + after)
         return planned(best)
-
-    def _draft(self, plan: _Plan, body: int, times_s: FloatArray, grid: AccentGrid) -> _Draft:
-        """Compute a draft of a plan's motion at `DRAFT_FPS`, with feet moved to beats."""
-        draft = self._motion(plan, body, DRAFT_FPS, times_s)
-        first_s = float(times_s[0])
-        feet = feet_on_beats(draft.clip, draft.contacts, draft.moved_m, first_s, grid, self._step_s)
-        frames = sorted(stand.start for stand in feet.captured if stand.start)
-        pairs = zip(feet.falls.standing, feet.leads, strict=True)
-        down = np.sort(np.array([stand.start - lead for stand, lead in pairs if stand.start]))
-        return _Draft(joint_speed_m_s(feet.clip), times_s[frames], first_s + down / float(DRAFT_FPS))
 
     def _arrivals_s(self, segments: IntArray, hits: FloatArray) -> FloatArray:
         """Times (K,) of the arrivals (speed minima) in the given segments, in seconds along the segments placed one

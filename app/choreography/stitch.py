@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,7 +11,6 @@ from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, ComplexArray, FloatArray, IntArray
 from app.choreography.body import SEGMENTS
@@ -31,10 +31,9 @@ from app.choreography.joins import (
 )
 from app.choreography.limbs import hinge_ranges, within_hinges
 from app.choreography.model import ChoreographyModel
+from app.choreography.stage import STAGE_M
 from app.rig import quaternion
 
-STAGE_M: Final = 1.2
-"""Distance in metres within which a dancer stays near the place."""
 FACES_RAD: Final = math.radians(6.0)
 """Greatest mean angle in radians of a motion from facing the audience; spins and turns of the capture remain
 complete.
@@ -46,10 +45,6 @@ MOST_STEP_M: Final = 0.08
 """`TURN_BACK` and `STEP_BACK` are the shares of the excess over `FACES_RAD` and `STAGE_M` that each join corrects,
 `MOST_TURN_RAD` and `MOST_STEP_M` the greatest corrections.
 """
-WANDERS_S: Final = 1.2
-"""Standard deviation in seconds that separates a path from sway and steps."""
-LEAST_ROOM: Final = 0.4
-"""Least share of the stage that stays free for paths, however large the sway."""
 LATELY_S: Final = 1.0
 """Seconds of motion whose mean is the dancer's place."""
 SPINS_RAD_S: Final = 5.0
@@ -147,6 +142,7 @@ class Stitcher:
         seams: list[int] = []
         steered: list[_Steer] = []
         turn, moved = 0.0, 0.0 + 0.0j
+        ahead = _Ahead.of(captured[1], float(fps))
         before: int | None = None
         for run, (start, stop) in enumerate(zip(runs[:-1].tolist(), runs[1:].tolist(), strict=True)):
             step, kept, seam = int(frames.which[start]), (turn, moved), before is not None
@@ -158,7 +154,7 @@ class Stitcher:
                 seam = not self.follows(segment, earlier)
                 if seam or step != before + 1:
                     turn, moved = self._aligned(earlier, segment, turn, moved, self._heights_m[body])
-                turn, moved = _steered(turn, moved, out, start, captured[1][start + run : stop + run])
+                turn, moved = _steered(turn, moved, out, start, ahead, slice(start + run, stop + run))
                 if seam:
                     seams.append(start)
                     steered.clear()
@@ -168,6 +164,7 @@ class Stitcher:
             # One additional frame: the first two show how fast the old and the new motion diverge.
             here = slice(start + run, stop + run + 1)
             times_s = (start + np.arange(stop - start + 1)) / float(fps)
+            steered = [one for one in steered if one.start > start - FADE_S * float(fps)]
             place = _place_at(times_s, turn, moved, steered, float(fps))
             out.append(start, *_placed(captured[0][here], captured[1][here], *place), seam=seam)
             before = step
@@ -334,23 +331,40 @@ class _Output:
         return complex(middle[2], middle[0])
 
 
-def _faces(rotations: FloatArray) -> complex:
-    """Mean direction of the hips over frames (F, 16, 4) as a complex number; its length is small if they
-    turn around.
+class _Ahead(NamedTuple):
+    """Directions (F,) of the hips in a captured motion as complex numbers, whose mean is small if they turn around, and
+    the angles (F,) in radians by which they turn to the next frame.
     """
-    return complex(np.exp(1j * quaternion.twist_angle(rotations[:, 0], _UP)).mean())
+
+    faces: ComplexArray
+    turns_rad: FloatArray
+    fps: float
+
+    @classmethod
+    def of(cls, rotations: FloatArray, fps: float) -> _Ahead:
+        """Return the directions of the hips for rotations (F, 16, 4)."""
+        yaw = quaternion.twist_angle(rotations[:, 0], _UP)
+        turns_rad = np.abs(np.diff(yaw, append=yaw[-1:]))
+        return cls(np.exp(1j * yaw), np.minimum(turns_rad, 2.0 * np.pi - turns_rad), fps)
+
+    def spins(self, some: slice) -> bool:
+        """Return whether the hips turn at `SPINS_RAD_S` or more at some moment soon after the first of some frames."""
+        soon = slice(some.start, min(some.stop, some.start + round(FADE_S * self.fps) + 1) - 1)
+        return float(self.turns_rad[soon].max(initial=0.0)) * self.fps >= SPINS_RAD_S
 
 
-def _steered(turn: float, moved: complex, out: _Output, frame: int, ahead: FloatArray) -> tuple[float, complex]:
+def _steered(
+    turn: float, moved: complex, out: _Output, frame: int, ahead: _Ahead, coming: slice
+) -> tuple[float, complex]:
     """Correct rotation and move of the next segment slightly, to bring the dancer back towards the usual place (from
-    the recent mean position) and towards the audience (from the mean direction of the coming rotations ``ahead``,
-    (F, 16, 4)). A spin in progress is not turned.
+    the recent mean position) and towards the audience (from the mean direction ``ahead`` in its ``coming`` frames). A
+    spin in progress is not turned.
     """
     hips = out.lately(frame)
     if hips is None:
         return turn, moved
-    off = float(np.angle(complex(np.exp(1j * turn)) * _faces(ahead)))
-    if abs(off) > FACES_RAD and not _spins(ahead[: round(FADE_S * out.rate) + 1], out.rate):
+    off = cmath.phase(cmath.exp(1j * turn) * complex(ahead.faces[coming].mean()))
+    if abs(off) > FACES_RAD and not ahead.spins(coming):
         nudge = -math.copysign(min(TURN_BACK * (abs(off) - FACES_RAD), MOST_TURN_RAD), off)
         # Rotated about the position of the body, so that it does not orbit the centre of the stage.
         here = out.place(frame)
@@ -362,31 +376,11 @@ def _steered(turn: float, moved: complex, out: _Output, frame: int, ahead: Float
     return turn, moved
 
 
-def _spins(rotations: FloatArray, fps: float) -> bool:
-    """Return whether the hips turn at `SPINS_RAD_S` or more at some moment of F frames (F, 16, 4)."""
-    yaw = np.unwrap(quaternion.twist_angle(rotations[:, 0], _UP))
-    return float(np.abs(np.diff(yaw)).max(initial=0.0)) * fps >= SPINS_RAD_S
-
-
 def _placed(
     hips: FloatArray, rotations: FloatArray, turns: FloatArray, factors: ComplexArray, moves: ComplexArray
 ) -> tuple[FloatArray, FloatArray]:
     """Turn hip positions (F, 3) by the complex ``factors`` and bone rotations (F, B, 4) by ``turns`` (radians) about
-    the vertical, and move them over the floor by ``moves`` (complex, metres: Z + X · i), each (F,)."""
+    the vertical, in place, and move them over the floor by ``moves`` (complex, metres: Z + X · i), each (F,)."""
     flat = factors * (hips[:, 2] + 1j * hips[:, 0]) + moves
-    rotations = rotations.copy()
     rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle(_UP, turns), rotations[:, 0])
     return np.stack([flat.imag, hips[:, 1], flat.real], axis=1), rotations
-
-
-def on_stage(hips_m: FloatArray, fps: float) -> FloatArray:
-    """Scale the path (F, 3) of the hips so that it stays within `STAGE_M` of the dancer's place, with sway, steps and
-    heights unchanged.
-    """
-    way = gaussian_filter1d(hips_m, WANDERS_S * fps, axis=0, mode="nearest") * (1.0, 0.0, 1.0)
-    sway = np.linalg.norm((hips_m - way) * (1.0, 0.0, 1.0), axis=1)
-    wide = 2 * round(2.5 * WANDERS_S * fps) + 1
-    room = STAGE_M - gaussian_filter1d(maximum_filter1d(sway, wide, mode="nearest"), WANDERS_S * fps, mode="nearest")
-    room = np.maximum(room, LEAST_ROOM * STAGE_M)[:, None]
-    far = np.linalg.norm(way, axis=1, keepdims=True)
-    return np.asfortranarray(hips_m - way * (1.0 - np.tanh(far / room) * room / np.maximum(far, 1e-9)))

@@ -28,6 +28,8 @@ SHARES: Final = 64
 """Resolution of the point at which two segments meet, as parts of the time between accents."""
 NEAR_S: Final = 0.1
 """Standard deviation in seconds of an arrival that still meets a beat, since it can be shifted slightly."""
+_TOGETHER: Final = 1 << 16
+"""Number of values that are computed at a time."""
 
 
 _Beats: TypeAlias = tuple[tuple[int, float], ...]
@@ -248,10 +250,17 @@ class SegmentMoves:
         off_s = gap_s * (np.arange(SHARES + 1)[:, None] / SHARES - hundredths / 100.0)
         near = (np.exp(-np.square(off_s / NEAR_S) / 2.0) * strengths).max(axis=1, initial=0.0)
         cost = np.where(meets.falls, min(0.5, float(near.mean())), 0.5) * meets.worths
-        for times_s, worths, costs in zip(meets.times_s.T, meets.worths.T, cost.T, strict=True):
+        rows = meets.times_s.T, meets.worths.T, cost.T
+        together = max(1, _TOGETHER // starts.size)
+        for first in range(0, len(rows[0]), together):
+            times_s, worths, costs = (values[first : first + together] for values in rows)
             after, before = times_s > 0.0, times_s < 0.0
-            at = near[np.rint(SHARES * np.where(after, times_s, 0.0)[starts] / lasts_s).astype(np.intp)]
-            total += at * np.where(after, worths, 0.0)[starts] - np.where(after, costs, 0.0)[starts]
-            at = near[np.rint(SHARES * (1.0 + np.where(before, times_s, 0.0)[:, None] / lasts_s)).astype(np.intp)]
-            total += at * np.where(before, worths, 0.0)[:, None] - np.where(before, costs, 0.0)[:, None]
+            # Moments after the accent of the first segment and before that of the second one, in turns.
+            terms = np.empty((len(times_s), 2, *starts.shape))
+            at = np.rint(SHARES * np.where(after, times_s, 0.0)[:, starts] / lasts_s).astype(np.intp)
+            terms[:, 0] = near[at] * np.where(after, worths, 0.0)[:, starts] - np.where(after, costs, 0.0)[:, starts]
+            at = np.rint(SHARES * (1.0 + np.where(before, times_s, 0.0)[:, :, None] / lasts_s)).astype(np.intp)
+            own_worths, own_costs = (np.where(before, values, 0.0)[:, :, None] for values in (worths, costs))
+            terms[:, 1] = near[at] * own_worths - own_costs
+            total += terms.reshape(-1, *starts.shape).sum(axis=0)
         return total

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.choreography.stitch import STAGE_M
+from app.choreography.stage import STAGE_M
 from tests.support.dance_measures import PIECES, SHARED, Measured, learned, measured, midi, of_sources, table
 
 MOST_JUMP = 1.25

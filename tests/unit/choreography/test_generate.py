@@ -22,7 +22,7 @@ from app.choreography.generate import Choreographer
 from app.choreography.joins import FADE_S, MOST_CARRIED_RAD, fading_difference, fading_turn
 from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.choreography.sequence import Constraints
-from app.choreography.stitch import STAGE_M
+from app.choreography.stage import STAGE_M
 from tests.support.dance_measures import alignments, kinematic_beats_s
 from tests.support.dances import beaten, model, stepping
 
