@@ -29,6 +29,9 @@ RAISED_M = np.linspace(0.0, 0.20, 5)
 """Heights above its usual place at which a lowered instrument without straps is tried, as by the thighs of who sits."""
 LESS_STEEP_DEG = np.array([8.0, 16.0])
 """Angles by which a lowered instrument is tried less steep."""
+LOW_BENT_RAD = float(np.deg2rad(0.5))
+"""Bend of a wrist beyond its range, with the instrument lowered as usual or halfway there, for which no other place is
+tried."""
 LACKING_M = 0.005
 """Lacking room of a lowered instrument for which that is tried."""
 ROOM_M, LOW_ROOM_M = 0.008, 0.004
@@ -105,7 +108,8 @@ def lacking_in_nod_m(player: PlayerBody) -> float:
 
 def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> PlayerBody:
     """Return the player with an instrument that is lowered farther ahead, and without straps higher, where that leaves
-    room between arms and body; unchanged where the instrument stands on the floor.
+    room between arms and body, or wrists in their ranges there and on the way; unchanged where the instrument stands
+    on the floor.
 
     Parameters
     ----------
@@ -115,11 +119,16 @@ def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> Playe
     """
     if player.shape is None or player.stand is not None or any(support.kind not in FROM_NECK_M for support in supports):
         return player
-    low = ContactCurves(replace(player.still, lowered=np.ones(1)), {}, {}, np.zeros(1))
-    usual = upper_body(player, low)
-    left = _remaining(player, low, usual)
+    low, halfway = (
+        ContactCurves(replace(player.still, lowered=np.full(1, share)), {}, {}, np.zeros(1)) for share in (1.0, 0.5)
+    )
+    usual, usual_halfway = upper_body(player, low), upper_body(player, halfway)
+    left, on_way = _remaining(player, low, usual), _remaining(player, halfway, usual_halfway)
     lap_m = LAP_ROOM_M if player.place.seated or player.shape.tight else LOW_ROOM_M
-    if left is None or (left.depth_m[0] <= -LOW_ROOM_M and left.hands_m[0] <= -lap_m):
+    if left is None or on_way is None:
+        return player
+    bent_rad = max(left.bent_rad[0], on_way.bent_rad[0])
+    if left.depth_m[0] <= -LOW_ROOM_M and left.hands_m[0] <= -lap_m and bent_rad <= LOW_BENT_RAD:
         return player
     straps_m = _straps_m(player, usual.carried, supports)
     places, costs_m = list[LoweredPlace](), list[float]()
@@ -134,28 +143,39 @@ def lowered_clear(player: PlayerBody, supports: Sequence[Support] = ()) -> Playe
             costs_m.append(OFF_M * (ahead_m / float(AHEAD_M[-1]) + 1.5 * raised_m / float(RAISED_M[-1])))
     ways_m = np.array([place.offset_m for place in places]) - np.array(player.lowered.offset_m)
     left = _remaining(player, *_lowered_by(player, low, usual, ways_m))
-    assert left is not None
-    lacking_m = np.maximum(_cost_m(left, LOW_ROOM_M), left.hands_m + lap_m)
-    best = int(np.argmin(lacking_m + costs_m))
+    on_way = _remaining(player, *_lowered_by(player, halfway, usual_halfway, 0.5 * ways_m))
+    lowering_cost_m = _lowering_cost_m(left, on_way, lap_m)
+    best = int(np.argmin(lowering_cost_m + costs_m))
     moved = replace(player, lowered=places[best])
-    if lacking_m[best] <= LACKING_M:
+    if lowering_cost_m[best] <= LACKING_M:
         return moved
-    return _less_steep(player, moved, low, lap_m, float(lacking_m[best] + costs_m[best]))
+    return _less_steep(player, moved, (low, halfway), lap_m, float(lowering_cost_m[best] + costs_m[best]))
 
 
-def _less_steep(usual: PlayerBody, moved: PlayerBody, low: ContactCurves, lap_m: float, least_m: float) -> PlayerBody:
+def _lowering_cost_m(left: Remaining | None, on_way: Remaining | None, lap_m: float) -> FloatArray:
+    """Return the cost (N,) in metres of N places of a lowered instrument, from what is ``left`` there and halfway
+    there."""
+    assert left is not None
+    assert on_way is not None
+    bent_m = BENT_M_PER_RAD * on_way.bent_rad
+    return np.maximum(np.maximum(_cost_m(left, LOW_ROOM_M), left.hands_m + lap_m), bent_m)
+
+
+def _less_steep(
+    usual: PlayerBody, moved: PlayerBody, lowering: Sequence[ContactCurves], lap_m: float, least_m: float
+) -> PlayerBody:
     """Return the player with the lowered instrument less steep, at its usual place or where it was moved to, if that
-    costs less than ``least_m`` metres; otherwise ``moved``."""
+    costs less than ``least_m`` metres; otherwise ``moved``. ``lowering`` are curves of it lowered, and halfway there.
+    """
     best = moved
     for player in (usual, moved):
         off_m = np.array(player.lowered.offset_m) - np.array(usual.lowered.offset_m)
         for less_deg in LESS_STEEP_DEG.tolist():
             pitch_deg = player.lowered.pitch_down_deg - less_deg
             tried = replace(player, lowered=msgspec.structs.replace(player.lowered, pitch_down_deg=pitch_deg))
-            left = _remaining(tried, low, upper_body(tried, low))
-            assert left is not None
-            lacking_m = max(_cost_m(left, LOW_ROOM_M)[0], left.hands_m[0] + lap_m)
-            cost_m = float(lacking_m + OFF_M * (less_deg / LESS_STEEP_DEG[-1] + np.abs(off_m).sum() / AHEAD_M[-1]))
+            left, on_way = (_remaining(tried, curves, upper_body(tried, curves)) for curves in lowering)
+            off = less_deg / LESS_STEEP_DEG[-1] + np.abs(off_m).sum() / AHEAD_M[-1]
+            cost_m = float(_lowering_cost_m(left, on_way, lap_m)[0] + OFF_M * off)
             if cost_m < least_m:
                 best, least_m = tried, cost_m
     return best

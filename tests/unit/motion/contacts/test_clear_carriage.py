@@ -15,7 +15,9 @@ from app.motion.contacts.upper_body import upper_body
 from app.rig import quaternion
 from instrument_maps.hold import Support
 from instrument_maps.load import bundled_maps
-from tests.unit.motion.contacts.test_arms_off_trunk import still_player
+from instrument_maps.map_table import Posture
+from tests.unit.motion.contacts.test_arms_off_trunk import frames_of, still_player
+from tests.unit.motion.contacts.test_nods import in_uniform
 
 HOLD = bundled_maps()["ewi"].hold
 (STRAP,) = HOLD.supports
@@ -52,6 +54,25 @@ def test_an_instrument_on_a_strap_goes_ahead_and_up() -> None:
     assert forward_m > 0.01
     assert up_m > 0.01
     assert hook_from_neck_m(hung) < hook_from_neck_m(usual) * 1.02 < hook_from_neck_m(free)
+
+
+@pytest.mark.parametrize(
+    ("instrument_id", "character_id", "posture", "outfit"),
+    [
+        ("piccolo", "cast_sachiko", "seated", ""),
+        ("piccolo", "student_kaede", "seated", ""),
+        ("recorder_alto_F", "student_sakura", "standing", "school_uniform"),
+    ],
+)
+def test_lowering_an_instrument_bends_no_wrist_beyond_its_range(
+    instrument_id: str, character_id: str, posture: Posture, outfit: str
+) -> None:
+    """There was room for the arms, with wrists 8.8 and 6.2 degrees beyond, and 5.0 halfway."""
+    player, _ = in_uniform(character_id, instrument_id, posture, outfit)
+    lowering = frames_of(player, out=True)
+    for side, wrist in player.wrists.items():
+        hand = lowering.rotations[1:, player.skeleton.index(f"{side}Hand")].astype(np.float64)
+        assert wrist.outside_rad(hand).max() < np.deg2rad(1.0)
 
 
 def test_an_instrument_on_a_strap_of_the_seat_stays() -> None:

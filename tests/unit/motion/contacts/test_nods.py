@@ -26,11 +26,13 @@ from tests.unit.motion.contacts.test_arms_off_trunk import depth_mm
 from tests.unit.viewport.poses import quartet
 
 
-def in_uniform(character_id: str, instrument_id: str, posture: Posture) -> tuple[PlayerBody, Character]:
-    """A player in the jacket of a marching band."""
+def in_uniform(
+    character_id: str, instrument_id: str, posture: Posture, outfit_id: str = "marching"
+) -> tuple[PlayerBody, Character]:
+    """A player in an outfit, such as the jacket of a marching band."""
     first = quartet().players[0]
     parameters = msgspec.structs.replace(first.parameters, posture=posture)
-    outfit = OutfitChoice("marching")
+    outfit = OutfitChoice(outfit_id)
     player = msgspec.structs.replace(
         first, instrument_id=instrument_id, character_id=character_id, outfit=outfit, parameters=parameters
     )
