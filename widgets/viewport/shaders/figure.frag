@@ -35,8 +35,9 @@ uniform vec3 u_shared;
 // A room to mirror: dark floor, bright ceiling, a large soft window before and one behind.
 vec3 room(vec3 d, float blur) {
     vec3 below = mix(vec3(0.055, 0.05, 0.047), vec3(0.24, 0.225, 0.21), smoothstep(-0.1, -0.95, d.y));
-    vec3 c = mix(below, vec3(0.34, 0.35, 0.37), smoothstep(-0.12 - blur, 0.14 + blur, d.y));
-    c = mix(c, vec3(0.72, 0.74, 0.78), smoothstep(0.25 - 0.6 * blur, 0.95, d.y));
+    // The walls are darker than the ceiling: a tube that mirrors both shows that it is round.
+    vec3 c = mix(below, vec3(0.16, 0.165, 0.175), smoothstep(-0.12 - blur, 0.14 + blur, d.y));
+    c = mix(c, vec3(0.72, 0.74, 0.78), smoothstep(0.32 - 0.6 * blur, 0.95, d.y));
     float window = smoothstep(0.74 - 0.5 * blur, 0.86 + 0.2 * blur, dot(d, u_key));
     float back = smoothstep(0.80 - 0.5 * blur, 0.92 + 0.2 * blur, dot(d, normalize(vec3(0.75, 0.35, -0.55))));
     return c + vec3(2.3, 2.2, 2.05) * window + vec3(0.75, 0.85, 1.0) * back;

@@ -181,6 +181,19 @@ def test_no_skin_is_deep_in_what_is_between_the_lips(name: str, character_id: st
     assert depth_m.max() < 0.003
 
 
+@pytest.mark.parametrize(("name", "character_id"), [case for case in CASES if KINDS[case[0]][1] > 0.0])
+def test_the_upper_lip_lies_on_the_mouthpiece_and_does_not_bulge(name: str, character_id: str) -> None:
+    case = played(name, character_id)
+    edge = lip_places(case.character, case.instrument, BODY).upper
+    ahead_m = 0.0
+    for morph in mesh_named(case.character, edge.mesh).morphs:
+        if morph.name in case.motion.morphs:
+            own = np.isin(morph.vertices, edge.vertices)
+            weight = float(case.motion.morphs[morph.name][case.sounding].mean())
+            ahead_m += weight * float(morph.deltas_m[own, 2].sum()) / len(edge.vertices)
+    assert ahead_m < 0.006
+
+
 @pytest.mark.parametrize(("name", "character_id"), CASES)
 def test_no_lip_and_no_jaw_jumps(name: str, character_id: str) -> None:
     case = played(name, character_id)
