@@ -107,7 +107,7 @@ def export_player(
         skeleton=skeleton_report(request, musician.checked),
         doubles=tuple(reports[1:]),
         props=supports.kinds if supports is not None and has_props else (),
-        person=character_report(player),
+        person=character_report(player, musician.left_off),
     )
     return ExportedPlayer(report, problems, None if torsos[0] is None else torsos[0].tolist())
 

@@ -114,19 +114,22 @@ class CharacterReport(msgspec.Struct, frozen=True):
         Id of the outfit; None in the person's own clothes.
     outfit_colours : dict of str to str
         Colours of its parts (main, second, accent) as worn, ``#rrggbb``.
+    left_off : tuple of str
+        Meshes of hats that are not worn because an instrument would go through them.
     """
 
     title: str
     outfit: str | None
     outfit_colours: dict[str, str]
+    left_off: tuple[str, ...] = ()
 
 
-def character_report(one: Player | Dancer) -> CharacterReport:
+def character_report(one: Player | Dancer, left_off: tuple[str, ...] = ()) -> CharacterReport:
     """Return name and clothes of a performer's character for the report."""
     colours = worn_colours(one.character_id, one.outfit)
     worn = None if colours is None else one.outfit.id
     named: dict[str, str] = {str(tint): colour for tint, colour in (colours or {}).items()}
-    return CharacterReport(character_title(one.character_id), worn, named)
+    return CharacterReport(character_title(one.character_id), worn, named, left_off)
 
 
 class DoubleReport(msgspec.Struct, frozen=True):

@@ -22,10 +22,12 @@ from app.performance.bodies import dressed_character
 from app.performance.cast import LeftOut, Performer, dancings_of, performers_of, require_players
 from app.performance.dances import Dancing
 from app.performance.ensemble import Performance
+from app.performance.hats import hats_left_off
 from app.performance.span import FrameSpan
 from app.project.performers import Dancer, Player
 from app.rig.characters.read_figure import read_figure
 from app.rig.model import Character
+from app.rig.people.dressed import without
 
 MOST_FRAMES = 432_000
 """Greatest number of frames, two hours at 60 frames per second, since a player's motion and file are kept in memory."""
@@ -139,11 +141,14 @@ class CastMusician:
         Skeleton of the character.
     few_materials : bool
         Whether small surfaces of the character share materials.
+    left_off : tuple of str
+        Meshes of hats that are left off because an instrument would go through them.
     """
 
     performers: tuple[Performer, ...]
     checked: CheckedTarget
     few_materials: bool = False
+    left_off: tuple[str, ...] = ()
 
     @property
     def player(self) -> Player:
@@ -152,8 +157,8 @@ class CastMusician:
 
     @property
     def character(self) -> Character:
-        """The musician's body in the chosen outfit, with few materials if requested."""
-        worn = self.performers[0].dressed
+        """The musician's body in the chosen outfit, without what is left off, and with few materials if requested."""
+        worn = without(self.performers[0].dressed, self.left_off)
         return with_few_materials(worn) if self.few_materials else worn
 
     @property
@@ -259,7 +264,7 @@ def cast_of(
         require_players(left_out, request.source, wording)
     return ExportCast(
         tuple(
-            CastMusician((made, *doubles.get(id, ())), targets[id], request.shares_materials)
+            _musician((made, *doubles.get(id, ())), targets[id], request.shares_materials)
             for id, made in found.made.items()
             if id not in absent
         ),
@@ -270,3 +275,9 @@ def cast_of(
         ),
         left_out + beside.left_out,
     )
+
+
+def _musician(performers: tuple[Performer, ...], checked: CheckedTarget, few_materials: bool) -> CastMusician:
+    posture = performers[0].player.parameters.posture
+    left_off = hats_left_off([(one.player, one.instrument) for one in performers], posture)
+    return CastMusician(performers, checked, few_materials, left_off)

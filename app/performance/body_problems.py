@@ -8,6 +8,7 @@ from app.contacts.missed_contacts import missed_message
 from app.contacts.reach import Holding, Reached, hand_reach
 from app.errors import AppError, Message
 from app.performance.bodies import body_of, character_of, hidden_on, hold_of, is_held, is_strained, suited_to
+from app.performance.hats import left_off_message
 from app.plan.model import FingeringEvent, Problem
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
@@ -67,6 +68,8 @@ def body_problems(
             return BodyProblems((*lacking, Message("character.hold_waiting", {})))
         grip = hold_of(player, held) if known else None
         found = () if grip is None else (missed_message(grip), slid_message(grip.slid_m), hidden_on(player, held))
+        if is_held(player, instrument):
+            found = (*found, left_off_message(player, held))
         revision = character_revision(player.character_id)
         given = {"instrument": held, "revision": revision, "fingerings": fingerings}
         unreached = runs.begin(REACH, player.id, player=_posed(player), **given).of(_reached).problems

@@ -11,6 +11,7 @@ from typing import Final
 
 from app.contacts.breaks import by_time
 from app.errors import AppError, Cancelled, MapError, Message, Progress, StopRequested, raise_if_stopped
+from app.performance import hats
 from app.performance.acting_problems import unfit_choreography, unknown_acting
 from app.performance.bodies import hold_now, is_held, suited_to
 from app.performance.body_problems import body_problems
@@ -288,9 +289,11 @@ class Performance:
         Parameters
         ----------
         cpu_s : float
-            Limit of the thread's own processor time. If a choreography must be loaded first, no plan is made.
+            Limit of the thread's own processor time. If a choreography must be loaded first, or a hat compared with an
+            instrument, no plan is made.
         """
-        if any(player.parameters.choreography not in _CHECKED for player in self.project.players):
+        players = self.project.players
+        if any(one.parameters.choreography not in _CHECKED or not self._is_hat_known(one) for one in players):
             return False
         end_s = time.thread_time() + cpu_s
         try:
@@ -298,6 +301,10 @@ class Performance:
         except Cancelled:
             return False
         return True
+
+    def _is_hat_known(self, player: Player) -> bool:
+        instrument = self.library.maps.get(player.instrument_id)
+        return instrument is None or not is_held(player, instrument) or hats.is_known(player)
 
     def _in_hands(
         self,

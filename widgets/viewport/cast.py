@@ -21,6 +21,7 @@ from app.project.performers import Dancer, Player
 from app.rig import quaternion
 from app.rig.characters.character_library import character_library
 from app.rig.model import Character, InstrumentModel, Skeleton
+from app.rig.people.dressed import without
 from app.rig.skeleton import rest_positions
 from app.rig.supports.follow import support_matrices
 from app.rig.supports.model import Supports
@@ -97,10 +98,12 @@ class Member:
         return self.musician_id == self.player_id
 
 
-def kit_of(player: Player) -> RenderAssets:
-    """Load the assets for drawing a player. Raises AppError if something is missing or damaged."""
+def kit_of(player: Player, left_off: tuple[str, ...] = ()) -> RenderAssets:
+    """Load the assets for drawing a player without the garments ``left_off``. Raises AppError if something is missing
+    or damaged.
+    """
     instrument_map = suited_to(player, find_map(player.instrument_id)).instrument
-    return RenderAssets(dressed_character(player), (model_of(instrument_map), instrument_map))
+    return RenderAssets(without(dressed_character(player), left_off), (model_of(instrument_map), instrument_map))
 
 
 def dancer_kit(dancer: Dancer) -> RenderAssets:

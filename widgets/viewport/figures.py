@@ -7,11 +7,13 @@ from dataclasses import dataclass, replace
 from app.errors import Progress, StopRequested, raise_if_stopped
 from app.performance.bodies import hold_of, is_held, suited_to
 from app.performance.cast import LeftOut, attempt
+from app.performance.hats import hats_left_off
 from app.performance.supports import HeldInstrument, supports_of
 from app.project.model import Project
 from app.project.performers import Dancer, Player
 from app.rig.characters.character_library import character_revision
 from app.rig.characters.dressed_characters import dressed_as
+from app.rig.people.dressed import id_without
 from app.rig.supports.model import Supports
 from instrument_maps.library import library
 from widgets.viewport.cast import (
@@ -102,6 +104,13 @@ def _supports(project: Project, musician: Player, assets: RenderAssets) -> Suppo
     return supports_of(assets.character, held)
 
 
+def _left_off(project: Project, player: Player) -> tuple[str, ...]:
+    """Return the meshes of hats that a player's musician leaves off, as far as grips on the instruments are known."""
+    played = [one for one in project.played_by(player) if is_known(one)]
+    held = [(one, suited_to(one, library().maps[one.instrument_id]).instrument) for one in played]
+    return hats_left_off(held, project.musician(player).parameters.posture)
+
+
 def same_figures(one: CastKey, other: CastKey) -> bool:
     """Return whether the figures for two stages differ only in their places, so that nothing must be loaded."""
     return [row[:8] for row in one] == [row[:8] for row in other]
@@ -128,9 +137,10 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
         raise_if_stopped(stop_requested)
         progress(0.5 * done / len(project.players))
         done += 1
-        pair = (dressed_as(player.character_id, player.outfit), player.instrument_id)
+        left_off = _left_off(project, player)
+        pair = (id_without(dressed_as(player.character_id, player.outfit), left_off), player.instrument_id)
         if pair not in assets:
-            assets[pair] = kit_of(player)
+            assets[pair] = kit_of(player, left_off)
         # If the musician's first instrument cannot be shown, the next one has the body.
         musician = musicians.setdefault(project.musician(player).id, player.id)
         played = project.played_by(player)

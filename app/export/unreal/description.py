@@ -295,7 +295,7 @@ def _cast(project: Project, musician: CastMusician, layout: Layout, contents: Ma
         character_id=player.character_id,
         stage=stage_place(player.stage),
         place=_actor_place(player, musician.target),
-        character=_character(player, musician.target, layout, contents),
+        character=_character(player, musician.target, layout, contents, musician.left_off),
         instrument=first.instrument,
         doubles=tuple(others),
         props=_figure(props, contents) if props.file.as_posix() in contents else None,
@@ -315,9 +315,13 @@ def _cast_dancer(cast: CastDancing, layout: Layout, contents: Mapping[str, FileC
 
 
 def _character(
-    one: Player | Dancer, target: TargetSkeleton, layout: Layout, contents: Mapping[str, FileContents]
+    one: Player | Dancer,
+    target: TargetSkeleton,
+    layout: Layout,
+    contents: Mapping[str, FileContents],
+    left_off: tuple[str, ...] = (),
 ) -> UnrealFigure:
-    mesh, skeleton = layout.body(one, socket_names(target))
+    mesh, skeleton = layout.body(one, socket_names(target), left_off)
     return _figure(replace(layout.characters[one.id], mesh=mesh, skeleton=skeleton), contents)
 
 

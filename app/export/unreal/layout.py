@@ -79,10 +79,13 @@ class Layout:
     doubles: dict[str, tuple[str, ...]]
     bodies: dict[str, str]
 
-    def body(self, one: Player | Dancer, added: Sequence[str]) -> tuple[str, str]:
-        """Return the asset paths of mesh and skeleton for a performer's body with some added bones."""
+    def body(self, one: Player | Dancer, added: Sequence[str], left_off: Sequence[str] = ()) -> tuple[str, str]:
+        """Return the asset paths of mesh and skeleton for a performer's body without garments that are left off and
+        with some added bones.
+        """
         worn = dressed_as(one.character_id, one.outfit)
-        name = "_".join((self.bodies[worn], *(asset_name(bone, "Bone") for bone in added)))
+        without = (asset_name(f"without_{mesh}", "Bare") for mesh in left_off)
+        name = "_".join((self.bodies[worn], *without, *(asset_name(bone, "Bone") for bone in added)))
         return f"{self.content}/Bodies/{name}/SK_{name}", f"{self.content}/Bodies/{name}/SKEL_{name}"
 
     @property

@@ -36,6 +36,14 @@ def dressed_as(id: str, choice: OutfitChoice) -> str:
     return id if person is None else dressed_id(id, person, choice)
 
 
+def hats_of(id: str, choice: OutfitChoice) -> tuple[str, ...]:
+    """Return the names of the meshes of hats that a character wears with an outfit, without building it."""
+    outfit = wardrobe().get(choice.id)
+    person = None if outfit is None else person_behind(id)
+    made = None if outfit is None or person is None else outfit.files.get(tailored_for(person))
+    return () if made is None else tuple(mesh for mesh, place in made[1].parts.items() if place == "hat")
+
+
 def worn_colours(id: str, choice: OutfitChoice) -> dict[Tint, str] | None:
     """Return the colours of a character's outfit as worn, ``#rrggbb`` by part; None in its own clothes."""
     person, outfit = person_behind(id), wardrobe().get(choice.id)

@@ -108,7 +108,7 @@ def visible_share(
         for side, (place_m, turn) in wrists.items()
     }
     world = _posed(character, instrument, body, placed, fingers)
-    own, others = _spread(np.concatenate(held), cell_m), _covering(character, world)
+    own, others = spread(np.concatenate(held), cell_m), _covering(character, world)
     shares = [_in_sight(own, others, view, cell_m) for view in _VIEWS]
     return VisibleShare(shares[0], max(shares[1:]))
 
@@ -161,7 +161,7 @@ def _corners(places_m: FloatArray, triangles: AnyIntArray) -> FloatArray:
     return np.asarray(places_m[triangles], dtype=np.float64)
 
 
-def _spread(corners: FloatArray, cell_m: float) -> FloatArray:
+def spread(corners: FloatArray, cell_m: float) -> FloatArray:
     """Return points (P, 3) all over triangles with given corners, nearer to each other than cells."""
     # The first corner lies opposite the shortest edge: long, thin triangles need few rows.
     lengths_m = np.linalg.norm(np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1), axis=2)
@@ -197,7 +197,7 @@ def _in_sight(own: FloatArray, others: FloatArray, view: tuple[int, int, int, fl
     shape = tuple(((high - low) / cell_m).astype(np.intp) + 1)
     beside = (others.min(axis=1)[:, plane] > high) | (others.max(axis=1)[:, plane] < low)
     behind = (sign * others[..., ahead]).max(axis=1) < (sign * own[:, ahead]).min()
-    near = _spread(others[~beside.any(axis=1) & ~behind], cell_m)
+    near = spread(others[~beside.any(axis=1) & ~behind], cell_m)
 
     def nearest(points: FloatArray) -> FloatArray:
         cells: IndexArray = np.floor((points[:, [across, up]] - low) / cell_m).astype(np.intp)

@@ -66,6 +66,20 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
     return replace(character, id=id, meshes=meshes, landmarks=landmarks, undressed=character)
 
 
+@lru_cache(maxsize=64)
+def without(character: Character, names: tuple[str, ...]) -> Character:
+    """Return a dressed character without some garments, under an id of its own; equal ones share one object."""
+    if not names:
+        return character
+    kept = tuple(mesh for mesh in character.meshes if mesh.name not in names)
+    return replace(character, id=id_without(character.id, names), meshes=kept)
+
+
+def id_without(id: str, names: Sequence[str]) -> str:
+    """Return the id of a dressed character that leaves off some garments."""
+    return "-".join((id, *(f"without_{name}" for name in names)))
+
+
 def _finished(character: Character) -> Character:
     """Return the finished body that a character was made from, directly or through another body."""
     while character.made_from is not None:
