@@ -33,6 +33,11 @@ HANDS: Final = 1.25
 """Greatest change of a hand's angular velocity in the world relative to the limit for a joint."""
 TRIES: Final = 2
 """Greatest number of passes, since rotations about different axes add up only approximately."""
+SHARES: Final = (0.75, 0.5, 0.25, 0.0, 0.0)
+"""Shares of its bends by which a foot is turned, one after another, while its leg cannot follow."""
+MORE: Final = 1.25
+"""Greatest change of the speed of a standing foot's ankle for that, relative to the limit, unless it is greater
+already."""
 ROUNDS: Final = 60
 LANDS_S: Final = 0.05
 """Time in seconds before a landing in which a leg is unchanged, so that its foot descends steeply and does not skid."""
@@ -75,8 +80,8 @@ def hips_within_changes(clip: MotionClip, most_rad_s: float) -> MotionClip:
 
 def feet_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float) -> MotionClip:
     """Return the motion with the angular velocity of each foot in the world changing by at most ``most_rad_s`` from
-    frame to frame; its tip stays, also while the foot stands and rolls about it. The same object is returned if no
-    change is greater.
+    frame to frame, unless that of a standing foot's ankle would change by more; its tip stays, also while the foot
+    stands and rolls about it. The same object is returned if no change is greater.
 
     Parameters
     ----------
@@ -85,20 +90,29 @@ def feet_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float)
     """
     world, at = clip.world(), [1 + SEGMENTS.index(name) for name in FEET]
     turns, tips = world.rotations[:, at], tips_m(clip, world)
-    held = np.zeros(planted.shape, bool)
-    for _ in range(TRIES):
-        calm = _calm(turns, held, most_rad_s, float(clip.fps))
-        if calm is turns:
-            break
+    calm = _calm(turns, np.zeros(planted.shape, bool), most_rad_s, float(clip.fps))
+    if calm is turns:
+        return clip
+    bends = quaternion.to_rotation_vector(quaternion.multiply(calm, quaternion.conjugate(turns)))
+    bent_frames: BoolArray = (calm != turns).any(axis=-1)
+    spans = [(foot, slice(*run)) for foot in range(2) for run in runs(bent_frames[:, foot])]
+    parts = [SEGMENTS.index(name) for name in FEET]
+    most = np.maximum(_changes_rad(clip.rotations[:, parts]), ROOM * most_rad_s / float(clip.fps))
+    shares = np.ones(planted.shape)
+    for share in SHARES:
         rotations = world.rotations.copy(order="K")
-        rotations[:, at] = calm
+        rotations[:, at] = quaternion.multiply(quaternion.from_rotation_vector(shares[..., None] * bends), turns)
         found = legs_to(clip, replace(world, rotations=rotations), tips, planted, turned_back=False)
-        # A leg that does not reach as far keeps its foot as it was.
-        off = planted & (np.linalg.norm(tips_m(found) - tips, axis=-1) > EXACT_M)
+        # A foot is turned less if its leg does not reach as far, or if its ankle turns the other way.
+        off = np.linalg.norm(tips_m(found) - tips, axis=-1) > EXACT_M
+        off |= _changes_rad(found.rotations[:, parts]) > MORE * most
+        off &= planted
         if not off.any():
-            return found
-        held |= maximum_filter1d(off, 4 * round(AROUND_S * float(clip.fps)) + 1, axis=0)
-    return clip
+            break
+        for foot, here in spans:
+            if off[here, foot].any():
+                shares[here, foot] = share
+    return found
 
 
 def hands_within_changes(clip: MotionClip, most_rad_s: float) -> MotionClip:
@@ -116,6 +130,14 @@ def hands_within_changes(clip: MotionClip, most_rad_s: float) -> MotionClip:
     arms = [SEGMENTS.index(PARENT_OF[name]) for name in _HANDS]
     rotations[:, parts] = quaternion.multiply(quaternion.conjugate(world[:, arms]), calm)
     return replace(clip, rotations=quaternion.continuous(rotations))
+
+
+def _changes_rad(rotations: FloatArray) -> FloatArray:
+    """Change (F, P) of the turns of P parts (F, P, 4) between adjacent frame intervals in radians; 0 at the ends."""
+    if len(rotations) < 3:
+        return np.zeros(rotations.shape[:2])
+    turns = quaternion.to_rotation_vector(quaternion.multiply(rotations[1:], quaternion.conjugate(rotations[:-1])))
+    return np.pad(np.linalg.norm(np.diff(turns, axis=0), axis=-1), ((1, 1), (0, 0)))
 
 
 def _calm(rotations: FloatArray, held: BoolArray, most_rad_s: float, fps: float) -> FloatArray:

@@ -122,6 +122,21 @@ def test_a_standing_foot_rolls_about_its_tip_without_a_jerk(foot: int) -> None:
     assert np.abs(tips_m(found) - tips_m(upright)).max() < 1e-3
 
 
+def test_a_standing_foot_does_not_turn_against_a_body_that_spins_about_its_tip() -> None:
+    upright, planted = still(60), FREE.copy()
+    planted[20:40, 0] = True
+    spun_rad = np.clip((np.arange(60) - 28) / 60.0, 0.0, 0.3) * 6.0
+    spun = quaternion.from_axis_angle(np.array([0.0, 1.0, 0.0]), spun_rad)
+    tip, rotations = tips_m(upright)[:, 0], upright.rotations.copy()
+    rotations[:, 0] = quaternion.multiply(spun, rotations[:, 0])
+    clip = replace(upright, hips_m=tip + quaternion.rotate(spun, upright.hips_m - tip), rotations=rotations)
+    assert world_jumps_rad_s(clip, FEET[0]).max() > 1.9 * MOST_RAD_S
+    found = feet_within_changes(clip, planted, MOST_RAD_S)
+    ankle = SEGMENTS.index(FEET[0])
+    assert angular_jumps(found)[20:40, ankle].max() <= 1.1 * MOST_RAD_S
+    assert np.abs(tips_m(found) - tips_m(clip))[20:40, 0].max() < 1e-3
+
+
 def test_what_is_calm_enough_is_left_as_it_is() -> None:
     clip = moving(60)
     most = 2.0 * angular_jumps(clip).max()
