@@ -6,7 +6,7 @@ Steps have the duration of the captured dancers' steps.
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -257,7 +257,7 @@ def _options(time_s: float, grid: AccentGrid, earliest_s: float, latest_s: float
     """
     found = [(time_s, 0.0)]
     reach_s = max(time_s - REACH_S, earliest_s), min(time_s + REACH_S, latest_s)
-    for at in range(*np.searchsorted(grid.times_s, reach_s).tolist()):
+    for at in range(*(bisect_left(grid.times_s, end_s) for end_s in reach_s)):
         place_s = float(grid.times_s[at])
         worth = ON_BEAT if grid.on_beat[at] else BETWEEN
         found.append((place_s, worth - MOVED * ((place_s - time_s) / REACH_S) ** 2))
@@ -294,7 +294,8 @@ def _possible(
     way_s = times[other] - times[one]
     least_s = APART_S if falls[one].foot != falls[other].foot else LEAST_STAND_S + LEAST_SWING_S
     gap_s = later[None, :] - earlier[:, None]
-    return np.asarray((gap_s >= min(least_s, way_s) - 1e-6) & ((way_s >= APART_S) | (gap_s <= way_s + 0.05)))
+    possible = gap_s >= min(least_s, way_s) - 1e-6
+    return possible if way_s >= APART_S else possible & (gap_s <= way_s + 0.05)
 
 
 def touch_leads(clip: MotionClip, standing: Sequence[FootPlant]) -> FloatArray:

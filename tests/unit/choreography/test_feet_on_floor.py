@@ -13,7 +13,7 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.dance import Manner
-from app.choreography.feet_on_floor import ANKLE_RAD, SINKS_M, grounded, legs_to, soles_m
+from app.choreography.feet_on_floor import ANKLE_RAD, SINKS_M, foot_paths, grounded, legs_along, legs_to, soles_m
 from app.choreography.foot_plants import FootPlant
 from app.choreography.generate import Choreographer
 from app.choreography.limbs import STRETCHED_RAD
@@ -100,3 +100,14 @@ def test_no_sole_of_a_dance_is_under_the_floor(manner: Manner) -> None:
     clip = Choreographer(model(16)).dance(beaten(24), manner, Fraction(30)).clip
     heights: FloatArray = soles_m(clip, clip.world())
     assert heights.min() >= -0.01
+
+
+def test_legs_that_are_bent_in_some_frames_are_those_that_are_bent_in_all() -> None:
+    clip = swinging(0.2)
+    tips, some = tips_m(clip) + np.array((0.05, 0.02, -0.03)), np.array([3, 4, 30, 44, 45, 46, 80])
+    stand = np.arange(90)[:, None] < np.array([20, 90])
+    paths, part = foot_paths(clip, tips, stand), clip.at(some)
+    every = legs_to(clip, clip.world(), tips, stand).rotations
+    assert np.abs(every - clip.rotations)[some].max() > 0.05
+    found = legs_along(part, part.world(), paths.at(some)).rotations
+    assert quaternion.dot(found, every[some]) == pytest.approx(1.0, abs=1e-9)

@@ -14,7 +14,15 @@ from app.choreography.drums_of_dancers import DancersDrums
 from app.choreography.hit_log_odds import HeardHits, Hearing, SoundOdds
 from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
-from app.choreography.transition_scores import MOST_STARTS, NEAR_S, NEVER, MoveCosts, SegmentMeets, SegmentMoves
+from app.choreography.transition_scores import (
+    MOST_STARTS,
+    NEAR_S,
+    NEVER,
+    MoveCosts,
+    MoveTable,
+    SegmentMeets,
+    SegmentMoves,
+)
 from tests.support.dances import beaten
 
 
@@ -288,3 +296,21 @@ def test_without_music_or_motion_there_is_nothing() -> None:
     silence = struck(np.zeros(0), np.zeros((0, 3)))
     assert choose(AccentGrid(np.zeros(0), np.zeros(0, bool)), own, silence, seed=0) == []
     assert choose(AccentGrid(np.zeros(1), np.ones(1, bool)), own, silence, seed=0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_segment_danced_before_a_predecessor_costs_as_often_as_it_was_danced(seed: int) -> None:
+    random, segments, starts_each = np.random.default_rng(seed), 12, 5
+    starts = np.sort([random.permutation(segments)[:starts_each] for _ in range(segments)], axis=1)
+    scores, before = random.normal(size=starts.shape).astype(np.float32), random.normal(size=segments)
+    danced = random.integers(-1, segments, (segments, 4))
+    nowhere = np.zeros(starts.shape, np.int64)
+    table = MoveTable(scores, starts, nowhere, nowhere, np.empty(starts.shape, np.float32))
+    chosen, best = table.best(before.astype(np.float32), None, danced, 0.7)
+    for segment in range(segments):
+        found = {
+            int(start): before[start] + score - 0.7 * (danced[start] == segment).sum()
+            for start, score in zip(starts[segment], scores[segment], strict=True)
+        }
+        assert chosen[segment] == max(found, key=lambda start: found[start])
+        assert best[segment] == pytest.approx(max(found.values()), abs=1e-5)
