@@ -124,3 +124,13 @@ def test_it_is_a_problem_of_that_player_alone() -> None:
     performance = Performance(replace(project, players=tuple(players)))
     said = ["character.hat_left_off" in {one.message.id for one in performance.problems(p.id)} for p in players[:3]]
     assert said == [True, False, False]
+
+
+def test_hats_are_not_compared_in_the_windows_thread(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(hats, "_KNOWN", set())
+    project = piece()
+    worn = structs.replace(project.players[0], instrument_id=TRUMPET, outfit=OutfitChoice("marching"))
+    project = replace(project, players=(worn, *project.players[1:]))
+    assert not Performance(project).prepare_within(600.0)
+    Performance(project).prepare()
+    assert Performance(project).prepare_within(600.0)
