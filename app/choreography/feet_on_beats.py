@@ -9,10 +9,9 @@ import numpy as np
 from app.arrays import BoolArray, FloatArray
 from app.choreography.accent_grid import AccentGrid
 from app.choreography.clip import MotionClip
-from app.choreography.contacts import tips_m
 from app.choreography.foot_plants import FootPlant, foot_speeds_m_s, stands
 from app.choreography.footfalls import Footfalls, on_beats, touch_leads
-from app.choreography.standing_feet import planted
+from app.choreography.standing_feet import MovingBody, planted
 
 
 class FeetOnBeats(NamedTuple):
@@ -56,13 +55,12 @@ def feet_on_beats(
     weight : float
         See `app.choreography.standing_feet.planted`.
     """
-    fps, world = float(clip.fps), clip.world()
-    tips = tips_m(clip, world)
-    captured = stands(clip, contacts, moved_m, tips)
-    speeds_m_s = foot_speeds_m_s(tips, fps) if len(clip) > 1 else None
+    fps, body = float(clip.fps), MovingBody.of(clip)
+    captured = stands(clip, contacts, moved_m, body.tips)
+    speeds_m_s = foot_speeds_m_s(body.tips, fps) if len(clip) > 1 else None
     leads = np.zeros(len(captured))
     for _ in range(2):
         falls = on_beats(captured, len(clip), fps, first_s, grid, step_s, speeds_m_s, leads=leads)
-        shown = planted(clip, falls.standing, weight, falls.shown, world=world)
+        shown = planted(clip, falls.standing, weight, falls.shown, body=body)
         leads = touch_leads(shown, falls.standing)
     return FeetOnBeats(shown, captured, falls, leads)

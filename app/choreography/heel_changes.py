@@ -131,15 +131,17 @@ def _calmer(clip: MotionClip, planted: BoolArray, most_rad: float, most_m: float
     for (foot, here), place in zip(spans, places, strict=True):
         beside, leg = slice(max(0, here.start - 2), here.stop + 2), _leg(foot)
         inside = slice(here.start - beside.start, here.stop - beside.start)
-        new = rotations[beside].copy()
-        new[inside, leg] = found.rotations[place, leg]
+        new = rotations[beside, leg].copy()
+        new[inside] = found.rotations[place, leg]
         ankle = legs_world.of(leg.stop)[0][beside].copy()
         before = _acceleration(ankle)
         ankle[inside] = moved.of(leg.stop)[0][place]
         if off[place, foot].any() or _acceleration(ankle) > max(most_m, before):
             continue
-        if _square(new[:, leg], most_rad) < _square(rotations[beside, leg], most_rad):
-            rotations[beside] = new
+        steps = slice(beside.start, beside.start + len(new) - 1)
+        new_turns = _turns(new[:-1], new[1:])
+        if _square(new_turns, most_rad) < _square(turns[foot][steps], most_rad):
+            rotations[beside, leg], turns[foot][steps] = new, new_turns
             changed = True
     return replace(clip, rotations=quaternion.continuous(rotations)) if changed else clip
 
@@ -181,8 +183,8 @@ def _acceleration(path_m: FloatArray) -> float:
     return float(np.linalg.norm(np.diff(path_m, 2, axis=0), axis=-1).max(initial=0.0))
 
 
-def _square(rotations: FloatArray, most_rad: float) -> float:
-    return float(np.square(_excess(_turns(rotations[:-1], rotations[1:]), most_rad)).sum())
+def _square(turns: FloatArray, most_rad: float) -> float:
+    return float(np.square(_excess(turns, most_rad)).sum())
 
 
 def _joined(legs: Sequence[_Legs]) -> _Legs:

@@ -23,7 +23,7 @@ from app.choreography.feet_on_floor import FREE_S, foot_paths, free, legs_along
 from app.choreography.foot_plants import FootPlant, planted_frames
 from app.choreography.footfalls import Footfalls
 from app.choreography.limbs import smooth_share
-from app.choreography.standing_feet import planted
+from app.choreography.standing_feet import MovingBody, planted
 from app.choreography.ways_apart import Span, least_way, overlaps
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
@@ -87,6 +87,7 @@ def with_legs_apart(
         Foot plants, at the same times.
     """
     standing, aside_m = falls.standing, np.zeros((2, 3, len(clip))).transpose(2, 0, 1)
+    body: MovingBody | None = None
     for _ in range(PASSES):
         apart = feet_apart(shown, standing, aside_m)
         if apart is None:
@@ -94,7 +95,8 @@ def with_legs_apart(
         if apart.standing == standing and np.array_equal(apart.aside_m, aside_m):
             break
         standing, aside_m = apart
-        shown = planted(clip, standing, weight, falls.shown, aside_m)
+        body = MovingBody.of(clip) if body is None else body
+        shown = planted(clip, standing, weight, falls.shown, aside_m, body)
     return knees_apart(shown), standing
 
 

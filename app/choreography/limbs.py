@@ -66,11 +66,11 @@ def within_hinges(rotations: FloatArray, captured: FloatArray, ranges: FloatArra
         See `hinge_ranges`.
     """
     result = rotations.copy(order="K")
-    for (name, axis), (least, most) in zip(HINGES.items(), ranges, strict=True):
-        at = SEGMENTS.index(name)
-        turned = quaternion.twist_angle(rotations[:, at], axis)
-        if least <= turned.min() and turned.max() <= most:
-            continue
+    every = quaternion.twist_angle(rotations[:, [SEGMENTS.index(name) for name in HINGES]], list(HINGES.values()))
+    within = (ranges[:, 0] <= every.min(axis=0)) & (every.max(axis=0) <= ranges[:, 1])
+    for hinge in np.flatnonzero(~within).tolist():
+        name, axis = list(HINGES.items())[hinge]
+        at, turned, (least, most) = SEGMENTS.index(name), every[:, hinge], ranges[hinge]
         usual = quaternion.twist_angle(captured[:, at], axis)
         off = turned - usual
         # The deviation fades out: at the end it is less than half a turn.

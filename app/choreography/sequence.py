@@ -315,6 +315,7 @@ class _Search:
                 reached[list(recent[1:])] -= self._weights.repeats
                 danced[row, :, : len(recent)] = recent[: self.remembered]
                 np.maximum(best[row], reached, out=best[row])
+            reached_from, reached_by, totals = [], [], []
             for earlier in range(max(first, self._earliest[place]), place):
                 if not self._moves.possible(times[place] - times[earlier]) or self._skips(earlier, place):
                     continue
@@ -322,14 +323,18 @@ class _Search:
                 heard, total = self._struck(earlier, place)
                 so_far = best[earlier - first].astype(np.float32)
                 from_segment, reached = table.best(so_far, heard, danced[earlier - first], self._weights.repeats)
-                reached = reached + own + total
-                better = reached > best[row]
-                np.copyto(best[row], reached, where=better)
-                np.copyto(came[row], earlier * segments + from_segment, where=better)
-            (reached_from,) = np.nonzero(came[row] >= 0)
-            rows, from_segment = np.divmod(came[row, reached_from] - first * segments, segments)
-            danced[row, reached_from, 0] = from_segment
-            danced[row, reached_from, 1:] = danced[rows, from_segment, :-1]
+                reached_from.append(earlier * segments + from_segment)
+                reached_by.append(reached)
+                totals.append(np.broadcast_to(total, segments))
+            if not reached_by:
+                continue
+            every = np.array(reached_by) + own + np.array(totals)
+            at = every.argmax(axis=0), np.arange(segments)
+            better = np.flatnonzero(every[at] > best[row])
+            best[row, better], came[row, better] = every[at][better], np.array(reached_from)[at][better]
+            rows, from_segment = np.divmod(came[row, better] - first * segments, segments)
+            danced[row, better, 0] = from_segment
+            danced[row, better, 1:] = danced[rows, from_segment, :-1]
         return self._way_back(best + ends, came, first, stop)
 
     def latest(self, place: int) -> int:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -50,13 +51,56 @@ _LEGS: Final = tuple(
 )
 
 
+@dataclass(frozen=True, eq=False)
+class MovingBody:
+    """A motion's world transforms, with its feet at any moment.
+
+    Attributes
+    ----------
+    world : JointTransforms
+        Transforms of all joints.
+    tips : (F, 2, 3) float64
+        World positions of the tips of the left and the right foot.
+    """
+
+    world: JointTransforms
+    tips: FloatArray
+
+    @classmethod
+    def of(cls, clip: MotionClip) -> MovingBody:
+        """Return the body of a clip."""
+        world = clip.world()
+        return cls(world, tips_m(clip, world))
+
+    @cached_property
+    def facing_rad(self) -> FloatArray:
+        """Direction (F,) of the hips about the vertical without jumps of a whole turn."""
+        return np.unwrap(quaternion.twist_angle(self.world.of(1 + SEGMENTS.index("hips"))[1], _UP))
+
+    @cached_property
+    def _splines(self) -> list[tuple[CubicSpline, CubicSpline]]:
+        """For each foot its tip's position and its rotation, by frame."""
+        frames, turns = np.arange(len(self.tips)), [self.world.of(1 + SEGMENTS.index(name))[1] for name in FEET]
+        return [
+            (CubicSpline(frames, self.tips[:, foot]), CubicSpline(frames, quaternion.continuous(turned[:, None])[:, 0]))
+            for foot, turned in enumerate(turns)
+        ]
+
+    def foot_at(self, foot: int, frames: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the positions (N, 3) of a foot's tip and the rotations (N, 4) of the foot at possibly fractional
+        frames.
+        """
+        tip, turned = (spline(frames) for spline in self._splines[foot])
+        return tip, quaternion.normalize(np.asfortranarray(turned))
+
+
 def planted(
     clip: MotionClip,
     standing: tuple[FootPlant, ...],
     weight: float = 0.0,
     shown: FloatArray | None = None,
     aside_m: FloatArray | None = None,
-    world: JointTransforms | None = None,
+    body: MovingBody | None = None,
 ) -> MotionClip:
     """Solve the legs again so that feet do not move while they are planted; between two plants the corrections are
     blended.
@@ -69,20 +113,20 @@ def planted(
         Frame of the motion used for each foot in each frame; by default the same.
     aside_m : (F, 2, 3) float64, optional
         Displacements in metres of feet that do not stand.
-    world : JointTransforms, optional
-        World transforms of the clip, if known.
+    body : MovingBody, optional
+        The clip's body, if known.
     """
     if not standing and not weight:
         return clip
-    world = clip.world() if world is None else world
-    tips, legs = tips_m(clip, world), world.only(_LEGS)
+    body = MovingBody.of(clip) if body is None else body
+    tips, legs = body.tips, body.world.only(_LEGS)
     if shown is not None:
-        tips = _feet_at(tips, legs, shown, planted_frames(standing, len(clip)), float(clip.fps))
+        tips = _feet_at(body, legs, shown, planted_frames(standing, len(clip)), float(clip.fps))
     targets = tips.copy(order="K") if aside_m is None else tips + aside_m
     own = [[stand for stand in standing if stand.foot == foot] for foot in range(2)]
     for foot in range(2):
         targets[:, foot] += _correction(tips[:, foot], own[foot], float(clip.fps))
-    hover = hover_m(clip, world, legs, targets)
+    hover = hover_m(clip, body.world, legs, targets)
     targets[..., 1] -= hover[:, None]
     for foot in range(2):
         targets[:, foot, 1] = _cleared(targets[:, foot], own[foot], rest_tip_m(clip, foot))
@@ -98,20 +142,16 @@ def planted(
     return legs_to(clip, legs, targets, planted_frames(standing, len(clip)))
 
 
-def _feet_at(tips: FloatArray, legs: JointTransforms, shown: FloatArray, on_floor: BoolArray, fps: float) -> FloatArray:
+def _feet_at(body: MovingBody, legs: JointTransforms, shown: FloatArray, on_floor: BoolArray, fps: float) -> FloatArray:
     """World positions of foot tips (F, feet, 3), taken for each foot from the frame ``shown`` (F, feet), which may be
     fractional. The feet are turned likewise, in place in ``legs``; a foot in the air turns along with the hips, as it
     does in a spin.
     """
-    frames, tips = np.arange(len(tips)), tips.copy(order="K")
-    facing = np.unwrap(quaternion.twist_angle(legs.of(1 + SEGMENTS.index("hips"))[1], _UP))
+    frames, tips, facing = np.arange(len(shown)), np.empty_like(body.tips), body.facing_rad
     for foot, name in enumerate(FEET):
-        tips[:, foot] = CubicSpline(frames, tips[:, foot])(shown[:, foot])
-        rotations = legs.of(1 + SEGMENTS.index(name))[1]
-        way = CubicSpline(frames, quaternion.continuous(rotations[:, None])[:, 0])(shown[:, foot])
-        turned = quaternion.normalize(np.asfortranarray(way))
+        tips[:, foot], turned = body.foot_at(foot, shown[:, foot])
         along = free(on_floor[:, foot], fps) * (facing - np.interp(shown[:, foot], frames, facing))
-        rotations[:] = quaternion.multiply(quaternion.from_axis_angle(_UP, along), turned)
+        legs.of(1 + SEGMENTS.index(name))[1][:] = quaternion.multiply(quaternion.from_axis_angle(_UP, along), turned)
     return tips
 
 
