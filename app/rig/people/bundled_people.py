@@ -60,7 +60,7 @@ def like(id: str, measures: Mapping[str, float]) -> Person:
     person = bundled_person(id)
     phenotype = msgspec.structs.replace(person.phenotype, **measures)
     return msgspec.structs.replace(
-        person, name=PersonName("", ""), not_cast_for=[], phenotype=phenotype, looks_years=our_years(id)
+        person, name=PersonName("", ""), not_cast_for=[], phenotype=phenotype, looks_years=round(our_years(id), 2)
     )
 
 
