@@ -50,6 +50,8 @@ MOST_LEAD_S: Final = 0.1
 """Greatest time in seconds between a touch of the floor and the start of the stand."""
 LANDS_S: Final = 0.1
 """Time in seconds before a landing in which a foot moves as captured, so that it does not hover over the floor."""
+BEGUN_S: Final = 0.1
+"""Time in seconds from the first frame within which a foot that would land stands from the beginning instead."""
 NEVER: Final = -1e9
 
 
@@ -113,7 +115,8 @@ def on_beats(
     touched = [replace(standing[at], start=standing[at].start - early[at]) for at in falls]
     chosen = _chosen(touched, fps, first_s, grid, bounds_s)
     starts.update((at, frame + early[at]) for at, frame in zip(falls, chosen, strict=True))
-    moved = [replace(stand, start=round(starts[at])) for at, stand in enumerate(standing)]
+    begun = BEGUN_S * fps
+    moved = [replace(stand, start=round(starts[at]) if starts[at] > begun else 0) for at, stand in enumerate(standing)]
     shown = np.tile(np.arange(frames, dtype=np.float64)[:, None], (1, 2))
     for foot, own in enumerate(by_foot):
         others = by_foot[1 - foot]
@@ -143,7 +146,7 @@ def _shown(
 ) -> FloatArray:
     """Compute the frame (F,) of the motion that a foot shows in each frame, with its plants ``own`` moved from
     ``standing`` to ``moved``."""
-    knots = [(0, 0)]
+    knots = [(0, standing[own[0]].start if own and not moved[own[0]].start else 0)]
     for at in own:
         here, there = moved[at].start, standing[at].start
         lands = min(round(LANDS_S * fps), (min(here - knots[-1][0], there - knots[-1][1])) // 2)

@@ -50,6 +50,15 @@ def test_feet_that_land_one_right_after_the_other_come_onto_the_beat_together(la
     assert off_s.max() < 0.5 / FPS + 1e-9
 
 
+def test_a_foot_that_would_land_at_once_stands_from_the_first_frame() -> None:
+    """A dance may begin amid a motion, and a foot in the air would be on the floor a frame later."""
+    standing = [FootPlant(0, 4, 40, (0.0, 0.0, 0.0)), FootPlant(1, 31, 70, (0.2, 0.0, 0.0))]
+    found = on_beats(standing, 90, FPS, 0.0, grid_of(beaten(4)), 0.3)
+    assert [stand.start for stand in found.standing] == [0, 30]
+    assert found.shown[0] == pytest.approx((4.0, 0.0))
+    assert (np.diff(found.shown, axis=0) >= 0.0).all()
+
+
 def test_footfalls_far_from_beats_stay() -> None:
     standing = walking(0.23)
     assert on_beats(standing, 420, FPS, 0.0, grid_of(beaten(14)), 0.3).standing == tuple(standing)
