@@ -294,10 +294,8 @@ class _Search:
         ``extra`` (stop - first, S) is added to the score of each accent, ``ends`` (S,) to that of the last one;
         ``recent`` are the segments before, from the last one back, one more than ``remembered``.
         """
-        times = self._grid.times_s
-        count = stop - first
-        best = np.full((count, len(self._initial)), float(NEVER) * 10.0)
-        segments = len(self._initial)
+        times, count, segments = self._grid.times_s, stop - first, len(self._initial)
+        best = np.full((count, segments), float(NEVER) * 10.0)
         # Preceding accent and segment of each entry, encoded as one number.
         came = np.full((count, segments), -1, np.int64)
         # The segments before each entry, from the last one back.
@@ -315,7 +313,7 @@ class _Search:
                 reached[list(recent[1:])] -= self._weights.repeats
                 danced[row, :, : len(recent)] = recent[: self.remembered]
                 np.maximum(best[row], reached, out=best[row])
-            reached_from, reached_by, totals = [], [], []
+            found = []
             for earlier in range(max(first, self._earliest[place]), place):
                 if not self._moves.possible(times[place] - times[earlier]) or self._skips(earlier, place):
                     continue
@@ -323,15 +321,14 @@ class _Search:
                 heard, total = self._struck(earlier, place)
                 so_far = best[earlier - first].astype(np.float32)
                 from_segment, reached = table.best(so_far, heard, danced[earlier - first], self._weights.repeats)
-                reached_from.append(earlier * segments + from_segment)
-                reached_by.append(reached)
-                totals.append(np.broadcast_to(total, segments))
-            if not reached_by:
+                found.append((reached, np.broadcast_to(total, segments), earlier * segments + from_segment))
+            if not found:
                 continue
-            every = np.array(reached_by) + own + np.array(totals)
+            scores, totals, reached_from = (np.array(rows) for rows in zip(*found, strict=True))
+            every = scores + own + totals
             at = every.argmax(axis=0), np.arange(segments)
             better = np.flatnonzero(every[at] > best[row])
-            best[row, better], came[row, better] = every[at][better], np.array(reached_from)[at][better]
+            best[row, better], came[row, better] = every[at][better], reached_from[at][better]
             rows, from_segment = np.divmod(came[row, better] - first * segments, segments)
             danced[row, better, 0] = from_segment
             danced[row, better, 1:] = danced[rows, from_segment, :-1]
