@@ -2,12 +2,13 @@
 
 A dancer's feet land when captured, and move as far as the dance does. For a player, each landing is moved to the
 nearest place of the beat; of two at one place the longer step is used; and a foot is placed relative to its usual place
-under the body as in the dance, scaled down. Where a dancer stands while music sounds, heels or toes mark the beats.
+under the body as in the dance, scaled down. The shortest steps of a dance become taps of toes or lifts of heels. Where
+a dancer stands while music sounds, heels or toes mark the beats.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -47,6 +48,16 @@ LIFT_SHARE: Final = 0.75
 TOES_CHANCE: Final = 0.4
 """Probability that toes instead of heels mark a phrase's beats without steps, with heels for a seated player."""
 PHRASE_BEATS: Final = 8
+LIGHT_SHARE: Final = 0.45
+"""Share of the landings of a dance, those after the shortest ways, that become taps of toes or lifts of heels."""
+LIGHT_HEEL: Final = 0.85
+"""Size of a light landing's lift of a heel: between steps the knee has little time."""
+TAPS_CHANCE: Final = 0.65
+"""Probability that toes instead of heels mark a phrase's light landings."""
+IN_FRONT_M: Final = 0.055
+"""Distance in metres by which a foot that taps is ahead of the other one; the ankle of the rear foot is bent
+already.
+"""
 USUAL: Final = 0.9
 """Share of the steps within `AHEAD_M` and `OUT_M` after scaling."""
 AHEAD_M, BACK_M, OUT_M, IN_M = 0.11, 0.0, 0.08, 0.03
@@ -103,8 +114,9 @@ def danced_feet(dance: Dance, rhythm: Rhythm, seed: int, scale: float) -> Danced
     if len(places_s) < 2 or not dance.steps:
         return DancedFeet.none()
     danced_s = dance.steps[0].start_s, dance.steps[-1].end_s
-    stepped = _stepped(_touchdowns(dance), places_s, strong, danced_s)
-    rows = _with_marks(stepped, places_s, strong & _heard(places_s, rhythm), danced_s, rhythm, seed)
+    marked = strong & _heard(places_s, rhythm)
+    stepped = _stepped(_touchdowns(dance), places_s, strong, marked, danced_s, rhythm, seed)
+    rows = _with_marks(stepped, places_s, marked, danced_s, rhythm, seed)
     if not rows:
         return DancedFeet.none()
     toes, heel = MOVE_KINDS.index("toes"), MOVE_KINDS.index("heel")
@@ -177,9 +189,17 @@ def _seen_m(stand: FootPlant, middle_m: FloatArray, back: FloatArray) -> FloatAr
 
 
 def _stepped(
-    touchdowns: list[_Touchdown], places_s: FloatArray, strong: BoolArray, danced_s: tuple[float, float]
+    touchdowns: list[_Touchdown],
+    places_s: FloatArray,
+    strong: BoolArray,
+    marked: BoolArray,
+    danced_s: tuple[float, float],
+    rhythm: Rhythm,
+    seed: int,
 ) -> list[_Row]:
-    """Move the landings of a dance to beats and half beats, one foot at a time."""
+    """Move the landings of a dance to beats and half beats, one foot at a time; light ones become taps or lifts of a
+    foot that stays.
+    """
     chosen: dict[int, _Touchdown] = {}
     for one in touchdowns:
         place = _nearest(one.time_s, places_s, strong)
@@ -192,12 +212,20 @@ def _stepped(
         return []
     steps = [chosen[place] for place in sorted(chosen)]
     usual_m = float(np.median([step.way_m for step in steps])) or 1.0
+    light_m = float(np.quantile([step.way_m for step in steps], LIGHT_SHARE))
+    lifted_s = min(HEEL_S, LIFT_SHARE * float(np.median(np.diff(places_s))))
     far_m = np.quantile(np.abs([step.place_m for step in steps]), USUAL, axis=0)
     rows: list[_Row] = []
     last_s = {0: -np.inf, 1: -np.inf}
     made = [0, 0]
     for place, step in zip(sorted(chosen), steps, strict=True):
         lands_s = float(places_s[place])
+        light = step.way_m <= light_m and marked[place] and rows and rows[-1].kind == "step"
+        if light and lands_s - max(last_s.values()) > lifted_s:
+            taps = chance("light steps", seed, _phrase(lands_s, rhythm)) < TAPS_CHANCE
+            _mark(rows, step.foot, (lands_s - lifted_s, lands_s), taps=taps)
+            last_s[rows[-1].foot] = lands_s
+            continue
         if lands_s - last_s[step.foot] < SAME_FOOT_S or made[step.foot] - made[1 - step.foot] >= MOST_LEAD:
             step = step.other()
         air_s = min(AIR_S, AIR_SHARE * (lands_s - max(last_s.values())))
@@ -208,6 +236,31 @@ def _stepped(
         last_s[step.foot] = lands_s
         made[step.foot] += 1
     return rows
+
+
+def _mark(rows: list[_Row], foot: int, span_s: tuple[float, float], *, taps: bool) -> None:
+    """Append a tap of the front foot's toes, for which the last step lands farther ahead or back, or a lift of a foot's
+    heel.
+    """
+    step = rows[-1]
+    if taps:
+        other_m = _place_m(rows, 1 - step.foot)[1]
+        leads = step.place_m[1] >= other_m or other_m < IN_FRONT_M
+        ahead_m = max(step.place_m[1], other_m + IN_FRONT_M) if leads else min(step.place_m[1], other_m - IN_FRONT_M)
+        rows[-1] = replace(step, place_m=(step.place_m[0], min(ahead_m, AHEAD_M)))
+        foot = step.foot if leads else 1 - step.foot
+    kind: MoveKind = "toes" if taps else "heel"
+    rows.append(_Row(foot, kind, *span_s, 1.0 if taps else LIGHT_HEEL, _place_m(rows, foot)))
+
+
+def _place_m(rows: list[_Row], foot: int) -> tuple[float, float]:
+    """Position of a foot (left, forward) in metres after the last of some moves."""
+    return next((row.place_m for row in reversed(rows) if row.foot == foot), (0.0, 0.0))
+
+
+def _front(rows: list[_Row]) -> int:
+    """Index of the foot that is in front after some moves; players stand with the left one a little ahead."""
+    return int(_place_m(rows, 1)[1] - _place_m(rows, 0)[1] > IN_FRONT_M)
 
 
 def _nearest(time_s: float, places_s: FloatArray, strong: BoolArray) -> int:
@@ -271,10 +324,14 @@ def _with_marks(
         elif kind == "heel" or own[foot] - own[1 - foot] >= MOST_LEAD:
             foot = 1 - foot
         up_s = min(HEEL_S, LIFT_SHARE * apart_s)
+        leads = _front(stepped[:near])
         if after_s < 1.5 * apart_s:
             # The other foot is about to step, so this one marks the beat.
             foot = 1 - stepped[near].foot
-        place_m = next((row.place_m for row in reversed(stepped[:near]) if row.foot == foot), (0.0, 0.0))
+            kind = kind if foot == leads else "heel"
+        elif kind == "toes":
+            foot = leads
+        place_m = _place_m(stepped[:near], foot)
         rows.append(_Row(foot, kind, time_s - up_s, time_s, 1.0, place_m))
-        own[foot] += 1
+        made[kind][foot] += 1
     return sorted(rows, key=lambda row: row.lands_s)

@@ -28,8 +28,15 @@ LIFT_M: Final = 0.08
 """Height in metres of the ball of the foot in the middle of the largest step."""
 HEEL_RAD: Final = float(np.deg2rad(24.0))
 """Angle in radians of the sole with the heel raised in the largest step or heel lift."""
-TOES_RAD: Final = float(np.deg2rad(5.5))
-"""Angle in radians of raised toes of a player who stands on bent knees, with ankles near the end of their range."""
+TOES_RAD: Final = float(np.deg2rad(14.0))
+"""Angle in radians of raised toes of a player who stands."""
+RISES_M: Final = 0.015
+BACK_M: Final = 0.03
+"""Distances in metres by which the hips rise, as far as the knees are bent, and go back while toes are raised: the
+ankle needs the room.
+"""
+TAP_LEANS: Final = 0.25
+"""Turn and lean of hips and trunk while toes are raised, relative to other moves."""
 SEATED_TOES_RAD: Final = float(np.deg2rad(17.0))
 """Angle in radians of raised toes of a player whose feet keep their place."""
 SEATED_HEEL_RAD: Final = float(np.deg2rad(8.5))
@@ -63,7 +70,7 @@ SINK_S: Final = (0.1, 0.32)
 """Seconds from the beginning of that motion to the beat, and from the beat to its end."""
 FOLLOWS: Final = 0.4
 """Share of each foot's displacement that the hips follow."""
-IN_HIPS: Final = ("over", "sunk", "leans")
+IN_HIPS: Final = ("over", "sunk", "leans", "risen")
 """Samples that move the hips instead of the feet."""
 CLEAR_S: Final = 0.3
 """Seconds for which the feet stand before and after the user's own foot gestures."""
@@ -123,7 +130,8 @@ class DancedFeet:
 
         ``left_heel`` and ``left_toes`` (radians), ``left_up``, ``left_ahead`` and ``left_aside`` (metres, to the left)
         are parts of a foot; ``over`` is the weight on the left foot, -1..1, ``leans`` the turn and lean of hips and
-        trunk with it, ``sunk`` the bend of the knees, 0..1. Without ``steps`` feet stay in place.
+        trunk with it, ``sunk`` the bend of the knees, 0..1, ``risen`` their straightening. Without ``steps`` feet stay
+        in place.
         """
         found: dict[str, FloatArray] = {}
         if not len(times_s) or not len(self):
@@ -132,6 +140,7 @@ class DancedFeet:
             moves = self._of(side)
             if steps:
                 _put(found, name, moves, times_s)
+            taps_s = self.start_s[(self.sides != side) & (self.kinds == MOVE_KINDS.index("toes"))]
             late_s = max(PEELS_S, OVER_S, *SINK_S, EASED_S[1] + EASED_S[2])
             near = (moves.start_s - late_s <= times_s[-1]) & (moves.lands_s + late_s >= times_s[0])
             for row in np.flatnonzero(near).tolist():
@@ -141,16 +150,20 @@ class DancedFeet:
                 if kind == "step":
                     _add(found, f"{name}_up", size * LIFT_M * _air(times_s, span_s))
                     _add(found, f"{name}_heel", size * heel_rad * _peeled(times_s, span_s))
-                    _add(found, f"{other}_heel", size * EASED_RAD * _eased(times_s, span_s[1]))
+                    if not np.any((taps_s >= span_s[1]) & (taps_s < span_s[1] + EASED_S[1] + EASED_S[2])):
+                        _add(found, f"{other}_heel", size * EASED_RAD * _eased(times_s, span_s[1]))
                 elif kind == "heel":
                     _add(found, f"{name}_heel", size * heel_rad * _lifted(times_s, span_s))
                 else:
-                    _add(found, f"{name}_toes", size * toes_rad * _lifted(times_s, span_s))
+                    up = _lifted(times_s, span_s)
+                    _add(found, f"{name}_toes", size * toes_rad * up)
+                    _add(found, "risen", size * up)
                 over = (2.0 * side - 1.0) * (1.0 if kind == "step" else LIGHT)
-                _add(found, "over", size * over * _bump(times_s, span_s[0] - OVER_S, *span_s, OVER_S))
+                weight = size * over * _bump(times_s, span_s[0] - OVER_S, *span_s, OVER_S)
+                _add(found, "over", weight)
+                # The leg of raised toes is stretched, so that its hip stays higher.
+                _add(found, "leans", (TAP_LEANS if kind == "toes" and steps else 1.0) * weight)
                 _add(found, "sunk", size * _sunk(times_s, span_s[1]))
-        if "over" in found:
-            found["leans"] = found["over"]
         return {name: values for name, values in found.items() if np.any(values)}
 
     def lifted_s(self, side: Literal["left", "right"]) -> list[tuple[float, float]]:
@@ -205,7 +218,8 @@ class DancedFeet:
             spans_s.append(
                 np.column_stack(
                     [
-                        own.start_s - OVER_S,
+                        # A tap also decides about the heel in the other foot's step before it.
+                        own.start_s - max(OVER_S, sum(EASED_S)),
                         np.maximum(until_s, own.lands_s + max(OVER_S, SINK_S[1], EASED_S[1] + EASED_S[2])),
                     ]
                 )
@@ -244,7 +258,7 @@ def with_danced_feet(
         return motion
     size, feet = amount**GROWTH, with_danced(motion.feet, danced, amount)
     nothing = np.zeros(len(motion.hips_side_m))
-    over, sunk, leans = (size * danced.get(name, nothing) for name in IN_HIPS)
+    over, sunk, leans, risen = (size * danced.get(name, nothing) for name in IN_HIPS)
     roll_rad, turn_rad = (ROLL_RAD * leans, TURN_RAD * leans) if steps else (nothing, nothing)
     left_rad, turned_rad = dict(motion.left_rad), dict(motion.turn_rad)
     for joint, share in TRUNK_SHARES.items():
@@ -260,11 +274,12 @@ def with_danced_feet(
     )
     left_m, right_m = (size * danced.get(f"{side}_aside", nothing) for side in ("left", "right"))
     side_m = motion.hips_side_m + aside_m + OVER_M * over
+    bob_m = motion.hips_bob_m + SINKS_M * sunk
     return replace(
         motion,
         hips_side_m=within(side_m, SPREAD_M + right_m, SPREAD_M - left_m),
-        hips_ahead_m=motion.hips_ahead_m + ahead_m,
-        hips_bob_m=motion.hips_bob_m + SINKS_M * sunk,
+        hips_ahead_m=motion.hips_ahead_m + ahead_m - BACK_M * risen,
+        hips_bob_m=bob_m - within(RISES_M * risen, np.maximum(bob_m, 0.0), nothing),
         hips_roll_rad=within(motion.hips_roll_rad - roll_rad, MOST_ROLL_RAD, MOST_ROLL_RAD),
         hips_turn_rad=motion.hips_turn_rad + turn_rad,
     )

@@ -11,7 +11,7 @@ import pytest
 
 from app.choreography.dance import Dance, Manner
 from app.choreography.performed.choreographers import choreographer_of
-from app.choreography.player_steps import AHEAD_M, HEARD_S, IN_M, MOST_LEAD, OUT_M, danced_feet
+from app.choreography.player_steps import AHEAD_M, HEARD_S, IN_FRONT_M, IN_M, MOST_LEAD, OUT_M, danced_feet
 from app.choreography.rhythm import Rhythm
 from app.motion.gestures.danced_feet import MOVE_KINDS, DancedFeet
 
@@ -64,6 +64,23 @@ def test_both_feet_step_alike_often_at_any_time_of_a_dance_that_prefers_one(temp
         leads = np.cumsum(np.where(sides == 0, 1, -1))
         assert len(sides) > 10
         assert np.abs(leads).max() <= MOST_LEAD
+
+
+@pytest.mark.parametrize("tempo", TEMPI)
+def test_short_steps_become_taps_of_the_front_foot_and_lifts_of_heels(tempo: float) -> None:
+    feet, beat_s = made(tempo), 60.0 / tempo
+    step, toes, heel = (feet.kinds == MOVE_KINDS.index(kind) for kind in ("step", "toes", "heel"))
+    assert 0.08 < toes.sum() / BEATS * max(1.0, 0.5 / beat_s) < 0.4
+    assert heel.any()
+    assert step.sum() > 0.5 * len(feet)
+    for row in np.flatnonzero(toes).tolist():
+        place_m = [feet.place_m[:row][step[:row] & (feet.sides[:row] == side)] for side in range(2)]
+        ahead_m = [own[-1, 1] if len(own) else 0.0 for own in place_m]
+        own = feet.sides[row]
+        # A player stands with the left foot ahead.
+        assert ahead_m[own] - ahead_m[1 - own] > (-IN_FRONT_M if own == 0 else 0.9 * IN_FRONT_M)
+    # Taps stand between beats with weight on the foot, not one after the other.
+    assert not np.any(toes[2:] & toes[1:-1] & toes[:-2])
 
 
 @pytest.mark.parametrize("tempo", TEMPI)

@@ -66,6 +66,14 @@ class Played:
         ahead_m[1] = -self.at_m(f"{side}Toes")[stands, 1]
         return np.asarray(self._at_m[toes] + (self._turned[toes] * self._turned[toes][stands].inv()).apply(ahead_m))
 
+    def heel_m(self, side: str) -> FloatArray:
+        """Position (F, 3) of the heel on the sole: behind the ankle by a quarter of the distance to the ball."""
+        foot, ankle_m = self._joint[f"{side}Foot"], self.at_m(f"{side}Foot")
+        stands = int(self.at_m(f"{side}Toes")[:, 1].argmin())
+        behind_m = -0.25 * (self.at_m(f"{side}Toes") - ankle_m)[stands]
+        behind_m[1] = -ankle_m[:, 1].min()
+        return np.asarray(ankle_m + (self._turned[foot] * self._turned[foot][stands].inv()).apply(behind_m))
+
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, PlayerReport], FloatArray, float]:
@@ -112,6 +120,21 @@ def test_steps_are_on_the_beat_and_feet_stand_still_between_them(
         # The last 0.3 mm are within two frames of the beat.
         assert np.abs(beats_s[:, None] - lands_s).min(axis=0).max() < 2.0 / float(FPS) + 1e-6
     assert not np.any(lifted["left"] & lifted["right"])
+
+
+def test_a_standing_player_taps_with_the_toes_while_the_heel_stays(
+    written: tuple[Path, dict[str, PlayerReport], FloatArray, float],
+) -> None:
+    folder, players, beats_s, first_s = written
+    played = Played(folder / players["clarinet_Bb"].files["character_bvh"], first_s)
+    taps_s = list[float]()
+    for side in ("left", "right"):
+        heel_m, ball_m = played.heel_m(side)[:, 1], played.at_m(f"{side}Toes")[:, 1]
+        up = (ball_m > ball_m.min() + 0.01) & (heel_m < heel_m.min() + 0.01)
+        down = np.flatnonzero(up[:-1] & ~up[1:])
+        taps_s += played.times_s[down[down > 0]].tolist()
+    assert len(taps_s) >= 3
+    assert np.abs(beats_s[:, None] - np.array(taps_s)).min(axis=0).max() < 0.15
 
 
 def test_hips_legs_and_chest_dance_and_no_knee_snaps(

@@ -50,6 +50,19 @@ def test_a_foot_is_put_on_its_beat_and_stays_to_the_bit() -> None:
     assert found["left_heel"][at[2]] == 0.0
 
 
+def test_a_standing_foot_taps_with_its_heel_on_the_floor_and_the_weight_on_the_other_leg() -> None:
+    """After a step of the other foot, toes rise by 10 to 20 degrees at the usual amount and are down on the beat."""
+    found = feet((1, STEP, 2, 0.0, 0.0), (0, TOES, 3, 0.0, 0.0)).sample(TIMES_S, steps=True)
+    shown = np.rad2deg(with_danced({}, found, 0.5)["left_toes"])
+    assert 10.0 < shown.max() < 20.0
+    assert np.all(shown[(TIMES_S <= 1.09) | (TIMES_S >= 1.51)] == 0.0)
+    up = shown > 0.5 * shown.max()
+    assert not np.any(found.get("left_heel", np.zeros(len(TIMES_S)))[up])
+    # The hips are over the right leg, and rise: a bent ankle bends no farther.
+    assert found["over"][up].max() < 0.0
+    assert found["risen"].max() == pytest.approx(1.0, abs=0.01)
+
+
 def test_the_usual_amount_shows_most_of_a_dance() -> None:
     """Steps of half a dance are seen from the front, and those of little of it are small."""
     few, usual, every = (with_danced({}, {"left_up": np.ones(1)}, amount)["left_up"][0] for amount in (0.05, 0.5, 1.0))
