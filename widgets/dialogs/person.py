@@ -20,6 +20,7 @@ from app.rig.people.looks_by_age import YOUNG_YEARS
 from app.rig.people.person import Person, ranges
 from instrument_maps.load import bundled_maps
 from widgets.common.character_picture import Crop, picture, seen
+from widgets.common.clicks import on_switch
 from widgets.common.controls import Caption, Check, OkCancel, Retranslated, named, wrapped
 from widgets.common.help import with_help
 from widgets.common.instrument_name import character_name, instrument_name
@@ -84,7 +85,7 @@ class PersonDialog(Retranslated, QDialog):
         self._looks_years = self.person.looks_years or YOUNG_YEARS
         self.looks_age = named(Check("person_dialog.looks_age"), "person_looks_age")
         self.texted(self.looks_age, tip="person_dialog.looks_age_tip")
-        self.looks_age.clicked.connect(self._follow_age)
+        on_switch(self.looks_age, self._follow_age)
         self._explained = wrapped(Caption("person_dialog.hands_and_arms_stay"))
         self._buttons = OkCancel("person_dialog.keep", "person_dialog.cancel")
         self._soon = QTimer(self, singleShot=True, interval=SOON_MS)
