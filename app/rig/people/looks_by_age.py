@@ -40,6 +40,8 @@ def _greyed(color: Color, grey: Color, share: float, before: float) -> Color:
 
     Colours are mixed by their cube roots, close to perceived lightness: dark hairs shade the grey ones beside them.
     """
+    if share == before:
+        return color
     triples = np.cbrt([color, grey, DARKEST]).T.tolist()
     red, green, blue = (_greyed_part(part, white, least, share, before) ** 3 for part, white, least in triples)
     return red, green, blue

@@ -13,7 +13,7 @@ from app.formats.texture_colors import linear
 from app.rig.characters.character_library import character_named
 from app.rig.people.body_shapes import age_of
 from app.rig.people.bundled_people import bundled_people, bundled_person, like, our_years, person_of
-from app.rig.people.looks_by_age import colors_by_age
+from app.rig.people.looks_by_age import GREY_YEARS, colors_by_age
 from app.rig.people.make_person import NEUTRAL_MEANS
 from app.rig.people.person import Person, originals, skins
 from app.rig.skinning import mesh_named
@@ -43,8 +43,8 @@ def skin_pixels(person: Person) -> np.ndarray:
 def test_hair_turns_grey_as_people_s_does(id: str) -> None:
     for name in ("hair", "brows"):
         by_age = [lightness(aged(id, years), name) for years in range(16, 91)]
-        assert all(later >= earlier for earlier, later in pairwise(by_age)), name
-        assert max(by_age[:19]) == by_age[0], f"{name}: nothing before 35"
+        assert all(later > earlier - 1e-12 for earlier, later in pairwise(by_age)), name
+        assert max(by_age[:19]) == pytest.approx(by_age[0]), f"{name}: nothing before 35"
         assert by_age[88 - 16] > by_age[60 - 16] > by_age[45 - 16]
     young, half, most = (np.cbrt(lightness(aged(id, years), "hair")) for years in (30.0, 60.0, 80.0))
     white = np.cbrt(0.59)
@@ -57,6 +57,8 @@ def test_nobody_looks_otherwise_at_their_own_age(id: str) -> None:
     person = bundled_person(id)
     assert colors_by_age(person) == person.colors
     same = like(id, {})
+    if same.looks_years < GREY_YEARS[0]:
+        assert colors_by_age(same) == person.colors
     for name, color in colors_by_age(same).items():
         assert color == pytest.approx(person.colors[name])
     near = [msgspec.structs.replace(same, looks_years=same.looks_years + step) for step in (-0.1, 0.1)]
