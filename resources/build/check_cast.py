@@ -6,7 +6,8 @@ Each person plays the instrument's compass from its lowest to its highest note, 
 judged as an export's are, and joints by the human ranges. What is worse than the finished bodies do it is printed and
 makes the command fail, unless the person's file says that it is not cast for the instrument; `--write` makes the file
 say so, and removes what does not help: carriages (`fit_carriages`) and holds of their own (`build_holds --people`). It
-also writes how far the arms of everyone who is cast are strained, by which people of the user are judged.
+also writes how far the arms of everyone who is cast are strained, by which people of the user are judged. Someone who
+is not cast although the compass is within the bounds is printed too, and stays so: pieces have faster changes.
 """
 
 from __future__ import annotations
@@ -159,15 +160,17 @@ def main(requested: Sequence[str]) -> None:
     for id, instruments in checked(names).items():
         before = not_cast_for(id)
         for instrument_id, found in instruments.items():
-            if bool(found) is not (instrument_id in before):
+            if found and instrument_id not in before:
                 failed = True
                 amounts = ", ".join(f"{name} {amount:.2f}" for name, amount in found.items())
-                print(f"{id} {instrument_id}: {amounts or 'is within the bounds'}", flush=True)
+                print(f"{id} {instrument_id}: {amounts}", flush=True)
+            elif not found and instrument_id in before:
+                print(f"{id} {instrument_id}: not cast, but within the bounds here", flush=True)
         if write:
             small = {name for name, found in instruments.items() if found}
             for name in small:
                 bundled_path(id, name).unlink(missing_ok=True)
-            now = small | (before - set(instruments))
+            now = small | before
             path = bundled_people()[id]
             line = f"not_cast_for = [{', '.join(json.dumps(name) for name in sorted(now))}]"
             path.write_text(LINE.sub(line, path.read_text(encoding="utf-8")), encoding="utf-8")
