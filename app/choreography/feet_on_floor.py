@@ -185,9 +185,9 @@ def _above(heights_m: FloatArray, rest_m: float, planted: BoolArray) -> FloatArr
     return np.asarray(heights_m + SINKS_M * np.expm1(under / SINKS_M) - under)
 
 
-def free(planted: BoolArray, fps: float) -> FloatArray:
-    """Return a factor (F,) that rises smoothly from 0 in frames in which a foot stands to 1 at a distance of `FREE_S`
-    from them.
+def free(planted: BoolArray, fps: float, from_s: float = FREE_S) -> FloatArray:
+    """Return a factor (F,) that rises smoothly from 0 in frames in which a foot stands to 1 at a distance of ``from_s``
+    seconds from them.
     """
     if not planted.any():
         return np.ones(len(planted))
@@ -196,7 +196,7 @@ def free(planted: BoolArray, fps: float) -> FloatArray:
     next_at = stands[np.minimum(after, len(stands) - 1)]
     last_at = stands[np.maximum(after - 1, 0)]
     away = np.minimum(np.abs(next_at - frames), np.abs(frames - last_at))
-    return smooth_share(away, (0.0, max(FREE_S * fps, 1.0)))
+    return smooth_share(away, (0.0, max(from_s * fps, 1.0)))
 
 
 def _into_range(turned: FloatArray, foot: int) -> FloatArray:

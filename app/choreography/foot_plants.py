@@ -6,12 +6,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from app.arrays import BoolArray, FloatArray
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import rest_tip_m
@@ -45,6 +45,41 @@ class FootPlant:
     start: int
     stop: int
     place_m: tuple[float, float, float]
+
+
+class InAir(NamedTuple):
+    """Spans of frames in which a foot does not stand.
+
+    Attributes
+    ----------
+    starts, stops : (G,) int64
+        First frame of each span, and the frame after the last one.
+    before, after : (G,) int64
+        Indices of the stands before and after each span; -1 if there is none.
+    frames : (N,) int64
+        Frames of all spans, ascending.
+    spans : (N,) int64
+        For each of these the index of its span.
+    """
+
+    starts: IntArray
+    stops: IntArray
+    before: IntArray
+    after: IntArray
+    frames: IntArray
+    spans: IntArray
+
+    @classmethod
+    def between(cls, standing: Sequence[FootPlant], frames: int) -> InAir:
+        """Return the spans between the stands of one foot, before the first and after the last one."""
+        starts = np.array([0, *(stand.stop for stand in standing)])
+        stops = np.array([*(stand.start for stand in standing), frames])
+        some = np.flatnonzero(stops > starts)
+        after = np.where(some < len(standing), some, -1)
+        lengths = (stops - starts)[some]
+        spans = np.repeat(np.arange(len(some)), lengths)
+        along = np.arange(len(spans)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+        return cls(starts[some], stops[some], some - 1, after, starts[some][spans] + along, spans)
 
 
 def stands(

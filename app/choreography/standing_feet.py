@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -16,8 +16,9 @@ from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import free, legs_to, rest_tip_m
-from app.choreography.foot_plants import STEP_S, FootPlant, planted_frames
+from app.choreography.foot_plants import STEP_S, FootPlant, InAir, planted_frames
 from app.choreography.hovering_feet import hover_m, supporting
+from app.choreography.low_feet import cleared_m
 from app.rig import quaternion
 from app.rig.ik import leg
 from app.rig.skeleton import JointTransforms
@@ -26,10 +27,6 @@ from app.rig.sole import SIDES
 STEP_HIGH_M: Final = 0.03
 """Height in metres of a step made by a join over `STEP_FAR_M` or more; less for shorter ones."""
 STEP_FAR_M: Final = 0.10
-CLEARS_M: Final = 0.012
-"""Least height in metres of a foot's tip that is far from where it stood and will stand, so that it does not skid."""
-CLEARS_WITHIN_M: Final = 0.028
-"""Distance in metres from such a place within which most of that height is gained."""
 SETTLE_S: Final = 0.30
 """Time in seconds after leaving and before reaching the floor within which a foot blends with its own path."""
 REACH_SHARE: Final = 0.985
@@ -129,7 +126,7 @@ def planted(
     hover = hover_m(clip, body.world, legs, targets)
     targets[..., 1] -= hover[:, None]
     for foot in range(2):
-        targets[:, foot, 1] = _cleared(targets[:, foot], own[foot], rest_tip_m(clip, foot))
+        targets[:, foot, 1] = cleared_m(targets[:, foot], own[foot], rest_tip_m(clip, foot))
     carried = [FootPlant(*span, (0.0, 0.0, 0.0)) for span in supporting(hover, targets)]
     length_m = leg(clip.shape.skeleton, "left").length_m
     lower_m = weight * length_m * (DEEPER if weight > 0.0 else HIGHER)
@@ -155,41 +152,6 @@ def _feet_at(body: MovingBody, legs: JointTransforms, shown: FloatArray, on_floo
     return tips
 
 
-class _Air(NamedTuple):
-    """The spans of frames in which a foot does not stand.
-
-    Attributes
-    ----------
-    starts, stops : (G,) int64
-        First frame of each span, and the frame after the last one.
-    before, after : (G,) int64
-        Indices of the stands before and after each span; -1 if there is none.
-    frames : (N,) int64
-        Frames of all spans, ascending.
-    spans : (N,) int64
-        For each of these the index of its span.
-    """
-
-    starts: IntArray
-    stops: IntArray
-    before: IntArray
-    after: IntArray
-    frames: IntArray
-    spans: IntArray
-
-    @classmethod
-    def between(cls, standing: Sequence[FootPlant], frames: int) -> _Air:
-        """Return the spans between the stands of one foot, before the first and after the last one."""
-        starts = np.array([0, *(stand.stop for stand in standing)])
-        stops = np.array([*(stand.start for stand in standing), frames])
-        some = np.flatnonzero(stops > starts)
-        after = np.where(some < len(standing), some, -1)
-        lengths = (stops - starts)[some]
-        spans = np.repeat(np.arange(len(some)), lengths)
-        along = np.arange(len(spans)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
-        return cls(starts[some], stops[some], some - 1, after, starts[some][spans] + along, spans)
-
-
 def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> FloatArray:
     """Displacement (F, 3) that moves a foot's tip to the position where it must stand, blended between plants."""
     result = np.zeros_like(tip_m)
@@ -198,7 +160,7 @@ def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> Flo
     for stand in standing:
         here = slice(stand.start, stand.stop)
         result[here] = stand.place_m - tip_m[here]
-    air = _Air.between(standing, len(tip_m))
+    air = InAir.between(standing, len(tip_m))
     if not len(air.frames):
         return result
     lengths = air.stops - air.starts
@@ -238,26 +200,6 @@ def _edges(
     slopes = np.where(some[:, None], values - correction[edge + np.where(some, inwards, 0)], 0.0)
     exists = (stands >= 0)[:, None]
     return np.where(exists, values, 0.0), np.where(exists, slopes, 0.0)
-
-
-def _cleared(tip_m: FloatArray, standing: list[FootPlant], rest_m: float) -> FloatArray:
-    """Return the heights (F,) of the path (F, 3) of a foot's tip, raised where it would move low over the floor from
-    one plant to the next; ``rest_m`` is the height of a standing tip.
-    """
-    height = tip_m[:, 1] - rest_m
-    if not standing:
-        return height + rest_m
-    air = _Air.between(standing, len(tip_m))
-    places = np.array([stand.place_m for stand in standing])
-    x, z = tip_m[air.frames, 0], tip_m[air.frames, 2]
-    near = np.full(len(air.frames), np.inf)
-    for stands in (air.before, air.after):
-        away2 = np.square(x - places[stands, 0][air.spans]) + np.square(z - places[stands, 2][air.spans])
-        near = np.minimum(near, np.where((stands >= 0)[air.spans], away2, np.inf))
-    least, own = -CLEARS_M * np.expm1(-near / CLEARS_WITHIN_M**2), height[air.frames]
-    # Smooth maximum of both, the least height itself where that is 0.
-    height[air.frames] = 0.5 * (own + least + np.hypot(own - least, 0.5 * least))
-    return height + rest_m
 
 
 def _towards_m(

@@ -28,6 +28,7 @@ from app.choreography.heel_changes import heels_within_changes
 from app.choreography.joint_changes import feet_within_changes, hands_within_changes, within_changes
 from app.choreography.joint_speeds import turns_within_speeds, within_speeds
 from app.choreography.limbs import bend, smooth_share
+from app.choreography.low_feet import with_feet_cleared
 from app.choreography.resample import resampled
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
@@ -133,7 +134,7 @@ def within_limits(
         if calm is clip:
             break
         clip = without_twitches(calm, standing, usual)
-    clip = hands_within_changes(clip, usual_change_rad_s)
+    clip = with_feet_cleared(hands_within_changes(clip, usual_change_rad_s), standing)
     return heels_within_changes(clip, on_floor, usual_change_rad_s, ankle_m_s2)
 
 

@@ -15,7 +15,8 @@ from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.damage import FASTEST
 from app.choreography.features import height_m, points_m
-from app.choreography.foot_plants import stands
+from app.choreography.feet_on_floor import legs_to
+from app.choreography.foot_plants import FootPlant, planted_frames, stands
 from app.choreography.joint_speeds import within_speeds
 from app.choreography.standing_feet import planted
 from app.choreography.sudden_ends import (
@@ -154,3 +155,21 @@ def test_standing_feet_stay_where_they_stand() -> None:
     for stand in standing:
         slid = tips_m(calm)[stand.start : stand.stop, stand.foot] - stand.place_m
         assert np.abs(slid).max() < 1e-3
+
+
+def test_a_foot_that_was_slowed_down_near_the_floor_does_not_skid() -> None:
+    """A calmed path of a foot may be lower than the one that was raised above the floor."""
+    clip, sways = still(90, int(FPS)), np.sin(np.pi * np.clip((np.arange(90) - 29) / 31.0, 0.0, 1.0)) ** 2
+    places = tips_m(clip)[0]
+    plants = ((0, 0, 30), (1, 0, 90), (0, 60, 90))
+    standing = tuple(FootPlant(foot, start, stop, tuple(places[foot].tolist())) for foot, start, stop in plants)
+    on_floor, tips = planted_frames(standing, 90), tips_m(clip).copy()
+    tips[:, 0, 2] += 0.3 * sways
+    low = legs_to(clip, clip.world(), tips, on_floor)
+    usual = UsualAccelerations(np.full(2, 1e6), np.full(2, 1e6))
+    found = tips_m(within_limits(low, standing, usual, 3.0))
+    near_floor = found[:-1, 0, 1] < places[0, 1] + 0.006
+    way_m = np.linalg.norm(np.diff(found[:, 0][:, [0, 2]], axis=0), axis=-1)
+    assert (way_m * near_floor).sum() < 0.05 < 0.5 * way_m.sum()
+    assert np.abs((found - places)[on_floor]).max() < 1e-3
+    assert np.abs(np.diff(found[..., 1], 2, axis=0)).max() < 0.004
