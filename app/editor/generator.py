@@ -14,10 +14,12 @@ from app.editor.session import Session, Severity
 from app.editor.tasks import Tasks
 from app.editor.window_thread_calls import Reporter
 from app.errors import AppError, Message, Progress, StopRequested, raise_if_stopped
+from app.motion.perform import PerformanceCurves
+from app.performance.cast import Performer
 from app.performance.ensemble import Performance
 from app.performance.excerpt import PerformanceExcerpt, is_worth_it
 from app.performance.live import LiveMotion
-from app.plan.model import Problem
+from app.plan.model import Problem, TimeFrame
 from app.project.model import Project
 from app.project.undoable_document import Change
 from app.rig.characters.character_library import character_library
@@ -39,6 +41,14 @@ LOOK_S = 0.01
 
 def _goes_on() -> bool:
     return False
+
+
+def _arm_problems(
+    performer: Performer, curves: PerformanceCurves, frame: TimeFrame, stop_requested: StopRequested
+) -> tuple[Problem, ...]:
+    from app.export.arm_problems import performer_arm_problems  # not needed until the window is at rest
+
+    return performer_arm_problems(performer, curves, frame, stop_requested)
 
 
 class Generator(QObject):
@@ -84,7 +94,7 @@ class Generator(QObject):
         self._hold_stopped: StopRequested = _goes_on
         """... and whether the user has stopped that."""
         self._ready = -1.0
-        self.live = LiveMotion(session.performance)
+        self.live = LiveMotion(session.performance, arm_problems=_arm_problems)
         """The motion of all players: the viewport draws `LiveMotion.pose`."""
         reports = Reports(
             Generator._planned, Generator._moved, Generator._worked, Generator._show_broken, Generator._fell

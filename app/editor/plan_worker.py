@@ -43,6 +43,8 @@ REST_WHILE_JUDGING = 3.0
 """Pause after judging contacts of motion that is not kept, as a multiple of the work's time, while nothing plays: an
 hour of an orchestra takes minutes at low priority.
 """
+QUIET_S = 2.0
+"""Time in seconds without requests after which the arms of each player are measured, which takes about a second."""
 REST_WHILE_PLAYING = 1.0
 """Pause of the worker during playback, as a multiple of the time that it worked."""
 
@@ -72,7 +74,7 @@ class Reports(Generic[T]):
     worked : callable
         A share 0..1 of the motion is computed.
     broken : callable
-        The broken contacts found in the motion, as problems by player id.
+        The broken contacts and arms in clothes found in the motion, as problems by player id.
     fell : callable
         An unexpected exception ended the worker.
     """
@@ -108,6 +110,8 @@ class PlanWorker(Generic[T]):
         self._reported_seen_s = 0.0
         self._judging = True
         """True while there may be contacts to judge besides the motion that is made to be seen."""
+        self._measuring = True
+        """True while there may be arms to measure."""
         self._reported_broken = live.broken
         self._reported_broken_s = 0.0
         self._thread = threading.Thread(target=self._run, name="generator", daemon=True)
@@ -177,14 +181,16 @@ class PlanWorker(Generic[T]):
                 self._make_plans(*job)
             elif not self._idle:
                 self._make_motion()
-            elif not self._closed:
+            elif self._judging:
                 self._judge()
+            else:
+                self._measure_arms()
 
     @property
     def _waits(self) -> bool:
         if self._closed or self._pending is not None:
             return False
-        return self._paused or (self._idle and (self._playing or not self._judging))
+        return self._paused or (self._idle and (self._playing or not (self._judging or self._measuring)))
 
     @property
     def _idle(self) -> bool:
@@ -223,7 +229,7 @@ class PlanWorker(Generic[T]):
         others_s = clock.process_time() - clock.thread_time() - others_s
         if not more:
             self._met = requests
-            self._judging = True
+            self._judging = self._measuring = True
             if self._live.made - self._given_back >= GIVE_BACK_CHUNKS:
                 self._given_back = self._live.made
                 give_back()
@@ -264,6 +270,21 @@ class PlanWorker(Generic[T]):
         with self._changed:
             if self._judging and self._idle:
                 self._changed.wait(REST_WHILE_JUDGING * (now_s - start_s))
+
+    def _measure_arms(self) -> None:
+        """Measure the arms of a player once there has been no request for `QUIET_S`."""
+
+        def awaited() -> bool:
+            return not self._idle or self._paused or self._playing
+
+        with self._changed:
+            if self._changed.wait_for(awaited, timeout=QUIET_S):
+                return
+        try:
+            self._measuring = self._live.measure_arms(awaited)
+        except Exception as fault:  # noqa: BLE001 - reported in the window's thread
+            self._fell(fault)
+        self._report_broken(self._clock.monotonic(), True)
 
     def _report_broken(self, now_s: float, at_once: bool) -> None:
         broken = self._live.broken

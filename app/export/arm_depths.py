@@ -17,6 +17,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from app.arrays import AnyIntArray, BoolArray, FloatArray, IndexArray
+from app.errors import StopRequested, raise_if_stopped
 from app.export.joint_playback import JointPlayback
 from app.export.playback import PlaybackBones, ScenePlayback, Surface
 from app.formats.scene import SkinnedMesh
@@ -80,8 +81,14 @@ class ArmDepth(msgspec.Struct, frozen=True):
         return self.depth_mm <= self.bound_mm
 
 
-def arm_depth(joints: JointPlayback) -> ArmDepth:
-    """Return the greatest depth of a forearm or hand in trunk and clothes in an exported file."""
+def arm_depth(joints: JointPlayback, stop_requested: StopRequested = lambda: False) -> ArmDepth:
+    """Return the greatest depth of a forearm or hand in trunk and clothes in an exported file.
+
+    Raises
+    ------
+    Cancelled
+        ``stop_requested`` returned true.
+    """
     playback = joints.playback
     trunk = [surface for mesh in playback.scene.meshes for surface in _surfaces(joints, mesh)]
     worst = ArmDepth()
@@ -92,6 +99,7 @@ def arm_depth(joints: JointPlayback) -> ArmDepth:
             if len(held := np.flatnonzero(_share(joints, mesh, (f"{side}LowerArm", f"{side}Hand")) >= _CARRIED))
         ]
         for frame in _frames(joints, side, trunk) if arm and trunk else ():
+            raise_if_stopped(stop_requested)
             world = playback.world(frame, frame + 1)
             points_m = np.concatenate([surface.positions_m(world, frame, frame + 1)[0] for surface in arm])
             depth_m = max(one.depth_m(points_m, world, frame) for one in trunk)

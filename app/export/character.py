@@ -43,6 +43,7 @@ def character_scene(
     held: Sequence[Trajectory] = (),
     *,
     face_parts: tuple[FacePart, ...] = FACE_PARTS,
+    every_influence: bool = False,
 ) -> Scene:
     """Return the scene of a character with a motion.
 
@@ -63,6 +64,8 @@ def character_scene(
         instrument.
     face_parts : tuple of FacePart
         Parts of the face with curves. Without the gaze, eyes do not turn in the head.
+    every_influence : bool
+        Keep all skin weights, as for measurements; files get few for each vertex.
 
     Returns
     -------
@@ -97,7 +100,7 @@ def character_scene(
         creator=creator,
         name=name,
     )
-    return with_few_influences(scene)
+    return scene if every_influence else with_few_influences(scene)
 
 
 _SHAPED: Final[IdentityCache[Character]] = IdentityCache(16)

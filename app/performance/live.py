@@ -10,14 +10,22 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from threading import Lock
 
-from app.errors import Message, StopRequested
+from app.errors import Cancelled, Message, StopRequested
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.chunks import Chunk, FrameGrid, Pose, poses_of
 from app.performance.dances import Dancing
 from app.performance.ensemble import Performance
 from app.performance.excerpt import PerformanceExcerpt
-from app.performance.live_tracks import LiveTrack, ShownTracks, looks_same, motion_changed_s, played_before, soon_made
+from app.performance.live_tracks import (
+    ArmMeasure,
+    LiveTrack,
+    ShownTracks,
+    looks_same,
+    motion_changed_s,
+    played_before,
+    soon_made,
+)
 from app.plan.model import Problem, no_events
 from app.project.performers import Dancer, Player
 
@@ -49,10 +57,14 @@ class LiveMotion:
     ----------
     budget_bytes : int
         Largest memory of all chunks; those farthest from the playhead are dropped first.
+    arm_problems : callable, optional
+        Function that measures a player's arms, for `measure_arms`.
     """
 
-    def __init__(self, performance: Performance, budget_bytes: int = BUDGET_BYTES) -> None:
-        self._budget_bytes = budget_bytes
+    def __init__(
+        self, performance: Performance, budget_bytes: int = BUDGET_BYTES, arm_problems: ArmMeasure | None = None
+    ) -> None:
+        self._budget_bytes, self._arm_problems = budget_bytes, arm_problems
         self._lock = Lock()
         self._requested: tuple[float, float, tuple[str, ...]] = (0.0, SEEN_S, ())
         self._todo: Iterator[tuple[str, int]] | None = None
@@ -355,6 +367,23 @@ class LiveMotion:
             return True
         return False
 
+    def measure_arms(self, stop_requested: StopRequested) -> bool:
+        """Measure the arms of a player, after `judge` has finished; returns whether others may be left.
+
+        Must be called on the thread of `work`. An edit does not wait for it: only ``stop_requested`` ends it early.
+        """
+        shown = self._shown
+        if self._arm_problems is None or not shown.is_whole:
+            return False
+        for track in shown.tracks.values():
+            try:
+                if track.measure_arms(self._arm_problems, shown.performance.time_frame, stop_requested):
+                    self._name_problems(track)
+                    return True
+            except Cancelled:
+                return True
+        return False
+
     @property
     def seen(self) -> int:
         """Counter that increases when `work` has computed poses around the requested time, so that the view must be
@@ -389,7 +418,9 @@ class LiveMotion:
 
     @property
     def broken(self) -> dict[str, tuple[Problem, ...]]:
-        """Problems of broken contacts by player id, in all frames computed so far; a new dict whenever it changes."""
+        """Problems of broken contacts and of arms by player id, in all that was computed so far; a new dict whenever it
+        changes.
+        """
         return self._broken
 
     @contextmanager
@@ -411,7 +442,7 @@ class LiveMotion:
             self._name_problems(track)
 
     def _name_problems(self, track: LiveTrack) -> None:
-        """Update a player's problems: broken contacts, or corrections that its dance does not follow."""
+        """Update a player's problems: broken contacts and arms, or corrections that its dance does not follow."""
         problems = track.found_problems()
         if problems != track.problems:
             track.problems = problems

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from threading import Lock
 
 from app.arrays import FloatArray
-from app.contacts.breaks import Break, contact_problems
+from app.contacts.breaks import Break, by_time, contact_problems
 from app.contacts.judge import ContactJudge
-from app.errors import AppError, Message
+from app.errors import AppError, Cancelled, Message, StopRequested
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.cast import Performer, performers_of
@@ -17,8 +18,11 @@ from app.performance.dances import Dancing, dancing_of, layer_is_made
 from app.performance.ensemble import Performance
 from app.performance.excerpt import PerformanceExcerpt
 from app.performance.motion import performance_curves
-from app.plan.model import PlayerPlan, Problem
+from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.performers import Dancer, Player
+
+ArmMeasure = Callable[[Performer, PerformanceCurves, TimeFrame, StopRequested], tuple[Problem, ...]]
+"""Function that returns the problems of a player's arms in a whole performance; raises Cancelled."""
 
 
 @dataclass(eq=False)
@@ -51,8 +55,12 @@ class LiveTrack:
         Chunks whose contacts were checked for ``playing`` (or ``basis`` while unproven).
     breaks : dict of int to tuple of Break
         Broken contacts by chunk; old ones until checked again.
+    arms : tuple of Problem
+        Problems of the arms; old ones until measured again.
+    arms_measured : bool
+        Whether ``arms`` is of ``playing``.
     problems : tuple of Problem
-        Problems made from the broken contacts.
+        Problems made from the broken contacts, and those of the arms.
     making : Lock
         Held while shared data of the track is computed.
     excerpt : PerformanceExcerpt or None
@@ -73,6 +81,8 @@ class LiveTrack:
     judge: ContactJudge | None = None
     judged: set[int] = field(default_factory=set)
     breaks: dict[int, tuple[Break, ...]] = field(default_factory=dict)
+    arms: tuple[Problem, ...] = ()
+    arms_measured: bool = False
     problems: tuple[Problem, ...] = ()
     making: Lock = field(default_factory=Lock)
     excerpt: PerformanceExcerpt | None = None
@@ -127,6 +137,26 @@ class LiveTrack:
         self.breaks[index] = breaks
         return True
 
+    def measure_arms(self, measure: ArmMeasure, frame: TimeFrame, stop_requested: StopRequested) -> bool:
+        """Measure the arms if they are not measured yet and it is known what is played; returns whether they were
+        measured. Raises Cancelled.
+        """
+        curves, performer = self.playing, self.performer
+        if self.arms_measured or self.basis is not None or self.error is not None:
+            return False
+        if performer is None or not isinstance(curves, PerformanceCurves):
+            return False
+        try:
+            self.arms = measure(performer, curves, frame, stop_requested)
+        except Cancelled:
+            raise
+        except Exception:
+            # What fails once is not tried again.
+            self.arms_measured = True
+            raise
+        self.arms_measured = True
+        return True
+
     def has_picture(self, index: int) -> bool:
         """Return whether there is a motion to show for a chunk."""
         return index in self.chunks or index in self.unproven or index in self.outdated
@@ -142,11 +172,12 @@ class LiveTrack:
         return start_s <= from_s and to_s <= end_s
 
     def found_problems(self) -> tuple[Problem, ...]:
-        """Return the problems of broken contacts, or of corrections that a dance does not meet."""
+        """Return the problems of broken contacts and of arms, or of corrections that a dance does not meet."""
         if self.playing is not None and not isinstance(self.playing, PerformanceCurves):
             return self.playing.problems
         breaks = [item for index in sorted(self.breaks) for item in self.breaks[index]]
-        return contact_problems(breaks, self.plan.grips, self.known)
+        broken = contact_problems(breaks, self.plan.grips, self.known)
+        return by_time((*broken, *self.arms)) if self.arms else broken
 
     def after(
         self, player: Player | Dancer, plan: PlayerPlan, known: tuple[Problem, ...], same_chunks: int
@@ -166,6 +197,7 @@ class LiveTrack:
             outdated=self.outdated if proven else self.outdated | self.chunks,
             judged={index for index in tuple(self.judged) if index < same_chunks},
             breaks=dict(self.breaks),
+            arms=self.arms,
             problems=self.problems,
         )
 

@@ -10,10 +10,13 @@ import pytest
 
 from app.cli import main
 from app.cli.inspect import inspection
+from app.errors import Cancelled
 from app.export import arm_problems, measure
 from app.export.arm_depths import ARM_MM, ArmDepth
-from app.export.arm_problems import MOST_MEASURED, all_arm_problems
+from app.export.arm_problems import MOST_MEASURED, all_arm_problems, performer_arm_problems
+from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
+from app.performance.motion import performance_curves
 from app.project.model import Project
 from tests.gui.conftest import QUARTET, quartet_project
 
@@ -38,9 +41,24 @@ def test_the_surfaces_of_a_motion_are_measured() -> None:
     assert notice is None
 
 
+def test_a_measurement_stops_when_it_is_requested() -> None:
+    project = of_one()
+    performance = Performance(project)
+    performer = performer_of(performance, project.players[0])
+    curves, asked = performance_curves(performance, performer), list[int]()
+
+    def later() -> bool:
+        asked.append(1)
+        return len(asked) > 5
+
+    with pytest.raises(Cancelled):
+        performer_arm_problems(performer, curves, performance.time_frame, later)
+    assert len(asked) == 6
+
+
 def test_an_inspection_lists_arms_that_are_too_deep(monkeypatch: pytest.MonkeyPatch) -> None:
     project = of_one()
-    monkeypatch.setattr(arm_problems, "arm_depth", lambda joints: ArmDepth("right", 24.6, 40))
+    monkeypatch.setattr(arm_problems, "arm_depth", lambda joints, stop_requested: ArmDepth("right", 24.6, 40))
     (line,) = [one for one in inspection(Performance(project))["warnings"] if "forearm" in one]
     assert line.startswith(f"{project.players[0].name}: ")
     assert "right forearm goes up to 24.6 mm" in line
@@ -50,7 +68,7 @@ def test_an_inspection_lists_arms_that_are_too_deep(monkeypatch: pytest.MonkeyPa
 def test_more_players_are_measured_on_request_only(monkeypatch: pytest.MonkeyPatch) -> None:
     performance = Performance(quartet_project())
     players = performance.project.players * (1 + MOST_MEASURED)
-    monkeypatch.setattr(arm_problems, "arm_depth", lambda joints: ArmDepth("right", 24.6, 40))
+    monkeypatch.setattr(arm_problems, "arm_depth", lambda joints, stop_requested: ArmDepth("right", 24.6, 40))
     found, notice = all_arm_problems(performance, players)
     assert not found
     assert notice is not None
