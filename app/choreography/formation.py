@@ -9,6 +9,7 @@ from typing import Final, Literal, get_args
 import numpy as np
 
 from app.choreography.clip import MotionClip
+from app.choreography.coming_to_rest import ENDS_S, GOES_ON_S
 from app.choreography.dance import Dance, Manner
 from app.choreography.generate import Choreographer
 from app.choreography.rhythm import Rhythm, delayed
@@ -22,8 +23,6 @@ APART_M: Final[dict[Formation, float]] = {"unison": 2.0, "canon": 3.0, "mirror":
 """Distance in metres between neighbouring dancers: those who dance alike simultaneously do not collide, others keep
 within about `app.choreography.stage.STAGE_M` of their places.
 """
-ENDS_S: Final = 2.0
-"""Seconds after the last beat within which all dancers come to rest."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +80,7 @@ def dance_together(
     arguments give identical results.
     """
     rhythms = [delayed(rhythm, role.delay_beats) if role.delay_beats else rhythm for role in cast]
-    end_s = max((float(one.beats_s[-1]) for one in rhythms if len(one.beats_s)), default=0.0) + ENDS_S
+    end_s = max((one.end_s for one in rhythms), default=0.0) + GOES_ON_S + ENDS_S
     return tuple(
         _at(choreographer.dance(one, role.manner, fps, end_s=end_s), role.x_m)
         for one, role in zip(rhythms, cast, strict=True)

@@ -16,7 +16,7 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.accent_grid import AccentGrid, grid_of
 from app.choreography.arrivals import FPS, arrival_frames, beats_met, best_arrival_map, joint_speed_m_s, smoothed
 from app.choreography.clip import MotionClip
-from app.choreography.coming_to_rest import CapturedStands, between_stands, captured_stands
+from app.choreography.coming_to_rest import ENDS_S, GOES_ON_S, CapturedStands, between_stands, captured_stands
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.dance_flaws import usual_change_rad_s
 from app.choreography.drafts import DRAFT_FPS, DRAFTS, draft_of
@@ -42,7 +42,7 @@ from app.choreography.stage import on_stage
 from app.choreography.step_balance import step_balance
 from app.choreography.stitch import Frames, Stitcher
 from app.choreography.sudden_ends import UsualAccelerations, usual_accelerations, within_limits
-from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
+from app.choreography.warp import TimeMap, map_with_arrivals
 
 _LEAST_S: Final = 0.01
 """Margin in seconds beyond the first start and the last end, since a segment's beat may be at either."""
@@ -197,17 +197,19 @@ class Choreographer:
         constraints : Constraints, optional
             The user's corrections.
         first_s, end_s : float
-            Time of the first frame and of the end in seconds; by default from the first tick to `REST_S` after the last
-            step.
+            Time of the first frame and of the end in seconds; by default from the first tick to `ENDS_S` after the last
+            step. An earlier end ends the dance earlier, so that its last stand is held.
         """
         rhythm = self.felt(rhythm)
         plan, body = self._planned(rhythm, manner, constraints, weights), manner.source or 0
         if end_s is None:
-            end_s = max(first_s, (plan.steps[-1].end_s if plan.steps else 0.0) + 2.0 * REST_S)
+            end_s = max(first_s, (plan.steps[-1].end_s if plan.steps else 0.0) + ENDS_S)
         count = max(1, math.ceil((end_s - first_s) * float(fps)))
         if not plan.steps:
             return Dance(self._stitcher.still(count, body, fps), first_s, (), np.zeros(count), (), ())
-        clip, moved_m, contacts, seams, speeds = self._motion(plan, body, fps, first_s + np.arange(count) / float(fps))
+        rests_s = min(rhythm.end_s + GOES_ON_S, end_s - ENDS_S)
+        times_s = first_s + np.arange(count) / float(fps)
+        clip, moved_m, contacts, seams, speeds = self._motion(plan, body, fps, times_s, rests_s)
         clip = sized(clip, manner.size, self._stitcher.hinges)
         if manner.mirrored:
             clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
@@ -271,7 +273,13 @@ class Choreographer:
             final=self._standing([one.end for one in segments]),
         )
         held = set() if constraints is None else {*constraints.pinned, *constraints.segments}
-        return self._timed(chosen, grid, manner.source or 0, np.array([place in held for place, _ in chosen], bool))
+        plan = self._timed(chosen, grid, manner.source or 0, np.array([place in held for place, _ in chosen], bool))
+        if not plan.steps:
+            return plan
+        # The last motion ends with the music, and what is left of it is not danced.
+        last = plan.steps[-1]
+        ends_s = min(last.end_s, max(last.accent_s, rhythm.end_s + GOES_ON_S))
+        return replace(plan, steps=(*plan.steps[:-1], replace(last, end_s=ends_s)))
 
     def _take_shares(self, rhythm: Rhythm, grid: AccentGrid) -> TakeShares:
         """Return the share of each take of the library at the accents of the grid: takes whose drums were like those of
@@ -360,9 +368,9 @@ class Choreographer:
             found.append(falls_s[first:stop] - hit_s + hit)
         return np.concatenate(found)
 
-    def _motion(self, plan: _Plan, body: int, fps: Fraction, times_s: FloatArray) -> _Motion:
+    def _motion(self, plan: _Plan, body: int, fps: Fraction, times_s: FloatArray, rests_s: float = np.inf) -> _Motion:
         """Compute the motion of a plan at ascending times: its segments joined for the body of the clip with index
-        ``body``, moving over the stage.
+        ``body``, moving over the stage; it comes to rest after the last segment, from ``rests_s`` on at the latest.
         """
         assert plan.times is not None
         along, speeds = plan.times.at(times_s)
@@ -373,6 +381,8 @@ class Choreographer:
         clip, contacts, seams = self._stitcher.stitched(frames, body, fps)
         hips_m = on_stage(clip.hips_m, float(fps))
         moved_m, clip = hips_m - clip.hips_m, replace(clip, hips_m=hips_m)
-        edges = np.searchsorted(times_s, plan.times.times_s[[0, -1]]).tolist()
-        clip, moved_m, contacts = between_stands(clip, moved_m, contacts, edges, self._stands_at_rest)
-        return _Motion(unbroken(clip), moved_m, contacts, seams, speeds)
+        starts_s, ends_s = plan.times.times_s[[0, -1]]
+        first, stop = np.searchsorted(times_s, (starts_s, min(ends_s, rests_s))).tolist()
+        clip, moved_m, contacts = between_stands(clip, moved_m, contacts, (first, stop), self._stands_at_rest)
+        shown = tuple(seam for seam in seams if seam <= stop)
+        return _Motion(unbroken(clip), moved_m, contacts, shown, np.where(times_s < rests_s, speeds, 0.0))

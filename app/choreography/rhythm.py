@@ -49,6 +49,12 @@ class Rhythm:
     melody: Rhythm | None = None
     written: BoolArray | None = None
 
+    @property
+    def end_s(self) -> float:
+        """Time in seconds of the last beat or hit; 0 without any."""
+        last_s = 0.0 if self.melody is None else self.melody.end_s
+        return float(np.concatenate([[last_s], self.beats_s[-1:], self.hits_s[-1:]]).max())
+
 
 def are_alike(one: Rhythm | None, other: Rhythm | None) -> bool:
     """Return whether two rhythms have equal beats and hits, so that dances to them are equal."""

@@ -13,6 +13,7 @@ from app.choreography.body import FEET, SEGMENTS
 from app.choreography.coming_to_rest import RESTS_S, between_stands, captured_stands
 from app.choreography.dance import Dance, Manner
 from app.choreography.feet_on_floor import soles_m
+from app.choreography.formation import Role, dance_together
 from app.choreography.generate import Choreographer
 from app.choreography.limbs import hinge_ranges
 from tests.support.dances import beaten, model, stepping
@@ -70,3 +71,23 @@ def test_without_time_there_is_no_stand() -> None:
     stands = captured_stands([clip], hinge_ranges([clip]))
     rested, *_ = between_stands(clip, np.zeros((len(clip), 3)), contacts, (10, len(clip) - 10), stands)
     assert np.array_equal(rested.rotations, clip.rotations)
+
+
+@pytest.mark.parametrize("bpm", [66, 112, 200])
+def test_the_last_stand_is_held_for_a_second_at_all_tempi(bpm: int) -> None:
+    rhythm = beaten(16, 60.0 / bpm)
+    (found,) = dance_together(choreographer(), rhythm, (Role(Manner(seed=1), 0.0, 0.0),), FPS)
+    assert still_from_s(found) < min(rhythm.end_s + 2.0, len(found.clip) / float(FPS) - 1.0)
+
+
+def test_a_dance_comes_to_rest_before_an_early_end() -> None:
+    found = choreographer().dance(beaten(24), Manner(seed=1), FPS, end_s=9.0)
+    assert found.steps[-1].end_s > 10.0
+    assert still_from_s(found) < 8.0
+    assert all(seam < 8.0 * float(FPS) for seam in found.seams)
+
+
+def still_from_s(dance: Dance) -> float:
+    """Time in seconds from which no joint moves by 2 cm/s."""
+    moves_m = np.linalg.norm(np.diff(dance.clip.world().positions_m, axis=0), axis=-1).max(axis=1)
+    return float(dance.first_s + np.flatnonzero(moves_m * float(FPS) > 0.02)[-1] / float(FPS))
