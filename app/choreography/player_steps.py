@@ -245,7 +245,7 @@ def _mark(rows: list[_Row], foot: int, span_s: tuple[float, float], *, taps: boo
     step = rows[-1]
     if taps:
         other_m = _place_m(rows, 1 - step.foot)[1]
-        leads = step.place_m[1] >= other_m or other_m < IN_FRONT_M
+        leads = other_m <= AHEAD_M - IN_FRONT_M
         ahead_m = max(step.place_m[1], other_m + IN_FRONT_M) if leads else min(step.place_m[1], other_m - IN_FRONT_M)
         rows[-1] = replace(step, place_m=(step.place_m[0], min(ahead_m, AHEAD_M)))
         foot = step.foot if leads else 1 - step.foot
