@@ -121,7 +121,7 @@ def still_joints(
     """
     skeleton, hold = character.skeleton, instrument.hold
     shape = carrying(body, hold.possible(posture), hold.carriage(posture))
-    place, still = stance(skeleton, shape) if place is None else place, BodyMotion.still(shape)
+    place, still = stance(skeleton, shape, body.limits["foot"]) if place is None else place, BodyMotion.still(shape)
     hips_m, hips = hips_path(place, skeleton, still)
     local = {skeleton.index("hips"): hips} | trunk(skeleton, hips_m, hips, still).local
     local |= solve_legs(place, skeleton, hips_m, hips, still.feet)

@@ -62,7 +62,7 @@ def seated_clear(
     if least_m <= ACCEPTED_M:
         return player
     for lower_deg in LOWER_DEG[1:].tolist():
-        place = stance(player.skeleton, _lower(posture, lower_deg))
+        place = stance(player.skeleton, _lower(posture, lower_deg), player.place.ankle)
         if place.hips_m[1] <= player.place.hips_m[1]:
             from_deg = lower_deg
             continue

@@ -96,7 +96,7 @@ def _made(
     named = cast(PostureName, posture_name)
     carriage = instrument_map.hold.carriage(named)
     posture = carrying(body, instrument_map.hold.possible(named), carriage)
-    place = stance(skeleton, posture)
+    place = stance(skeleton, posture, body.limits["foot"])
     still = BodyMotion.still(posture)
     made = PlayerBody(
         skeleton=skeleton,

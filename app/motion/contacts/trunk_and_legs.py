@@ -12,10 +12,10 @@ from app.arrays import FloatArray, IndexArray
 from app.motion.body_motion import BodyMotion
 from app.rig import quaternion
 from app.rig.grip.body_size import leg_size
-from app.rig.ik import SOFT_SHARE, Limb, leg, solve_limb
+from app.rig.ik import SOFT_SHARE, Limb, LimbPose, leg, solve_limb
 from app.rig.model import Skeleton
 from app.rig.skeleton import rest_positions
-from metadata.model import Posture
+from metadata.model import JointLimits, Posture
 
 Side = Literal["left", "right"]
 SIDES: tuple[Side, Side] = ("left", "right")
@@ -34,6 +34,8 @@ HEEL = (-1.0, -0.45)
 """Position of the heel, likewise."""
 SIT_BONES_M = 0.09
 """Distance in metres from the hips down to the axis about which a seated player leans the pelvis."""
+ANKLE_SOFT_RAD = float(np.deg2rad(2.0))
+"""Angle in radians over which a tap's toes approach the limit of the ankle."""
 X_AXIS = np.array([1.0, 0.0, 0.0])
 FOOT_PARTS = ("heel", "toes", "ahead", "up", "aside", "push")
 
@@ -56,6 +58,8 @@ class Stance:
         Toe joint and heel relative to the ankle in the foot's frame, about which a foot rolls.
     toes : dict of side to int
         Toe joints, if any.
+    ankle : JointLimits
+        Range of the ankles.
     """
 
     hips_m: FloatArray
@@ -67,10 +71,13 @@ class Stance:
     balls_m: dict[Side, FloatArray]
     heels_m: dict[Side, FloatArray]
     toes: dict[Side, int]
+    ankle: JointLimits
 
 
-def stance(skeleton: Skeleton, posture: Posture) -> Stance:
-    """Place feet and hips for a posture: soles at rest height, hips over (or behind) the feet."""
+def stance(skeleton: Skeleton, posture: Posture, ankle: JointLimits) -> Stance:
+    """Place feet and hips for a posture: soles at rest height, hips over (or behind) the feet; ankles have the range
+    ``ankle``.
+    """
     legs = {side: leg(skeleton, side) for side in SIDES}
     rest = rest_positions(skeleton)
     thigh, shank = (float(np.linalg.norm(v)) for v in (legs["left"].upper_vector_m, legs["left"].lower_vector_m))
@@ -85,12 +92,12 @@ def stance(skeleton: Skeleton, posture: Posture) -> Stance:
     toes: dict[Side, int] = {}
     for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
         hip_joint = rest[legs[side].upper]
-        ankle = rest[legs[side].end].copy()
-        ankle[0] = hip_joint[0] * posture.feet_apart_hip_widths
-        ankle[2] = hip_joint[2] + ahead_m + sign * 0.5 * posture.foot_forward_m
-        ankles_m[side] = ankle
+        ankle_m = rest[legs[side].end].copy()
+        ankle_m[0] = hip_joint[0] * posture.feet_apart_hip_widths
+        ankle_m[2] = hip_joint[2] + ahead_m + sign * 0.5 * posture.foot_forward_m
+        ankles_m[side] = ankle_m
         feet[side] = quaternion.from_axis_angle(np.array([0.0, 1.0, 0.0]), sign * np.deg2rad(posture.toes_out_deg))
-        high_m = max(float(ankle[1]), 0.0)
+        high_m = max(float(ankle_m[1]), 0.0)
         balls_m[side], heels_m[side] = (high_m * np.array([0.0, *part]) for part in (BALL, HEEL))
         if f"{side}Toes" in skeleton.names:
             toes[side] = skeleton.index(f"{side}Toes")
@@ -98,7 +105,7 @@ def stance(skeleton: Skeleton, posture: Posture) -> Stance:
     hips_m = rest[hips].copy()
     hips_m[1] = rest[legs["left"].end][1] + above_m - (rest[legs["left"].upper] - rest[hips])[1]
     seated = posture.seat_height_shank > 0.0
-    return Stance(hips_m, knee, ankles_m, feet, legs, seated, balls_m, heels_m, toes)
+    return Stance(hips_m, knee, ankles_m, feet, legs, seated, balls_m, heels_m, toes, ankle)
 
 
 @dataclass(frozen=True)
@@ -238,20 +245,40 @@ def solve_legs(
     hips_rotation: FloatArray,
     feet: Mapping[str, FloatArray],
 ) -> dict[int, FloatArray]:
-    """Solve both legs: rotations (F, 4) by joint index, for feet that stand or move as given in ``feet``."""
-    frames = len(hips_m)
+    """Solve both legs: rotations (F, 4) by joint index, for feet that stand or move as given in ``feet``; raised toes
+    stay within the range of the ankle.
+    """
     rotations: dict[int, FloatArray] = {}
     for side in SIDES:
         limb = place.legs[side]
         root_m = hips_m + quaternion.rotate(hips_rotation, skeleton.offsets_m[limb.upper])
-        there = footing(place, side, feet, frames)
-        pole = quaternion.rotate(place.feet[side], np.array([0.0, 0.0, 1.0]))
-        target_m = exact_target(limb, root_m, there.ankle_m)
-        pose = solve_limb(limb, root_m, hips_rotation, target_m, there.foot, pole)
+        pose, there = _solve_leg(place, side, root_m, hips_rotation, feet)
+        if np.any(feet.get(f"{side}_toes", 0.0)):
+            lower = {**feet, f"{side}_toes": _within_ankle(place, pose, feet[f"{side}_toes"])}
+            pose, there = _solve_leg(place, side, root_m, hips_rotation, lower)
         rotations |= {limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
         if there.toes is not None:
             rotations[place.toes[side]] = there.toes
     return rotations
+
+
+def _solve_leg(
+    place: Stance, side: Side, root_m: FloatArray, hips_rotation: FloatArray, feet: Mapping[str, FloatArray]
+) -> tuple[LimbPose, Footing]:
+    limb, there = place.legs[side], footing(place, side, feet, len(root_m))
+    pole = quaternion.rotate(place.feet[side], np.array([0.0, 0.0, 1.0]))
+    target_m = exact_target(limb, root_m, there.ankle_m)
+    return solve_limb(limb, root_m, hips_rotation, target_m, there.foot, pole), there
+
+
+def _within_ankle(place: Stance, pose: LimbPose, toes_rad: FloatArray) -> FloatArray:
+    """Return the lift (F,) of toes in radians, lower where the ankle of ``pose`` is bent too far; its leg leans forward
+    already under a bent knee.
+    """
+    bent_rad = -2.0 * np.arctan2(pose.end[:, 0], pose.end[:, 3])
+    over = (bent_rad - np.deg2rad(place.ankle.flexion_deg[1])) / ANKLE_SOFT_RAD
+    lower: FloatArray = np.maximum(toes_rad - ANKLE_SOFT_RAD * np.logaddexp(0.0, over), 0.0)
+    return lower
 
 
 @dataclass(frozen=True)

@@ -46,7 +46,7 @@ def seated(instrument_id: str, character_id: str, outfit: str) -> tuple[PlayerBo
     instrument, character = suited_to(player, bundled_maps()[instrument_id]).instrument, dressed_character(player)
     made = player_body(parameters, instrument, character, hold_of(player, instrument), body_of(player))
     posture = carrying(body_of(player), "seated", instrument.hold.carriage("seated"))
-    return made, on_seat(made, stance(made.skeleton, posture), instrument.endpin), character
+    return made, on_seat(made, stance(made.skeleton, posture, made.place.ankle), instrument.endpin), character
 
 
 def pin_m(player: PlayerBody) -> float:

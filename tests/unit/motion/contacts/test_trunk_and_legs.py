@@ -9,7 +9,7 @@ import pytest
 
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
-from app.motion.contacts.trunk_and_legs import SIDES, STRAIGHTEST, hips_path, stance
+from app.motion.contacts.trunk_and_legs import SIDES, STRAIGHTEST, hips_path, solve_legs, stance
 from app.rig import quaternion
 from metadata.load import load_body
 from tests.unit.motion.figure import skeleton
@@ -34,7 +34,7 @@ class _Hips:
 def test_legs_reach_their_feet_bent_as_the_knees_say() -> None:
     rng = np.random.default_rng(2)
     body, joints = load_body(), skeleton()
-    place = stance(joints, body.postures["standing"])
+    place = stance(joints, body.postures["standing"], body.limits["foot"])
     motion = _Hips(
         hips_side_m=rng.uniform(-0.08, 0.08, FRAMES),
         hips_roll_rad=rng.uniform(-0.1, 0.1, FRAMES),
@@ -56,8 +56,25 @@ def test_legs_reach_their_feet_bent_as_the_knees_say() -> None:
 
 
 def test_what_lowers_the_hips_lowers_them_by_as_much() -> None:
-    joints = skeleton()
-    place = stance(joints, load_body().postures["standing"])
+    joints, body = skeleton(), load_body()
+    place = stance(joints, body.postures["standing"], body.limits["foot"])
     level_m, _ = hips_path(place, joints, cast(BodyMotion, _Hips()))
     lower_m, _ = hips_path(place, joints, cast(BodyMotion, _Hips(hips_bob_m=np.full(FRAMES, 0.03))))
     assert level_m[0, 1] - lower_m[0, 1] == pytest.approx(0.03)
+
+
+def test_toes_are_raised_as_far_as_the_ankle_lets_them() -> None:
+    joints, body = skeleton(), load_body()
+    place = stance(joints, body.postures["standing"], body.limits["foot"])
+    # The lower the hips, the farther the shanks lean forward over the feet.
+    hips_m, rotation = hips_path(place, joints, cast(BodyMotion, _Hips(hips_bob_m=np.linspace(0.0, 0.12, FRAMES))))
+    toes_rad = np.full(FRAMES, np.deg2rad(14.0))
+    flat, raised = (solve_legs(place, joints, hips_m, rotation, feet) for feet in ({}, {"left_toes": toes_rad}))
+    ankle = place.legs["left"].end
+    bent_deg, raised_deg = (np.rad2deg(-2.0 * np.arctan2(one[ankle][:, 0], one[ankle][:, 3])) for one in (flat, raised))
+    most_deg = body.limits["foot"].flexion_deg[1]
+    assert (bent_deg + 14.0).max() > most_deg > raised_deg.max()
+    easy = bent_deg < most_deg - 20.0
+    assert easy.any()
+    assert (raised_deg - bent_deg)[easy].min() > 13.0
+    assert (raised_deg - bent_deg).min() >= -1e-9
