@@ -302,8 +302,8 @@ def _possible(
 
 
 def touch_leads(clip: MotionClip, standing: Sequence[FootPlant]) -> FloatArray:
-    """Compute the number of frames (N,) by which the feet of a motion touch the floor before N foot plants begin;
-    negative if later, 0 without a touch nearby."""
+    """Compute the number of frames (N,) by which the feet of a motion touch the floor before N foot plants begin; 0
+    without a touch nearby, or with a later one, since a planted foot is on the floor."""
     contacts, most = foot_contacts(clip), round(MOST_LEAD_S * float(clip.fps))
     touches = [np.flatnonzero(np.diff(contacts[:, foot].astype(np.int8), prepend=0) > 0) for foot in range(2)]
     leads = np.zeros(len(standing))
@@ -311,5 +311,5 @@ def touch_leads(clip: MotionClip, standing: Sequence[FootPlant]) -> FloatArray:
         near = stand.start - touches[stand.foot]
         near = near[np.abs(near) <= most]
         if stand.start and len(near):
-            leads[at] = near[np.abs(near).argmin()]
+            leads[at] = max(near[np.abs(near).argmin()], 0)
     return leads

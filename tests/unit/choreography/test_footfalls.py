@@ -139,6 +139,8 @@ def test_touches_before_stands_are_found_in_the_motion() -> None:
     later = [FootPlant(one.foot, one.start + 4 * bool(one.start), one.stop, one.place_m) for one in standing]
     found = touch_leads(clip, later)
     assert [lead == 4.0 for lead in found] == [one.start > 0 for one in later]
+    earlier = [FootPlant(one.foot, max(one.start - 4, 0), one.stop, one.place_m) for one in standing]
+    assert not touch_leads(clip, earlier).any()
 
 
 def test_a_foot_that_has_time_after_a_kick_lands_on_the_beat() -> None:
