@@ -21,7 +21,7 @@ from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.body_speeds import runs
 from app.choreography.clip import MotionClip
 from app.choreography.features import height_m
-from app.choreography.feet_on_floor import AHEAD, LEG, grounded
+from app.choreography.feet_on_floor import AHEAD, LEG, free, grounded
 from app.choreography.foot_plants import FootPlant, planted_frames
 from app.choreography.hands_out_of_body import ELBOW
 from app.choreography.heel_changes import heels_within_changes
@@ -43,8 +43,8 @@ TRIES: Final = 6
 """Greatest number of passes over a motion, since corrections may leave an excess beside them."""
 ALTERNATIONS: Final = 4
 """Greatest number of alternations between limits of acceleration, of joints' speeds and of their changes."""
-ARM_ROUNDS: Final = 8
-"""Greatest number of times that arms which still snap are smoothed and their hands calmed."""
+LIMB_ROUNDS: Final = 8
+"""Greatest number of times that limbs which still snap are smoothed and their hands and feet calmed."""
 PASSES: Final = 12
 """Greatest number of alternations between two points, since bending one path moves the other slightly."""
 FOLDED: Final = (0.15, 0.3)
@@ -53,10 +53,10 @@ and from which it is moved freely: the whole limb would turn with a wrist at the
 _ROOM: Final = 0.93
 """Share of the bound to which paths are corrected, leaving a margin for later steps."""
 FROM: Final = 0.9
-"""Share of the usual change of a joint's speed above which an arm is smoothed."""
+"""Share of the usual change of a joint's speed above which a limb is smoothed."""
 SMOOTHS_S: Final = 0.01
 EDGES_S: Final = 0.08
-"""Standard deviations in seconds of an arm's smoothing, and of how it begins and ends."""
+"""Standard deviations in seconds of a limb's smoothing, and of how it begins and ends."""
 _ARM: Final = ("UpperArm", "LowerArm", "Hand")
 
 
@@ -128,9 +128,9 @@ def within_limits(
         clip = within_speeds(grounded(calm, on_floor), on_floor)
     if fastest_rad_s is not None:
         clip = without_twitches(turns_within_speeds(clip, on_floor, fastest_rad_s), standing, usual)
-    for _ in range(ARM_ROUNDS):
-        # What is left are arms swung through straight, which snap whenever their hands are calmed.
-        calm = _arms_smoothed(clip, FROM * usual_change_rad_s)
+    for _ in range(LIMB_ROUNDS):
+        # What is left are limbs swung through straight, which snap whenever their hands or feet are calmed.
+        calm = _limbs_smoothed(clip, on_floor, FROM * usual_change_rad_s)
         if calm is clip:
             break
         clip = without_twitches(calm, standing, usual)
@@ -146,24 +146,27 @@ def _within_changes(clip: MotionClip, on_floor: BoolArray, most_rad_s: float, an
     return within_changes(clip, on_floor, most_rad_s, lands_s=0.0)
 
 
-def _arms_smoothed(clip: MotionClip, most_rad_s: float) -> MotionClip:
-    """Smooth the rotations of arms slightly about the frames in which the angular velocity of one of their joints
-    changes by more than ``most_rad_s`` from frame to frame; the same object if there are none.
+def _limbs_smoothed(clip: MotionClip, on_floor: BoolArray, most_rad_s: float) -> MotionClip:
+    """Smooth the rotations of arms, and of legs in the air, slightly about the frames in which the angular velocity of
+    one of their joints changes by more than ``most_rad_s`` from frame to frame; the same object if there are none.
     """
     fps, rotations = float(clip.fps), clip.rotations
     around = 2 * round(AROUND_S * fps) + 1
-    for side in SIDES:
-        first = SEGMENTS.index(f"{side}{_ARM[0]}")
-        arm = slice(first, first + len(_ARM))
-        turns = quaternion.continuous(clip.rotations[:, arm])
-        steps = quaternion.to_rotation_vector(quaternion.multiply(turns[1:], quaternion.conjugate(turns[:-1])))
-        sudden = np.linalg.norm(np.diff(steps, axis=0), axis=-1).max(axis=1) * fps > most_rad_s
-        if sudden.any():
-            near = maximum_filter1d(np.pad(sudden, 1).astype(np.float64), around)
-            share = gaussian_filter1d(near, EDGES_S * fps)[:, None, None]
-            smooth = gaussian_filter1d(turns, SMOOTHS_S * fps, axis=0, mode="nearest")
-            rotations = rotations.copy(order="K") if rotations is clip.rotations else rotations
-            rotations[:, arm] = quaternion.normalize(turns + share * (smooth - turns))
+    for foot, side in enumerate(SIDES):
+        for limb in (LEG, _ARM):
+            may = free(on_floor[:, foot], fps) if limb is LEG else np.ones(len(clip))
+            first = SEGMENTS.index(f"{side}{limb[0]}")
+            part = slice(first, first + len(limb))
+            turns = quaternion.continuous(clip.rotations[:, part])
+            steps = quaternion.to_rotation_vector(quaternion.multiply(turns[1:], quaternion.conjugate(turns[:-1])))
+            changes = np.pad(np.linalg.norm(np.diff(steps, axis=0), axis=-1).max(axis=1), 1)
+            sudden = (changes * fps > most_rad_s) & (may > 0.0)
+            if sudden.any():
+                near = maximum_filter1d(sudden.astype(np.float64), around)
+                share = (may * gaussian_filter1d(near, EDGES_S * fps))[:, None, None]
+                smooth = gaussian_filter1d(turns, SMOOTHS_S * fps, axis=0, mode="nearest")
+                rotations = rotations.copy(order="K") if rotations is clip.rotations else rotations
+                rotations[:, part] = quaternion.normalize(turns + share * (smooth - turns))
     return clip if rotations is clip.rotations else replace(clip, rotations=quaternion.continuous(rotations))
 
 

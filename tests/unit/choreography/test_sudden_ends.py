@@ -14,6 +14,7 @@ from app.choreography.body_speeds import part_speeds
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.damage import FASTEST
+from app.choreography.dance_flaws import JERKS
 from app.choreography.features import height_m, points_m
 from app.choreography.feet_on_floor import legs_to
 from app.choreography.foot_plants import FootPlant, planted_frames, stands
@@ -120,6 +121,26 @@ def test_an_arm_that_swings_through_straight_snaps_no_more_than_usual(opens: int
     found = within_limits(clip, (), usual, usual_change_rad_s)
     assert angular_jumps(found).max() < 0.93 * usual_change_rad_s
     assert (accelerations(found, "leftHand").max(axis=0) <= MOST * usual.hands * height_m(clip)).all()
+
+
+def kicking(opens: int, swings: int) -> MotionClip:
+    """A left leg in the air whose knee opens within frames while its thigh swings."""
+    frames, across = np.arange(90), np.array((1.0, 0.0, 0.0))
+    knee_rad = 1.7 - 1.64 * np.clip((frames - 45) / opens, 0.0, 1.0)
+    clip = still(90, int(FPS))
+    for part, turned in (("leftLowerLeg", knee_rad), ("leftUpperLeg", -1.2 - 0.9 * np.tanh((frames - 47) / swings))):
+        clip.rotations[:, SEGMENTS.index(part)] = Rotation.from_rotvec(turned[:, None] * across).as_quat()
+    return clip
+
+
+@pytest.mark.parametrize(("opens", "swings", "share"), [(5, 9, 0.8), (11, 4, 0.5)])
+def test_a_leg_that_kicks_through_straight_snaps_no_more_than_usual(opens: int, swings: int, share: float) -> None:
+    """A calmed foot snaps the knee of a leg that is about to be straight."""
+    clip, usual_change_rad_s = kicking(opens, swings), 3.1
+    usual = UsualAccelerations(share * np.array([51.0, 67.0]), np.full(2, 1e6))
+    found = within_limits(clip, (), usual, usual_change_rad_s)
+    assert angular_jumps(found).max() < JERKS * usual_change_rad_s
+    assert (accelerations(found, "leftFoot").max(axis=0) <= MOST * usual.feet * height_m(clip)).all()
 
 
 def test_a_hand_is_calm_also_after_its_arm_was_slowed_down() -> None:
