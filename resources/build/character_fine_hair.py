@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 PATCH_PX: Final = (80, 200)
 """Height and width of the part of the picture with the hairs of all cards."""
-KINDS, STRANDS, SUPERSAMPLED = 4, (11, 7), 4
+KINDS, STRANDS, SUPERSAMPLED = 4, (15, 7), 4
 """Cards drawn, of which the last are those that stand off; hairs in a card of either use."""
 LOOSE_KINDS, CURL = 1, 0.16
 MARGIN_PX: Final = 3
 SPACING_M, MOST = 0.0024, 330
 """Distance between cards along the hairline, and their greatest number."""
-LENGTH_M, LOOSE_LENGTH_M = (0.011, 0.018), (0.014, 0.024)
+LENGTH_M, LOOSE_LENGTH_M = (0.008, 0.016), (0.014, 0.024)
 WIDTH_M: Final = (0.0045, 0.0070)
 OUTSIDE: Final = 0.45
 """Share of a card that lies before the edge."""
@@ -39,7 +39,7 @@ INNER_PX: Final = 12.0
 """Least distance of cards that stand off from the end of the hair."""
 INWARDS, ACROSS = 0.55, 1.6
 """Least share of a card's direction that goes across the edge, and how strongly what lacks is added."""
-TURNED_DEG: Final = 14.0
+TURNED_DEG: Final = 20.0
 
 
 @dataclass(frozen=True)
@@ -97,17 +97,17 @@ def drawn_hairs(curled: bool = False) -> tuple[np.ndarray, np.ndarray]:
             x = (kind + rng.uniform(0.10, 0.90)) * each
             # Hairs are of different lengths, so that neither end of a card is a line.
             top, bottom = rng.uniform(0.02, 0.42) * height, rng.uniform(0.72, 0.99) * height
-            lean, bow = rng.normal(0, 0.08) * each, rng.normal(0, 0.06) * each
+            lean, bow = rng.normal(0, 0.13) * each, rng.normal(0, 0.12) * each
             share = np.linspace(0.0, 1.0, 25)
             bent = bow * np.sin(np.pi * share)
             if curled:
                 bent = CURL * each * np.sin(2.0 * np.pi * (rng.uniform(1.5, 3.0) * share + rng.uniform()))
             line_x = np.clip(x + lean * (share - 0.5) + bent, kind * each + 8, (kind + 1) * each - 8)
             line_y = top + (bottom - top) * share
-            widest = rng.uniform(1.5, 2.5) * SUPERSAMPLED * (0.8 if loose else 1.0)
+            widest = rng.uniform(1.0, 1.8) * SUPERSAMPLED * (0.8 if loose else 1.0)
             tone = float(np.exp(rng.normal(0.0, 0.35)))
             for i in range(24):
-                thick = widest * min(1.0, 0.45 + 2.0 * share[i], 0.5 + 2.5 * (1 - share[i]))
+                thick = widest * min(1.0, 0.30 + 1.6 * share[i], 0.5 + 2.5 * (1 - share[i]))
                 ends = [(line_x[i], line_y[i]), (line_x[i + 1], line_y[i + 1])]
                 draw_alpha.line(ends, fill=255, width=max(1, round(thick)))
                 draw_shade.line(ends, fill=tone, width=max(1, round(thick)) + 4)

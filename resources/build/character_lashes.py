@@ -8,36 +8,47 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from character_assets import Asset, asset_surface, read_asset, read_material
+from character_brow_hairs import brow_hairs
 from character_skin import read_picture
-from character_strands import ALPHAS, GREYS, HAIR_PX, STRANDS_MEAN_LINEAR, covered, directions, in_steps, strands
+from character_strands import ALPHAS, GREYS, HAIR_PX, STRANDS_MEAN_LINEAR, covered, in_steps
 from character_surface import Surface
 from character_textures import Texture, png, sampled, to_srgb
-from scipy.ndimage import gaussian_filter
 
 if TYPE_CHECKING:
     from character_skeleton import SkeletonFit
     from character_source import Source
 
 LASH_GREY_LINEAR, LOWER_LASHES = 0.05, 0.6
-BROW_PX, BROW_FROM = (2.0, 9.0), 0.35
-"""Reach in pixels, down and along, over which the hairs of a brow close, and the density from which they do."""
+MARGIN = 0.004
+"""Share of a texture around what its asset uses of it."""
 
 
-def _strip(asset: Asset) -> tuple[np.ndarray, np.ndarray]:
-    """Lower left and upper right corner of the part of its texture that an asset uses."""
-    used = asset.uvs[np.unique(asset.uv_faces)]
-    return np.clip(used.min(axis=0) - 0.004, 0, 1), np.clip(used.max(axis=0) + 0.004, 0, 1)
+def _strip(uvs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Lower left and upper right corner of the part of a texture in which texture coordinates are."""
+    return np.clip(uvs.min(axis=0) - MARGIN, 0, 1), np.clip(uvs.max(axis=0) + MARGIN, 0, 1)
+
+
+def _stripped(asset: Asset, mirrored: np.ndarray) -> tuple[Asset, tuple[np.ndarray, np.ndarray]]:
+    """An asset whose texture is only the strip that its faces use, and the corners of the strip.
+
+    Faces of the mask `mirrored` show the strip of the others from the other side.
+    """
+    uvs, strip = asset.uvs.copy(), _strip(asset.uvs[np.unique(asset.uv_faces[~mirrored])])
+    for side in (mirrored, ~mirrored):
+        own = np.unique(asset.uv_faces[side])
+        if len(own):
+            low, high = _strip(asset.uvs[own])
+            uvs[own] = (asset.uvs[own] - low) / (high - low)
+    own = np.unique(asset.uv_faces[mirrored])
+    uvs[own, 0] = 1.0 - uvs[own, 0]
+    return replace(asset, uvs=uvs), strip
 
 
 def _brow_picture(painted: np.ndarray) -> np.ndarray:
-    """Grey hairs, single ones at the edges and closed in the middle, so that reduced pictures keep the brow whole."""
-    alpha = np.clip(painted[..., 3], 0, 1)
-    fine = strands(directions(gaussian_filter(alpha, 1.0) + 0.5 * painted[..., :3].mean(axis=-1), 2.5)[0], 32)
-    grey = to_srgb(np.clip(STRANDS_MEAN_LINEAR * np.exp(0.45 * fine), 0.05, 0.9))
-    closed = gaussian_filter(alpha, BROW_PX)
-    closed = np.clip((closed / np.quantile(closed[closed > 0.02], 0.9) - BROW_FROM) / (1 - BROW_FROM), 0.0, 1.0)
-    hairs = np.maximum(alpha * (0.95 + 0.32 * fine), closed + 0.40 * fine * (closed > 0.0) * (1.0 - 0.7 * closed))
-    return np.stack([grey, grey, grey, np.clip(hairs, 0, 1)], axis=-1)
+    """Grey hairs, their inner end at the left."""
+    shade, alpha = brow_hairs(np.clip(painted[..., 3], 0, 1))
+    grey = to_srgb(np.clip(STRANDS_MEAN_LINEAR * shade, 0.05, 0.9))
+    return np.stack([grey, grey, grey, alpha], axis=-1)
 
 
 def _lash_picture(painted: np.ndarray, lower: np.ndarray) -> np.ndarray:
@@ -47,25 +58,28 @@ def _lash_picture(painted: np.ndarray, lower: np.ndarray) -> np.ndarray:
     return np.stack([grey, grey, grey, alpha], axis=-1)
 
 
-def brow_textures(name: str, brow: Asset, lash: Asset, lower_lid: np.ndarray) -> tuple[Texture, Asset, Asset]:
-    """One picture, brows above lashes, and both assets with their texture coordinates in it.
+def brow_textures(
+    name: str, brow: Asset, lash: Asset, lower_lid: np.ndarray, mirrored: np.ndarray
+) -> tuple[Texture, Asset, Asset]:
+    """One picture, a brow above lashes, and both assets with their texture coordinates in it.
 
-    `lower_lid` are the base mesh's vertices of the lower lashes.
+    `lower_lid` are the base mesh's vertices of the lower lashes, `mirrored` (F,) the faces of the brow whose inner end
+    is at the right in its picture: they show the other one, so that it has twice the pixels.
     """
     height, width = HAIR_PX // 2, HAIR_PX
     u, v = np.meshgrid((np.arange(width) + 0.5) / width, 1 - (np.arange(height // 2) + 0.5) / (height // 2))
     halves, moved = [], []
     below = np.isin(lash.binding.corners[lash.faces], lower_lid).all(axis=(1, 2))
     lower = covered(lash.uvs, lash.uv_faces[below], HAIR_PX).astype(float)
-    for asset, floor in ((brow, 0.5), (lash, 0.0)):
+    for asset, turned, floor in ((brow, mirrored, 0.5), (lash, np.zeros(len(lash.faces), dtype=bool), 0.0)):
         if asset.material is None:
             raise ValueError(f"{asset.name} has no material")
         painted = read_picture(read_material(asset.material).textures["diffuseTexture"])
-        low, high = _strip(asset)
+        stripped, (low, high) = _stripped(asset, turned)
         place = (low[0] + u * (high - low)[0], low[1] + v * (high - low)[1])
         part = sampled(painted, *place)
         halves.append(_brow_picture(part) if asset is brow else _lash_picture(part, sampled(lower, *place) > 0.5))
-        moved.append(replace(asset, uvs=(asset.uvs - low) / (high - low) * [1.0, 0.5] + [0.0, floor]))
+        moved.append(replace(stripped, uvs=stripped.uvs * [1.0, 0.5] + [0.0, floor]))
     picture = np.concatenate(halves)
     picture[..., :3] = in_steps(picture[..., :3], GREYS)
     picture[..., 3] = in_steps(picture[..., 3], 2 * ALPHAS)
@@ -76,11 +90,14 @@ def brows_and_lashes(
     folder: Path, brow: str, lash: str, source: Source, fit: SkeletonFit
 ) -> tuple[tuple[Surface, Surface], Texture]:
     """Brows and lashes on a body, with the shapes of the face, and their picture."""
+    painted = read_asset(folder / "eyebrows" / brow / f"{brow}.mhclo")
+    places = painted.binding.positions(source.vertices)
     texture, *assets = brow_textures(
         f"{brow}_{lash}_color",
-        read_asset(folder / "eyebrows" / brow / f"{brow}.mhclo"),
+        painted,
         read_asset(folder / "eyelashes" / lash / f"{lash}.mhclo"),
         np.unique([source.groups[group].vertices for group in ("helper-l-eyelashes-1", "helper-r-eyelashes-1")]),
+        places[painted.faces].mean(axis=1)[:, 0] < 0.0,
     )
     first, second = (
         asset_surface(asset, source, fit, name, "brows", morphs=True)

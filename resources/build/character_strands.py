@@ -31,11 +31,13 @@ STRAND_STEPS, STRAND_STEP_PX, LOCK_STEP_PX = 14, 1.5, 3.0
 STRANDS_MEAN_LINEAR = 0.32
 """Mean of the grey strands, by which a hair colour is divided to tint them, up to fair hair."""
 ALPHA_CUTOFF = 0.4
-LOCK_HEIGHT, STRAND_SLOPE = 0.8, 0.23
+LOCK_HEIGHT, STRAND_SLOPE = 0.45, 0.2
 HAIR_HEIGHT = 2.0
 """Height of single hairs, in deviations of strands."""
-STRAND_CONTRAST, LOCK_CONTRAST = 0.55, 0.32
+STRAND_CONTRAST, LOCK_CONTRAST = 0.48, 0.2
 """Deviations of the grey of single strands and of locks."""
+PAINTED_CONTRAST = 0.75
+"""Power of the painted shades: as they are, grey hair is a heap of shards."""
 FLECK_PX = 150
 CAP_HALF_PX, HAIRLINE_PX, EDGE_PX = 40, 40, 10
 """Distances in pixels: half the width of parts that cover the scalp, width of faint hairs before their edge, and width
@@ -297,7 +299,7 @@ def hair_strands(painted: np.ndarray, used: np.ndarray, ends_here: tuple[np.ndar
     # Without a clear direction strands would curl like wood grain.
     fine = strands(along, 31) * np.minimum(1.0, 0.25 + 1.25 * clear)
     locks = strands(along, 34, 2 * STRAND_STEPS, 3.0, LOCK_STEP_PX) * np.minimum(1.0, 0.25 + 1.25 * clear)
-    grey = grey / grey[solid].mean() * np.exp(STRAND_CONTRAST * fine + LOCK_CONTRAST * locks)
+    grey = (grey / grey[solid].mean()) ** PAINTED_CONTRAST * np.exp(STRAND_CONTRAST * fine + LOCK_CONTRAST * locks)
     grey = np.clip(grey / grey[solid].mean() * STRANDS_MEAN_LINEAR, 0.02, 0.95)
     # Strands end apart: the edge of a lock is where its alpha falls, sooner between strands.
     alpha = np.clip(alpha * 1.35 + 0.15 * fine * (alpha > 0.02) * (alpha < 0.95), 0.0, 1.0)

@@ -9,8 +9,8 @@ from character_cloth import Cloth, cut, hang, hull_profile, join, smoothed, smoo
 from character_garments import collar, front_of, move_out
 from wardrobe_fitted import LAP_M, drawn_to, over_lap, weights_with
 from wardrobe_pieces import MAIN, Wearer
-from wardrobe_sewn import Sewn, gold, neck_band, over, plain
-from wardrobe_shirt import STRIP_M, closed, laid, neck_of, untucked, without_neck
+from wardrobe_sewn import Sewn, gold, over, plain
+from wardrobe_shirt import STRIP_M, closed, laid, neck_of, neck_under, untucked, without_neck
 from wardrobe_tunic import buttons, ribbon
 
 SLEEVE = 0.36
@@ -74,8 +74,8 @@ def polo_shirt(wearer: Wearer, legs: Cloth) -> tuple[Sewn, list[Sewn], float]:
     lap = over_lap(wearer, own, legs)
     own = replace(own, weights=weights_with(wearer, own, lap, tailoring.belt_m + LAP_M))
     sewn = replace(sewn, cloth=own)
-    under = neck_band(wearer, -0.06, 0.012, 0.0008, 0.10)
-    front = front_of(join(own, under.cloth))
+    whole, under = neck_under(wearer, own)
+    front = front_of(join(own, whole.cloth))
     turned = collar(tailoring, own, front, neck_of(wearer), BEHIND_M)
     top = float(tailoring.collar_point[1]) - 0.075
     path = np.stack([np.full(24, 0.0), np.linspace(top, top - 0.15, 24)], axis=1)

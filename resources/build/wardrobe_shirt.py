@@ -27,6 +27,10 @@ CLOSED_M, LIES_M = 0.010, 0.003
 """Distance of the edges of a closed front from the middle, and height of the cloth over the skin about the throat."""
 STRIP_M = 0.0025
 """Height of the buttoned strip over the front."""
+UNDER_STRIP_M = 0.006
+"""How far the front goes on under the strip."""
+UNDER_M, SUNK_M = 0.008, 0.003
+"""How far a layer goes on under the border of the cloth that covers it, and how much deeper it lies there."""
 
 
 def _tucked(wearer: Wearer, cloth: Cloth) -> Cloth:
@@ -110,17 +114,52 @@ def without_neck(wearer: Wearer, cloth: Cloth) -> Cloth:
     return cut(cloth, np.maximum(-seam, np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M))
 
 
+def neck_under(wearer: Wearer, over: Cloth) -> tuple[Sewn, Sewn]:
+    """The layer that closes the neck between a cloth and the collar: all of it, and what of it shows.
+
+    Of what the cloth covers only a margin along the cloth's border stays, deeper: on other bodies the layer would show
+    through the cloth in spots.
+    """
+    whole = neck_band(wearer, -0.06, 0.012, 0.0008, 0.10)
+    layer = whole.cloth
+    _, place = np.unique(np.round(over.points, 5), axis=0, return_inverse=True)
+    edges = over.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    welded = np.sort(place.reshape(-1)[edges], axis=1)
+    _, first, uses = np.unique(welded, axis=0, return_index=True, return_counts=True)
+    border = edges[first[uses == 1]]
+    shares = np.linspace(0.0, 1.0, 5)[:, None, None]
+    along = over.points[border[:, 0]] * (1.0 - shares) + over.points[border[:, 1]] * shares
+    corners = over.points[over.faces]
+    inner = [corners.mean(axis=1), *(0.5 * (corners[:, k] + corners[:, k - 1]) for k in range(3)), over.points]
+    far = cKDTree(np.concatenate(inner)).query(layer.points)[0]
+    inside = cKDTree(along.reshape(-1, 3)).query(layer.points)[0]
+    # Beyond the border it is what is nearest.
+    covered = inside - far
+    sunk = SUNK_M * smoothstep(covered, 0.0, UNDER_M)
+    points = layer.points - sunk[:, None] * vertex_normals(layer.points, layer.faces)
+    return whole, plain(cut(replace(layer, points=points), UNDER_M - covered))
+
+
+def _under_strip(cloth: Cloth, strip: Cloth) -> np.ndarray:
+    """How far points (N,) of a cloth lie inside the outline of a strip down its front, negative outside."""
+    low, high = strip.points.min(axis=0), strip.points.max(axis=0)
+    points = cloth.points
+    inside = np.minimum(high[0] - np.abs(points[:, 0]), np.minimum(points[:, 1] - low[1], high[1] - points[:, 1]))
+    return np.where(points[:, 2] > low[2] - TUCK_M, inside, -1.0)
+
+
 def own_shirt(wearer: Wearer) -> Surface:
     """The shirt of a finished body with collar, placket and buttons."""
     tailoring = wearer.tailoring
     cloth = untucked(wearer, SHIRT)
     cloth = without_neck(wearer, cut(cloth, cloth.points[:, 1] - (tailoring.belt_m - TUCK_M)))
-    sewn = laid(wearer, closed(wearer, _tucked(wearer, cloth)))
-    cloth = sewn.cloth
-    under = neck_band(wearer, -0.06, 0.012, 0.0008, 0.10)
-    front = front_of(join(cloth, under.cloth))
+    whole = closed(wearer, _tucked(wearer, cloth))
+    cloth = laid(wearer, whole).cloth
+    layer, under = neck_under(wearer, cloth)
+    front = front_of(join(cloth, layer.cloth))
     top_m = float(throat(wearer, tailoring.suit.points, 0.0)[1]) - 0.006
     strip, row = placket(tailoring, cloth, lambda x, y: front(x, y) + STRIP_M, top_m)
     turned = collar(tailoring, cloth, front, neck_of(wearer))
+    sewn = laid(wearer, cut(whole, UNDER_STRIP_M - _under_strip(whole, strip)))
     parts = {SHIRT: [sewn, plain(turned), plain(strip), under], BUTTONS: [gold(row)]}
     return sewn_surface(SHIRT, parts, wearer)

@@ -284,7 +284,8 @@ def test_fine_hairs_bridge_from_the_edge_of_hair_to_the_skin(build_module: Modul
     edge = cards[np.abs(cards[:, 2:4, 2].mean(axis=1) - 0.1) < 0.001]
     assert 40 < len(edge) < fine.MOST
     # The picture's lower rows, where the skin is bare, lie towards z = 0.
-    assert (edge[:, 4:, 2].mean(axis=1) < 0.0975).all()
+    beyond_m = 0.7 * fine.OUTSIDE * fine.LENGTH_M[0] - 0.001
+    assert (edge[:, 4:, 2].mean(axis=1) < 0.1 - beyond_m).all()
     assert (edge[:, :2, 2].mean(axis=1) > 0.1025).all()
     assert edge[:, 4:, 1] == pytest.approx(fine.ABOVE_SKIN_M, abs=1e-6), "on the skin"
     assert (edge[:, :2, 1] > 0.004).all(), "on the hair"
@@ -352,16 +353,43 @@ def test_brows_and_lashes_share_a_picture_and_lower_lashes_are_thin(build_module
     uvs = np.array([(0, 0), (0.5, 0), (0.5, 1), (0, 1), (0.5, 0), (1, 0), (1, 1), (0.5, 1)], dtype=float)
     faces = np.arange(8).reshape(2, 4)
     asset = assets.Asset("a", binding, faces, faces, uvs, np.zeros(0), material)
-    texture, brow, lash = lashes.brow_textures("x", replace(asset, name="b"), asset, np.array([4, 5, 6, 7]))
+    texture, brow, lash = lashes.brow_textures(
+        "x", replace(asset, name="b"), asset, np.array([4, 5, 6, 7]), np.array([False, True])
+    )
+    # Both halves show one strip, the right one from the other side.
+    assert np.allclose(brow.uvs[faces[1], 0], 1.0 - brow.uvs[faces[0], 0], atol=0.01)
     assert brow.uvs[:, 1].min() >= 0.5
     assert lash.uvs[:, 1].max() <= 0.5
     alpha = _pixels(texture.content)[..., 3]
     height, width = alpha.shape
-    assert alpha[: height // 2][height // 4, width // 2] > strands.ALPHA_CUTOFF
+    assert (alpha[: height // 2] > strands.ALPHA_CUTOFF).any()
     below = alpha[3 * height // 4]
     assert below[3 * width // 8] > 0.9
     assert below[5 * width // 8] < 0.7
     assert alpha[0].max() == 0
+
+
+def test_brows_are_hairs_between_which_skin_is_seen(build_module: Module) -> None:
+    brows = build_module("character_brow_hairs")
+    painted = np.zeros((256, 1024))
+    painted[90:160, 40:980] = 1.0
+    painted[200:215, 900:1024] = 1.0
+    shade, alpha = brows.brow_hairs(painted)
+    assert shade.shape == alpha.shape == painted.shape
+    seen = alpha > build_module("character_strands").ALPHA_CUTOFF
+    number = [seen[100:150, column : column + 60].mean() for column in (45, 200, 500, 900)]
+    assert 0.4 < number[2] < 0.9, "closed, or bald"
+    assert number[0] < 0.8 * number[2], "the inner end is open"
+    assert number[3] < 0.8 * number[2], "the outer end thins out"
+    assert 0.0 < seen[80:90, 200:800].mean() < 0.6 * number[2], "no edge"
+    upright = [
+        np.abs(np.diff(alpha[:, place], axis=1)).mean() / np.abs(np.diff(alpha[:, place], axis=0)).mean()
+        for place in (slice(60, 120), slice(400, 600))
+    ]
+    assert upright[0] > 2.0 * upright[1], "hairs of the inner end stand up"
+    assert alpha[195:, 960:].max() == 0.0, "the tail of the brow beside it"
+    assert np.array_equal(brows.brow_hairs(painted)[1], alpha)
+    assert brows.brow_hairs(np.zeros((64, 64)))[1].max() == 0.0
 
 
 def test_teeth_gums_and_tongue_have_patches_of_their_own(build_module: Module) -> None:
