@@ -1,4 +1,4 @@
-"""Parts of a moving body, their speeds from frame to frame, and spans of frames."""
+"""Parts of a moving body, their speeds from frame to frame and the changes of these, and spans of frames."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from app.arrays import BoolArray, FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
+from app.rig import quaternion
 
 PLACE: Final = len(SEGMENTS)
 """Index of the hips' place among the tracks of a clip, after its segments."""
@@ -30,6 +31,22 @@ def angle(a: FloatArray, b: FloatArray) -> FloatArray:
     dot = np.einsum("...i,...i->...", a, b)
     apart = np.linalg.norm(a - np.where(dot < 0.0, -1.0, 1.0)[..., None] * b, axis=-1)
     return np.asarray(4.0 * np.arcsin(np.clip(0.5 * apart, 0.0, 1.0)))
+
+
+def turns_rad(rotations: FloatArray) -> FloatArray:
+    """Return the vectors (F - 1, ..., 3) in radians that turn rotations (F, ..., 4) to those of the next frame."""
+    return quaternion.to_rotation_vector(quaternion.multiply(rotations[1:], quaternion.conjugate(rotations[:-1])))
+
+
+def changes_rad(turns: FloatArray) -> FloatArray:
+    """Return the changes (F, ...) in radians of turns (F - 1, ..., 3) from frame to frame; 0 in the first and the last
+    frame.
+
+    They are the same for turns in the world's axes and in the part's own ones.
+    """
+    result = np.zeros((len(turns) + 1, *turns.shape[1:-1]))
+    result[1:-1] = np.linalg.norm(np.diff(turns, axis=0), axis=-1)
+    return result
 
 
 def runs(of: BoolArray) -> list[tuple[int, int]]:

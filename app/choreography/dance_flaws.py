@@ -11,13 +11,12 @@ from typing import Final
 
 import numpy as np
 
-from app.arrays import FloatArray
+from app.choreography.body_speeds import changes_rad, turns_rad
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.damage import Damage, damage
 from app.choreography.foot_plants import FootPlant
 from app.choreography.resample import resampled
-from app.rig import quaternion
 
 JERKS: Final = 1.25
 """Ratio to the usual change of angular velocity above which a join shows."""
@@ -38,9 +37,9 @@ def usual_change_rad_s(clips: Sequence[MotionClip], fps: Fraction) -> float:
     """Change of angular velocity in rad/s from frame to frame that is exceeded in only one of a thousand frames of the
     clips; 0 without motion.
     """
-    changes = [_changes(resampled(clip, fps).rotations[None], fps).ravel() for clip in clips]
+    changes = [changes_rad(turns_rad(resampled(clip, fps).rotations))[1:-1].ravel() for clip in clips]
     every = np.concatenate(changes) if changes else np.zeros(0)
-    return float(np.percentile(every, USUAL_PERCENTILE)) if len(every) else 0.0
+    return float(np.percentile(every, USUAL_PERCENTILE)) * float(fps) if len(every) else 0.0
 
 
 def jerking_seams(clip: MotionClip, seams: Sequence[int], usual_rad_s: float) -> tuple[int, ...]:
@@ -53,9 +52,9 @@ def jerking_seams(clip: MotionClip, seams: Sequence[int], usual_rad_s: float) ->
     """
     if not seams or len(clip) < 3:
         return ()
-    frames = np.array(seams)[:, None] + np.arange(AROUND[0] - 1, AROUND[1] + 2)
-    changes = _changes(clip.rotations[np.clip(frames, 0, len(clip) - 1)], clip.fps)
-    worst = changes.reshape(len(seams), -1).max(axis=1)
+    frames = np.array(seams) + np.arange(AROUND[0] - 1, AROUND[1] + 2)[:, None]
+    changes = changes_rad(turns_rad(clip.rotations[np.clip(frames, 0, len(clip) - 1)]))
+    worst = changes.max(axis=(0, 2)) * float(clip.fps)
     return tuple(seam for seam, change in zip(seams, worst.tolist(), strict=True) if change > JERKS * usual_rad_s)
 
 
@@ -77,12 +76,3 @@ def sliding_stands(clip: MotionClip, standing: Sequence[FootPlant]) -> tuple[Foo
     return tuple(
         stand for stand in standing if speeds[stand.start : stand.stop - 1, stand.foot].max(initial=0.0) > SLIDES_M_S
     )
-
-
-def _changes(rotations: FloatArray, fps: Fraction) -> FloatArray:
-    """Change (N, F - 2, 16) of the angular velocity of 16 segments from frame to frame in rad/s, for N motions (N, F,
-    16, 4).
-    """
-    steps = quaternion.multiply(quaternion.conjugate(rotations[:, :-1]), rotations[:, 1:])
-    velocity = quaternion.to_rotation_vector(steps) * float(fps)
-    return np.asarray(np.linalg.norm(np.diff(velocity, axis=1), axis=-1))

@@ -16,7 +16,7 @@ from scipy.ndimage import maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
-from app.choreography.body_speeds import runs
+from app.choreography.body_speeds import changes_rad, runs, turns_rad
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import LEG, foot_paths, legs_along, soles_m
@@ -91,11 +91,11 @@ def _calmer(clip: MotionClip, planted: BoolArray, most_rad: float, most_m: float
     returned if none does, or if heels cannot help. Second differences of ankles greater than ``most_m`` do not grow.
     """
     around = 2 * (round(AROUND_S * float(clip.fps)) + EDGE) + 1
-    turns = [_turns(clip.rotations[:-1, leg], clip.rotations[1:, leg]) for leg in map(_leg, range(2))]
+    turns = [turns_rad(clip.rotations[:, leg]) for leg in map(_leg, range(2))]
     spans = [
         (foot, slice(start, stop))
         for foot in range(2)
-        for start, stop in runs(maximum_filter1d(_excess(turns[foot], FROM / ROOM * most_rad) > 0.0, around))
+        for start, stop in runs(maximum_filter1d(_greatest(turns[foot]) > FROM / ROOM * most_rad, around))
     ]
     if not spans:
         return clip
@@ -139,7 +139,7 @@ def _calmer(clip: MotionClip, planted: BoolArray, most_rad: float, most_m: float
         if off[place, foot].any() or _acceleration(ankle) > max(most_m, before):
             continue
         steps = slice(beside.start, beside.start + len(new) - 1)
-        new_turns = _turns(new[:-1], new[1:])
+        new_turns = turns_rad(new)
         if _square(new_turns, most_rad) < _square(turns[foot][steps], most_rad):
             rotations[beside, leg], turns[foot][steps] = new, new_turns
             changed = True
@@ -168,23 +168,18 @@ def _turns(rotations: FloatArray, others: FloatArray) -> FloatArray:
     return quaternion.to_rotation_vector(quaternion.multiply(others, quaternion.conjugate(rotations)))
 
 
-def _excess(turns: FloatArray, most_rad: float) -> FloatArray:
-    """Greatest change (F,) beyond ``most_rad`` of the turns of joints from frame to frame (F - 1, 3, 3); 0 at the
-    ends.
-    """
-    if len(turns) < 2:
-        return np.zeros(len(turns) + 1)
-    change = np.linalg.norm(np.diff(turns, axis=0), axis=-1).max(axis=1)
-    return np.pad(np.maximum(change - most_rad, 0.0), 1)
-
-
 def _acceleration(path_m: FloatArray) -> float:
     """Greatest second difference of a path (F, 3)."""
     return float(np.linalg.norm(np.diff(path_m, 2, axis=0), axis=-1).max(initial=0.0))
 
 
 def _square(turns: FloatArray, most_rad: float) -> float:
-    return float(np.square(_excess(turns, most_rad)).sum())
+    return float(np.square(np.maximum(_greatest(turns) - most_rad, 0.0)).sum())
+
+
+def _greatest(turns: FloatArray) -> FloatArray:
+    """Greatest change (F,) of the turns (F - 1, 3, 3) of a leg's joints from frame to frame."""
+    return np.asarray(changes_rad(turns).max(axis=1))
 
 
 def _joined(legs: Sequence[_Legs]) -> _Legs:

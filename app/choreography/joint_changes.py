@@ -17,7 +17,7 @@ from scipy.ndimage import maximum_filter1d
 from app.arrays import BoolArray, FloatArray
 from app.choreography.bent_paths import bent
 from app.choreography.body import FEET, PARENT_OF, SEGMENTS
-from app.choreography.body_speeds import runs
+from app.choreography.body_speeds import changes_rad, runs, turns_rad
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import legs_to
@@ -97,7 +97,7 @@ def feet_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float)
     bent_frames: BoolArray = (calm != turns).any(axis=-1)
     spans = [(foot, slice(*run)) for foot in range(2) for run in runs(bent_frames[:, foot])]
     parts = [SEGMENTS.index(name) for name in FEET]
-    most = np.maximum(_changes_rad(clip.rotations[:, parts]), ROOM * most_rad_s / float(clip.fps))
+    most = np.maximum(changes_rad(turns_rad(clip.rotations[:, parts])), ROOM * most_rad_s / float(clip.fps))
     shares = np.ones(planted.shape)
     for share in SHARES:
         rotations = world.rotations.copy(order="K")
@@ -105,7 +105,7 @@ def feet_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float)
         found = legs_to(clip, replace(world, rotations=rotations), tips, planted, turned_back=False)
         # A foot is turned less if its leg does not reach as far, or if its ankle turns the other way.
         off = np.linalg.norm(tips_m(found) - tips, axis=-1) > EXACT_M
-        off |= _changes_rad(found.rotations[:, parts]) > MORE * most
+        off |= changes_rad(turns_rad(found.rotations[:, parts])) > MORE * most
         off &= planted
         if not off.any():
             break
@@ -132,14 +132,6 @@ def hands_within_changes(clip: MotionClip, most_rad_s: float) -> MotionClip:
     return replace(clip, rotations=quaternion.continuous(rotations))
 
 
-def _changes_rad(rotations: FloatArray) -> FloatArray:
-    """Change (F, P) of the turns of P parts (F, P, 4) between adjacent frame intervals in radians; 0 at the ends."""
-    if len(rotations) < 3:
-        return np.zeros(rotations.shape[:2])
-    turns = quaternion.to_rotation_vector(quaternion.multiply(rotations[1:], quaternion.conjugate(rotations[:-1])))
-    return np.pad(np.linalg.norm(np.diff(turns, axis=0), axis=-1), ((1, 1), (0, 0)))
-
-
 def _calm(rotations: FloatArray, held: BoolArray, most_rad_s: float, fps: float) -> FloatArray:
     """Bend rotations (F, P, 4) of P parts where the angular velocity changes by more than ``most_rad_s`` from frame to
     frame; those marked in ``held`` (F, P) stay. The same object is returned if no change is greater.
@@ -147,9 +139,8 @@ def _calm(rotations: FloatArray, held: BoolArray, most_rad_s: float, fps: float)
     most_rad = ROOM * most_rad_s / fps
     if len(rotations) < 3:
         return rotations
-    turns = quaternion.to_rotation_vector(quaternion.multiply(rotations[1:], quaternion.conjugate(rotations[:-1])))
-    sudden = np.zeros(held.shape, bool)
-    sudden[1:-1] = np.linalg.norm(np.diff(turns, axis=0), axis=-1) > most_rad
+    turns = turns_rad(rotations)
+    sudden = changes_rad(turns) > most_rad
     # A change amid frames that all stay cannot be avoided.
     sudden[1:-1] &= ~(held[:-2] & held[1:-1] & held[2:])
     if not sudden.any():

@@ -13,6 +13,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from app.arrays import FloatArray
+from app.choreography.body_speeds import turns_rad
 from app.choreography.clip import MotionClip
 from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.choreography.joint_changes import hips_within_changes
@@ -35,7 +36,7 @@ def without_haste(clip: MotionClip, fastest_rad_s: float = FASTEST_HIPS_RAD_S) -
     if len(clip) < 2 or hips_rad(clip).max() <= bound:
         return clip
     turns = clip.rotations[:, 0]
-    steps = quaternion.to_rotation_vector(quaternion.multiply(turns[1:], quaternion.conjugate(turns[:-1])))
+    steps = turns_rad(turns)
     level, yaw = np.linalg.norm(steps[:, [0, 2]], axis=1), steps[:, 1].copy()
     free = np.sqrt(np.maximum(bound**2 - level**2, 0.0))
     for _ in range(ROUNDS):

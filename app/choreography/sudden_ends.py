@@ -18,7 +18,7 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 from app.arrays import BoolArray, FloatArray
 from app.choreography.bent_paths import bent
 from app.choreography.body import ENDS, SEGMENTS
-from app.choreography.body_speeds import runs
+from app.choreography.body_speeds import changes_rad, runs, turns_rad
 from app.choreography.clip import MotionClip
 from app.choreography.features import height_m
 from app.choreography.feet_on_floor import AHEAD, LEG, free, grounded
@@ -157,16 +157,16 @@ def _limbs_smoothed(clip: MotionClip, on_floor: BoolArray, most_rad_s: float) ->
             may = free(on_floor[:, foot], fps) if limb is LEG else np.ones(len(clip))
             first = SEGMENTS.index(f"{side}{limb[0]}")
             part = slice(first, first + len(limb))
-            turns = quaternion.continuous(clip.rotations[:, part])
-            steps = quaternion.to_rotation_vector(quaternion.multiply(turns[1:], quaternion.conjugate(turns[:-1])))
-            changes = np.pad(np.linalg.norm(np.diff(steps, axis=0), axis=-1).max(axis=1), 1)
-            sudden = (changes * fps > most_rad_s) & (may > 0.0)
-            if sudden.any():
-                near = maximum_filter1d(sudden.astype(np.float64), around)
-                share = (may * gaussian_filter1d(near, EDGES_S * fps))[:, None, None]
+            sudden = (changes_rad(turns_rad(clip.rotations[:, part])).max(axis=1) * fps > most_rad_s) & (may > 0.0)
+            if not sudden.any():
+                continue
+            near = gaussian_filter1d(maximum_filter1d(sudden.astype(np.float64), around), EDGES_S * fps)
+            rotations = rotations.copy(order="K") if rotations is clip.rotations else rotations
+            for here in (slice(*run) for run in runs(near > 0.0)):
+                turns = quaternion.continuous(clip.rotations[here, part])
                 smooth = gaussian_filter1d(turns, SMOOTHS_S * fps, axis=0, mode="nearest")
-                rotations = rotations.copy(order="K") if rotations is clip.rotations else rotations
-                rotations[:, part] = quaternion.normalize(turns + share * (smooth - turns))
+                share = (may[here] * near[here])[:, None, None]
+                rotations[here, part] = quaternion.normalize(turns + share * (smooth - turns))
     return clip if rotations is clip.rotations else replace(clip, rotations=quaternion.continuous(rotations))
 
 
