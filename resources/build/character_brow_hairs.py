@@ -30,9 +30,9 @@ LENGTH_MM: Final = (5.0, 6.2, 7.5, 8.5, 8.0, 6.5, 4.5)
 RISE_DEG: Final = (78.0, 62.0, 42.0, 27.0, 14.0, 6.0, 3.0)
 """Angle of hairs in the middle to the course of the brow, upwards."""
 MEETING_DEG: Final = (8.0, 12.0, 16.0, 20.0, 20.0, 14.0, 8.0)
-"""By how much hairs of the lower edge lean further up, and those of the upper edge less."""
+"""Additional angle of hairs of the lower edge, upwards, and of those of the upper edge, downwards."""
 UNEVEN_DEG, BEND_DEG, UPRIGHT_DEG = 8.0, 16.0, 86.0
-"""Deviation of single hairs, by how much a hair bends outwards from root to tip, and its greatest angle."""
+"""Deviation of single hairs, the bend of a hair outwards from root to tip, and its greatest angle."""
 WIDE_MM: Final = (0.09, 0.14)
 """Widths of hairs near their roots."""
 SHADES: Final = 0.28

@@ -28,9 +28,9 @@ CLOSED_M, LIES_M = 0.010, 0.003
 STRIP_M = 0.0025
 """Height of the buttoned strip over the front."""
 UNDER_STRIP_M = 0.006
-"""How far the front goes on under the strip."""
+"""Margin of the front under the strip."""
 UNDER_M, SUNK_M = 0.008, 0.003
-"""How far a layer goes on under the border of the cloth that covers it, and how much deeper it lies there."""
+"""Margin of a layer under the border of the cloth that covers it, and its depth there below its own place."""
 
 
 def _tucked(wearer: Wearer, cloth: Cloth) -> Cloth:
@@ -141,7 +141,7 @@ def neck_under(wearer: Wearer, over: Cloth) -> tuple[Sewn, Sewn]:
 
 
 def _under_strip(cloth: Cloth, strip: Cloth) -> np.ndarray:
-    """How far points (N,) of a cloth lie inside the outline of a strip down its front, negative outside."""
+    """Distance (N,) of a cloth's points inside the outline of a strip down its front, negative outside."""
     low, high = strip.points.min(axis=0), strip.points.max(axis=0)
     points = cloth.points
     inside = np.minimum(high[0] - np.abs(points[:, 0]), np.minimum(points[:, 1] - low[1], high[1] - points[:, 1]))
