@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -24,6 +24,15 @@ LEAST_MORE: Final = 0.1
 """Least difference in similarity (cosine) for a full recurrence, so that no bar recurs if all are alike."""
 USUAL_MELODY: Final = 0.5
 """Weight of a melody that counts as much as percussion when bars are compared."""
+ANEW: Final = 0.05
+"""Share of the bars of a recurring section that are danced anew."""
+COPIED_BEATS: Final = 6.0
+"""Number of beats that are copied before a recurring section is varied."""
+ANOTHER: Final = 0.5
+SAME_KIND: Final = 0.6
+"""Shares of the value of a recurrence by which, at varied places, the segments danced before lose and others of their
+basic motions gain.
+"""
 _NEAR_BEATS: Final = 1e-3
 
 
@@ -112,15 +121,21 @@ def returning_places(rhythm: Rhythm, times_s: FloatArray, melody: float = USUAL_
     return ReturningPlaces(own, earlier, np.where(inside[:, None], worths[own], 0.0))
 
 
+def with_new_bars(returns: ReturningPlaces, random: np.random.Generator) -> ReturningPlaces:
+    """Leave out randomly chosen bars from the recurrences, so that they get a new dance."""
+    anew = random.random(returns.worths.shape[1] + 1) < ANEW
+    return replace(
+        returns, worths=np.where(anew[returns.bars][:, None], np.minimum(returns.worths, 0.0), returns.worths)
+    )
+
+
 def danced_again(
     returns: ReturningPlaces, chosen: Sequence[tuple[int, int]], places: range, segments: int
 ) -> FloatArray:
     """Return for each of P places of the music and each of S segments the similarity (P, S) of the place to earlier
     places where the segment was danced, minus that to the other earlier places.
     """
-    danced = np.full(returns.earlier.shape[0] + 1, -1, np.int64)
-    for place, segment in chosen:
-        danced[place] = segment
+    danced = _danced(returns, chosen)
     again = np.zeros((len(places), segments))
     rows = slice(places.start, places.stop)
     # Index -1 is the row after the last accent, in which no segment is danced.
@@ -131,6 +146,42 @@ def danced_again(
     np.maximum.at(again, (row, own[row, bar]), worths)
     np.minimum.at(least, (row, own[row, bar]), worths)
     return np.where(again > 0.0, again, least)
+
+
+def copied_beats(returns: ReturningPlaces, chosen: Sequence[tuple[int, int]], beats: FloatArray, first: int) -> float:
+    """Return for how many beats before the place ``first`` the dance has been a copy of what was danced to the same
+    music before.
+
+    Parameters
+    ----------
+    beats : (G,) float64
+        Position of each place in beats.
+    """
+    danced, since = _danced(returns, chosen), first
+    for place, segment in reversed(chosen):
+        if not (danced[returns.earlier[place][returns.worths[place] > 0.0]] == segment).any():
+            break
+        since = place
+    return float(beats[first] - beats[since])
+
+
+def varied(again: FloatArray, states: IntArray) -> FloatArray:
+    """Return worths (P, S), as of `danced_again`, by which other segments of the same basic motions, given for each
+    segment, are danced instead of those that were danced before.
+    """
+    kinds = np.zeros((len(again), int(states.max()) + 1))
+    for segment, state in enumerate(states.tolist()):
+        np.maximum(kinds[:, state], again[:, segment], out=kinds[:, state])
+    others = np.where(again < 0.0, again, SAME_KIND * kinds[:, states])
+    return np.where(again > 0.0, -ANOTHER * again, others)
+
+
+def _danced(returns: ReturningPlaces, chosen: Sequence[tuple[int, int]]) -> IntArray:
+    """Return the segment danced at each place (G + 1,), -1 if none, with one place more at which none is."""
+    danced = np.full(returns.earlier.shape[0] + 1, -1, np.int64)
+    for place, segment in chosen:
+        danced[place] = segment
+    return danced
 
 
 def _along_passages(alike: FloatArray) -> FloatArray:

@@ -30,7 +30,7 @@ from app.arrays import FloatArray, IntArray, SingleArray
 from app.choreography.accent_grid import AccentGrid
 from app.choreography.drums_of_dancers import TakeShares
 from app.choreography.hit_log_odds import HeardHits
-from app.choreography.phrases import ReturningPlaces, danced_again
+from app.choreography.phrases import COPIED_BEATS, ReturningPlaces, copied_beats, danced_again, varied, with_new_bars
 from app.choreography.step_balance import StepBalance
 from app.choreography.take_turns import TakeTurns
 from app.choreography.transition_scores import NEVER, SHARES, MoveCosts, SegmentMeets, SegmentMoves, no_meets
@@ -93,8 +93,6 @@ PER_RECENT: Final = 8
 """Number of segments per such motion: of few segments, those that fit the music are soon danced again."""
 FEW: Final = 24.0
 """Number of segments in which each counts half as danced recently, since few segments must repeat."""
-ANEW: Final = 0.05
-"""Share of the bars of a recurring section that are danced anew."""
 PHRASE_BEATS: Final = 8
 """Number of beats searched at a time, whose motions then count as danced recently."""
 
@@ -194,8 +192,7 @@ def choose(
     if not count or not segments:
         return []
     random = np.random.default_rng(seed)
-    if returns is not None:
-        returns = _varied(returns, random)
+    renewed = None if returns is None else with_new_bars(returns, random)
     weights = replace(weights, lately=weights.lately * segments / (segments + FEW))
     search = _Search(grid, candidates, heard, weights, constraints, usual, initial)
     turns = None if takes is None else TakeTurns(takes, random, PHRASE_BEATS)
@@ -213,8 +210,12 @@ def choose(
         ends = np.zeros(segments) if final is None or seen < count else weights.model * final
         extra = noise - weights.lately * lately
         again = np.zeros((seen - first, segments))
-        if returns is not None:
-            again = danced_again(returns, chosen, range(first, seen), segments)
+        if returns is not None and renewed is not None:
+            again = danced_again(renewed, chosen, range(first, seen), segments)
+            if copied_beats(returns, chosen, grid.beats, first) >= COPIED_BEATS:
+                half = range((first + stop) // 2, stop)
+                known = danced_again(returns, chosen, half, segments)
+                again[half.start - first : stop - first] = varied(known, candidates.states)
             extra += weights.returns * again + weights.lately * lately * np.maximum(again, 0.0)
         if turns is not None:
             extra += weights.take * turns.favoured(grid, chosen, first, again)
@@ -226,14 +227,6 @@ def choose(
         if seen == count:
             break
     return chosen
-
-
-def _varied(returns: ReturningPlaces, random: np.random.Generator) -> ReturningPlaces:
-    """Leave out randomly chosen bars from the recurrences, so that they get a new dance."""
-    anew = random.random(returns.worths.shape[1] + 1) < ANEW
-    return replace(
-        returns, worths=np.where(anew[returns.bars][:, None], np.minimum(returns.worths, 0.0), returns.worths)
-    )
 
 
 class _Search:

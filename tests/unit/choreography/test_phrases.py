@@ -10,7 +10,7 @@ import pytest
 from app.choreography.accent_grid import grid_of
 from app.choreography.dance import Manner
 from app.choreography.generate import Choreographer
-from app.choreography.phrases import likeness_of_bars, returning_places, returns_of_bars
+from app.choreography.phrases import likeness_of_bars, returning_places, returns_of_bars, varied
 from app.choreography.rhythm import Rhythm, felt_at, own_beat_s
 from app.choreography.sequence import Weights
 from tests.support.dances import model
@@ -102,6 +102,24 @@ def test_what_returns_is_danced_again_with_variation() -> None:
 
     assert again(Weights(returns=0.0)) < 0.3
     assert 0.5 < again(Weights()) < 1.0
+
+
+def test_a_section_that_would_be_copied_is_varied_in_each_four_bars() -> None:
+    # So much weight makes copies of whole sections.
+    rhythm, choreographer = played("ABA"), Choreographer(model(beats=48))
+    for seed in range(3):
+        steps = choreographer.steps(rhythm, Manner(seed=seed), weights=Weights(returns=200.0, chance=0.0))
+        danced = {step.place: step.segment for step in steps}
+        again = {place: danced.get(place - 64) == danced[place] for place in danced if 64 <= place < 96}
+        assert sum(again.values()) > 0.5 * len(again)
+        assert not all(again[place] for place in again if place < 64 + 32)
+
+
+def test_varied_places_get_other_segments_of_the_same_motions() -> None:
+    again = np.array([[0.8, 0.0, 0.0, -0.4]])
+    found = varied(again, np.array([1, 1, 0, 0]))
+    assert found[0, 0] < 0.0 < found[0, 1]
+    assert found[0, 2:].tolist() == [0.0, -0.4]
 
 
 def test_far_tempi_are_felt_at_half_or_double_time() -> None:
