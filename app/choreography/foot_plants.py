@@ -139,7 +139,8 @@ def _apart(standing: list[FootPlant], tip_m: FloatArray, fps: float) -> list[Foo
     """Shorten consecutive plants of a foot so that there is time between them for moving.
 
     A foot that lands at the same place and hardly rose continues to stand there. A step that the motion itself takes,
-    lifting the foot, keeps its time however short it is; one made by a join takes `STEP_S`.
+    lifting the foot, keeps its time however short it is; one made by a join takes `STEP_S`, or less between plants that
+    would be lost.
     """
     found: list[FootPlant] = []
     for stand in standing:
@@ -154,11 +155,11 @@ def _apart(standing: list[FootPlant], tip_m: FloatArray, fps: float) -> list[Foo
             pulled = stand.place_m - tip_m[stand.start] - (before.place_m - tip_m[before.stop - 1])
             by_itself = lifted_m >= LIFTED_M and float(np.linalg.norm(pulled[[0, 2]])) <= PULLED_M
             if short > 0.0 and not by_itself:
-                give = math.ceil(0.5 * short)
-                found[-1] = replace(before, stop=before.stop - give)
-                stand = replace(stand, start=stand.start + give)
-                if found[-1].stop - found[-1].start < LEAST_S * fps:
-                    found.pop()
+                least, give = math.ceil(LEAST_S * fps), math.ceil(0.5 * short)
+                room = max(before.stop - before.start - least, 0), max(stand.stop - stand.start - least, 0)
+                late = min(max(give, math.ceil(short) - room[0]), room[1])
+                found[-1] = replace(before, stop=before.stop - min(math.ceil(short) - late, room[0]))
+                stand = replace(stand, start=stand.start + late)
         if stand.stop - stand.start >= LEAST_S * fps:
             found.append(stand)
     return found

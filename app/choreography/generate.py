@@ -32,7 +32,7 @@ from app.choreography.limbs import hinged, unbroken, wrists_within
 from app.choreography.model import ChoreographyModel
 from app.choreography.music_motion_dependence import trust_in
 from app.choreography.phrases import returning_places
-from app.choreography.rhythm import Rhythm, felt_at, own_beat_s
+from app.choreography.rhythm import Rhythm, felt_at, own_beat_s, pace_of
 from app.choreography.segment_arrivals import accents_s, meets_of
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
 from app.choreography.shortest_times import ShortestTimes
@@ -42,6 +42,7 @@ from app.choreography.stage import on_stage
 from app.choreography.step_balance import step_balance
 from app.choreography.stitch import Frames, Stitcher
 from app.choreography.sudden_ends import UsualAccelerations, usual_accelerations, within_limits
+from app.choreography.transition_scores import SPEEDS
 from app.choreography.warp import TimeMap, map_with_arrivals
 
 _LEAST_S: Final = 0.01
@@ -257,10 +258,11 @@ class Choreographer:
         the map from performance to motion time."""
         candidates, grid, segments = self.candidates, grid_of(rhythm), self.model.segments
         initial = np.log(self.model.initial * self.model.states)[candidates.states]
+        pace = pace_of(rhythm, self._beat_s, SPEEDS[1])
         preferred = PREFERRED * np.array([one.clip == manner.source for one in segments], np.float64)
         chosen = choose(
             grid,
-            candidates,
+            replace(candidates, pace=pace),
             self.hearing.hits(rhythm, manner.melody, any_dancer=manner.source is None),
             seed=manner.seed,
             weights=weights,
@@ -268,7 +270,7 @@ class Choreographer:
             usual=preferred - self._idle,
             returns=returning_places(rhythm, grid.times_s, manner.melody),
             takes=self._take_shares(rhythm, grid) if manner.source is None else None,
-            steps=step_balance(segments, self._fps, self._falls_s),
+            steps=step_balance(segments, self._fps, self._falls_s, pace),
             initial=initial + self._standing([one.start for one in segments]),
             final=self._standing([one.end for one in segments]),
         )

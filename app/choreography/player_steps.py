@@ -229,7 +229,8 @@ def _stepped(
         if lands_s - last_s[step.foot] < SAME_FOOT_S or made[step.foot] - made[1 - step.foot] >= MOST_LEAD:
             step = step.other()
         air_s = min(AIR_S, AIR_SHARE * (lands_s - max(last_s.values())))
-        if air_s < LEAST_AIR_S or lands_s - last_s[step.foot] < SAME_FOOT_S:
+        ahead = made[step.foot] - made[1 - step.foot] >= MOST_LEAD
+        if ahead or air_s < LEAST_AIR_S or lands_s - last_s[step.foot] < SAME_FOOT_S:
             continue
         size = (LEAST_SIZE + (1.0 - LEAST_SIZE) * min(1.0, step.way_m / usual_m)) * min(1.0, (air_s / AIR_S) ** 2)
         rows.append(_Row(step.foot, "step", lands_s - air_s, lands_s, size, _near(step, far_m)))

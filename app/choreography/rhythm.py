@@ -115,6 +115,15 @@ def own_beat_s(gaps_s: FloatArray) -> float:
     return beat_s if beat_s <= LONGEST_BEAT_S else BEAT_S
 
 
+def pace_of(rhythm: Rhythm, beat_s: float, fastest: float) -> float:
+    """Return how much faster than usual a dancer with beats of ``beat_s`` moves to a rhythm: 1 to music as slow as
+    these beats or slower, at most ``fastest``.
+    """
+    if len(rhythm.beats_s) < 2:
+        return 1.0
+    return float(np.clip(beat_s / np.median(np.diff(rhythm.beats_s)), 1.0, fastest))
+
+
 def felt_at(rhythm: Rhythm, beat_s: float) -> Rhythm:
     """Return the rhythm as felt by a dancer with beats of ``beat_s``: much slower beats are divided as by the metre,
     much faster ones grouped by twos or threes if every bar allows this.

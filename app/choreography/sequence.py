@@ -7,7 +7,7 @@ them. Going from one to the next counts
   few long motions and many short ones are compared fairly; every hit counts in the segment during which it sounds, as
   when it was learned, and partly in those until the next (`app.choreography.hit_log_odds`);
 - how well the second fits on the first (`app.choreography.joins`); the segment that follows in the capture fits best;
-- how much faster or slower than captured both must be danced between their accents, within `SPEEDS`;
+- how much faster or slower than at the pace of the music both must be danced between their accents, within `SPEEDS`;
 - an accent off the beat;
 - a little chance, by the seed, so that a choreography does not repeat itself, and a cost of segments danced lately;
 - where the music returns, what was danced to it before (`app.choreography.phrases`).
@@ -48,7 +48,7 @@ class Weights:
     join_per_m : float
         Cost of the distance at a join, per metre.
     speed : float
-        Cost of the slowest or fastest possible speed (`SPEEDS`); it grows quadratically from the captured speed.
+        Cost of a speed that differs from the pace by a factor of `SPEEDS`; it grows quadratically with the difference.
     off_beat : float
         Cost of an accent between two beats.
     model : float
@@ -73,7 +73,7 @@ class Weights:
     """
 
     join_per_m: float = 55.0
-    speed: float = 1.5
+    speed: float = 6.0
     off_beat: float = 1.2
     model: float = 1.0
     heard: float = 2.4
@@ -95,7 +95,6 @@ FEW: Final = 24.0
 """Number of segments in which each counts half as danced recently, since few segments must repeat."""
 PHRASE_BEATS: Final = 8
 """Number of beats searched at a time, whose motions then count as danced recently."""
-
 
 _MIDDLES: Final = (np.arange(SHARES) + 0.5) / SHARES
 
@@ -119,6 +118,8 @@ class SegmentCandidates:
         Seconds after the accent at which the body comes to rest and feet touch the floor; None: not considered.
     least_before_s, least_after_s : (S,) float64, optional
         Shortest times in seconds in which ``before_s`` and ``after_s`` may be danced; by default by `SPEEDS`.
+    pace : float
+        Speed relative to the capture at which segments are danced best.
     """
 
     states: IntArray
@@ -129,6 +130,7 @@ class SegmentCandidates:
     meets: SegmentMeets | None = None
     least_before_s: FloatArray | None = None
     least_after_s: FloatArray | None = None
+    pace: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -270,6 +272,7 @@ class _Search:
                 replace(meets, worths=weights.meets * meets.worths),
                 candidates.least_before_s,
                 candidates.least_after_s,
+                candidates.pace,
             ),
         )
 

@@ -1,7 +1,7 @@
 """Balance of the steps of a dance: segments rich in steps are favoured while the dance has fewer than the captures.
 
 Motions fit beats and each other best where feet stand, so that a sequence chosen by these alone has fewer steps than
-the captured dancers took in the same time.
+the captured dancers took in the same time. To music with faster beats than theirs, dancers step faster.
 """
 
 from __future__ import annotations
@@ -33,10 +33,13 @@ class StepBalance:
         Number of times at which a foot lands in each of S segments.
     lasts_s : (S,) float64
         Length of each as captured, in seconds.
+    pace : float
+        Pace of the dance relative to the captures.
     """
 
     steps: FloatArray
     lasts_s: FloatArray
+    pace: float = 1.0
 
     @property
     def per_s(self) -> float:
@@ -57,11 +60,13 @@ class StepBalance:
         if not chosen:
             return np.zeros(len(self.steps))
         danced_s = float(grid.times_s[first] - grid.times_s[chosen[0][0]])
-        missing = self.per_s * danced_s - float(self.steps[[segment for _, segment in chosen]].sum())
+        missing = self.pace * self.per_s * danced_s - float(self.steps[[segment for _, segment in chosen]].sum())
         return float(np.clip((missing + AHEAD) / MOST, 0.0, 1.0)) * (self.steps - self.per_s * self.lasts_s)
 
 
-def step_balance(segments: Sequence[MotionSegment], fps: Sequence[float], lands_s: Sequence[FloatArray]) -> StepBalance:
+def step_balance(
+    segments: Sequence[MotionSegment], fps: Sequence[float], lands_s: Sequence[FloatArray], pace: float = 1.0
+) -> StepBalance:
     """Count the steps in segments.
 
     Parameters
@@ -76,4 +81,4 @@ def step_balance(segments: Sequence[MotionSegment], fps: Sequence[float], lands_
         float(np.subtract(*np.searchsorted(lands_s[one.clip], edges[::-1])))
         for one, edges in zip(segments, edges_s, strict=True)
     ]
-    return StepBalance(np.array(steps), np.array([stop_s - start_s for start_s, stop_s in edges_s]))
+    return StepBalance(np.array(steps), np.array([stop_s - start_s for start_s, stop_s in edges_s]), pace)

@@ -141,13 +141,15 @@ class MoveCosts:
     before_s, after_s : (S,) float64
         Seconds from start to accent and from accent to end, as captured.
     speed : float
-        Cost of the slowest or fastest possible speed (`SPEEDS`); it grows quadratically from the captured speed.
+        Cost of a speed that differs from ``pace`` by a factor of `SPEEDS`; it grows quadratically with the difference.
     usual : (S,) float64
         Value of each segment as a predecessor; those with high values are examined first.
     meets : SegmentMeets
         Arrivals and footfalls of the segments, with their values in units of these costs.
     least_before_s, least_after_s : (S,) float64, optional
         Shortest times in seconds in which ``before_s`` and ``after_s`` may be danced; by default by `SPEEDS`.
+    pace : float
+        Speed relative to the captures at which motions are danced best.
     """
 
     base: FloatArray
@@ -158,6 +160,7 @@ class MoveCosts:
     meets: SegmentMeets
     least_before_s: FloatArray | None = None
     least_after_s: FloatArray | None = None
+    pace: float = 1.0
 
 
 class SegmentMoves:
@@ -225,7 +228,8 @@ class SegmentMoves:
     def _speed_cost(self, off: FloatArray, most_off: FloatArray) -> FloatArray:
         limit = float(np.log(SPEEDS[1]))
         outside = (off < -limit - 0.02) | (off > most_off + 0.02)
-        return np.asarray(self._costs.speed * np.square(off / limit) - np.where(outside, NEVER, 0.0))
+        apart = (off - math.log(self._costs.pace)) / limit
+        return np.asarray(self._costs.speed * np.square(apart) - np.where(outside, NEVER, 0.0))
 
     def _made(self, starts: IntArray, key: int, beats: _Beats) -> MoveTable:
         ends = np.arange(len(starts))[:, None]

@@ -11,7 +11,7 @@ from app.choreography.accent_grid import grid_of
 from app.choreography.dance import Manner
 from app.choreography.generate import Choreographer
 from app.choreography.phrases import likeness_of_bars, returning_places, returns_of_bars, varied
-from app.choreography.rhythm import Rhythm, felt_at, own_beat_s
+from app.choreography.rhythm import Rhythm, felt_at, own_beat_s, pace_of
 from app.choreography.sequence import Weights
 from tests.support.dances import model
 
@@ -120,6 +120,11 @@ def test_varied_places_get_other_segments_of_the_same_motions() -> None:
     found = varied(again, np.array([1, 1, 0, 0]))
     assert found[0, 0] < 0.0 < found[0, 1]
     assert found[0, 2:].tolist() == [0.0, -0.4]
+
+
+@pytest.mark.parametrize(("beat_s", "pace"), [(0.7, 1.4), (0.9, 1.5), (0.5, 1.0), (0.4, 1.0)])
+def test_dancers_move_faster_to_beats_faster_than_their_own(beat_s: float, pace: float) -> None:
+    assert pace_of(played("A", 0.5), beat_s, 1.5) == pytest.approx(pace)
 
 
 def test_far_tempi_are_felt_at_half_or_double_time() -> None:

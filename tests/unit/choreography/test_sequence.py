@@ -291,6 +291,20 @@ def test_motions_keep_within_the_speeds_at_any_tempo() -> None:
             assert 0.65 < speed < 1.54
 
 
+@pytest.mark.parametrize("pace", [1.0, 1.4])
+def test_motions_are_danced_at_the_pace_of_the_music(pace: float) -> None:
+    """Motions of .35 to .7 s fill the time between accents at many speeds."""
+    own, grid = candidates(40, 3, spread=0.5), grid_of(beaten(64))
+    heard = struck(np.zeros(0), np.zeros((0, 40)))
+    weights = Weights(join_per_m=0.0, chance=0.3, lately=0.0)
+    found = choose(grid, replace(own, pace=pace), heard, seed=0, weights=weights)
+    speeds = [
+        (own.after_s[one] + own.before_s[other]) / (grid.times_s[later] - grid.times_s[place])
+        for (place, one), (later, other) in pairwise(found)
+    ]
+    assert np.median(speeds) == pytest.approx(pace, abs=0.1)
+
+
 def test_without_music_or_motion_there_is_nothing() -> None:
     own = candidates(3, 0)
     silence = struck(np.zeros(0), np.zeros((0, 3)))

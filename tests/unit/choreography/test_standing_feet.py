@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -40,6 +41,21 @@ def test_a_foot_that_comes_down_elsewhere_takes_a_step() -> None:
         assert after.place_m[0] == pytest.approx(before.place_m[0] + 0.15, abs=1e-6)
     # The hips alone accelerate the hip joints to 1.5 m/s immediately: 3 rad/s for a leg with a standing foot.
     assert angular_jumps(planted(clip, standing)).max() < 4.0
+
+
+def test_a_foot_that_stands_shortly_between_two_steps_still_touches_the_floor() -> None:
+    clip, frames = still(120), np.arange(120)
+    share = np.clip((frames - 40) / 6.0, 0.0, 1.0) + np.clip((frames - 54) / 6.0, 0.0, 1.0)
+    hips = clip.hips_m + 0.15 * share[:, None] * (1.0, 0.0, 0.0) - np.array((0.0, 0.03, 0.0))
+    contacts = np.ones((120, 2), bool)
+    contacts[41:46] = contacts[55:60] = False
+    standing = stands(replace(clip, hips_m=hips), contacts)
+    for foot in range(2):
+        own = [stand for stand in standing if stand.foot == foot]
+        assert len(own) == 3
+        assert 46 <= own[1].start < own[1].stop <= 55
+        for before, after in pairwise(own):
+            assert after.start - before.stop >= STEP_S * 60 - 1
 
 
 def test_a_foot_that_glides_over_the_floor_is_raised_until_it_lands() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -49,6 +51,16 @@ def test_a_dance_with_enough_steps_is_left_as_it_is() -> None:
     chosen = [(place, 1) for place in range(16)]
     assert balance.favoured(GRID, chosen, 16) == pytest.approx(balance.steps - balance.per_s * balance.lasts_s)
     assert balance.favoured(GRID, [], 0) == pytest.approx(0.0)
+
+
+def test_more_steps_are_asked_for_at_a_faster_pace() -> None:
+    _, balance = stiff(2.0)
+    chosen = [(place, 0 if place % 3 == 0 else 1) for place in range(48)]
+    assert balance.favoured(GRID, chosen, 48) == pytest.approx(
+        0.5 * (balance.steps - balance.per_s * balance.lasts_s), abs=1e-9
+    )
+    faster = replace(balance, pace=1.4)
+    assert faster.favoured(GRID, chosen, 48) == pytest.approx(balance.steps - balance.per_s * balance.lasts_s)
 
 
 def test_motions_that_never_step_are_all_alike() -> None:
