@@ -15,6 +15,7 @@ from app.motion.body_motion import BodyMotion
 from app.motion.breath.air_in_trunk import widened
 from app.motion.breath.breaths_that_show import leaning_further
 from app.motion.by_hand.additive_curves import NOTHING, Additive, with_added, with_added_morphs, with_held
+from app.motion.contacts.arms_room import limited_to_arms
 from app.motion.contacts.carried_instrument import limited_to_carriage, shown_by
 from app.motion.contacts.hand_in_bell import STOPPING, bell_closing
 from app.motion.contacts.ready_player import player_body
@@ -345,6 +346,7 @@ def prepare(
     acting = shown_by(parameters, carriage, shown, dancing=dance is not None)
     parameters = limited_to_carriage(parameters, carriage)
     player = player_body(parameters, instrument_map, character, grip, body)
+    parameters = limited_to_arms(parameters, player)
     feet = DancedFeet.none() if dance is None else dance.feet.giving_way(plan.gestures)
     given = _given(
         plan, parameters, acting, player, instrument_map, body, felt_beats=felt_beats, dances=dance is not None

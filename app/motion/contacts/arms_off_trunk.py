@@ -39,6 +39,8 @@ TIGHT_POWER = 3
 """Power of the used share of its room that a wrist keeps from an elbow before thick clothes; 1 before others."""
 IN_MOTION = 0.75
 """Share of what wrists of a still body allow that they allow all through its motion, before thick clothes."""
+PAST_RAD = float(np.deg2rad(1.5))
+"""Angle past the end of its range to which a wrist lets an elbow go out of thick clothes."""
 PALM, PALM_M = np.array([0.5, 1.0]), 0.02
 """Places between wrist and knuckles, and about how thick the hand is there."""
 LEAST_ROOM_RAD = float(np.deg2rad(0.5))
@@ -295,8 +297,8 @@ def _outward_rad(
     np.add.at(around, np.maximum(frames - within, 0), 1.0)
     np.add.at(around, np.minimum(frames + within + 1, count), -1.0)
     out = np.flatnonzero(np.cumsum(around[:count]) > 0.5)
-    power = TIGHT_POWER if forearm.shape.tight else 1
-    most_rad[out] = _within_room(_used_room(solved, wrist, out, sign * angles), angles, power)
+    power, past_rad = (TIGHT_POWER, PAST_RAD) if forearm.shape.tight else (1, 0.0)
+    most_rad[out] = _within_room(_used_room(solved, wrist, out, sign * angles, past_rad), angles, power)
     return needed_rad, most_rad
 
 
@@ -307,8 +309,9 @@ def _hand_at(solved: SolvedArm, frames: IndexArray, turn_rad: FloatArray) -> Flo
     return end_of(solved.limb, lower, solved.hand[frames])
 
 
-def _used_room(solved: SolvedArm, wrist: Wrist, frames: IndexArray, angles: FloatArray) -> FloatArray:
-    """Return the share (A, K) of a wrist's room that the elbow uses at each of A angles, in K frames, 0 or more.
+def _used_room(solved: SolvedArm, wrist: Wrist, frames: IndexArray, angles: FloatArray, past_rad: float) -> FloatArray:
+    """Return the share (A, K) of a wrist's room, up to ``past_rad`` past its range, that the elbow uses at each of A
+    angles, in K frames, 0 or more.
 
     It does not fall again. The wrist lets the elbow go on less and less, and not at all from 1 on.
     """
@@ -317,8 +320,8 @@ def _used_room(solved: SolvedArm, wrist: Wrist, frames: IndexArray, angles: Floa
         return wrist.outside_rad(_hand_at(solved, here, np.full(len(here), angle)), within=True)
 
     usual_rad = bent_rad(frames, 0.0)
-    room_rad = np.minimum(np.maximum(-usual_rad, LEAST_ROOM_RAD), BENT_RAD)
-    from_rad = np.maximum(usual_rad, -BENT_RAD)
+    room_rad = np.minimum(np.maximum(past_rad - usual_rad, LEAST_ROOM_RAD), BENT_RAD)
+    from_rad = np.maximum(usual_rad, past_rad - BENT_RAD)
     used = np.zeros((len(angles), len(frames)))
     for number in range(1, len(angles)):
         used[number] = used[number - 1]

@@ -11,6 +11,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.identity_cache import IdentityCache
 from app.motion.body_motion import BodyMotion
+from app.motion.contacts.arms_room import with_room_for_arms
 from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.clear_carriage import lowered_clear, played_clear
 from app.motion.contacts.clear_seat import seated_clear
@@ -117,7 +118,7 @@ def _made(
     seated = seated_clear(played, posture, carriage, instrument_map.endpin, supports)
     if seated is not played:
         seated = played_clear(replace(seated, carriage=carriage))
-    return with_bell_room(lowered_clear(seated, supports))
+    return with_room_for_arms(with_bell_room(lowered_clear(seated, supports)), body)
 
 
 def _grip_of_lips(lips: Lips, embouchure: EmbouchureWeights) -> FloatArray:

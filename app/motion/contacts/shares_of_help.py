@@ -23,6 +23,8 @@ SHOULDER_EASE_S = 0.08
 OUT_EASE_S = 0.28
 """Seconds before an elbow has to be clear of the trunk, or out beside a shoulder that reaches forward, at which it
 begins to move, and after at which it is back: its way is long, and in less time it would be flung."""
+BACK_EASE_S = 0.14
+"""Same time in seconds in which an elbow that is out of thick clothes keeps to what its wrist allows."""
 SLIDE_OUT_EASE_S = 0.12
 """Same time in seconds for the elbow of a hand that moves a slide: it moves with the hand anyway."""
 ROOM_EASE_S = 0.06
@@ -62,7 +64,7 @@ def smoothed_help(parts: list[Help], half: int) -> Help:
 
 
 def smoothed_outward(
-    outward: Outward, half: int, moving: Collection[str] = (), swift: int = 0
+    outward: Outward, half: int, moving: Collection[str] = (), swift: int = 0, back: int | None = None
 ) -> dict[str, FloatArray]:
     """Return the turn (F,) of each elbow out of the trunk's way, by side, in radians: early, slow, and no farther than
     its wrist allows.
@@ -73,11 +75,14 @@ def smoothed_outward(
         Number of frames before and after over which the turn begins and ends.
     moving : collection of str
         Sides of hands that move along something, whose elbows go along ``swift`` frames before and after instead.
+    back : int, optional
+        Number of frames before and after over which other elbows keep to what their wrists allow; as many as ``half``
+        by default.
     """
     turns_rad: dict[str, FloatArray] = {}
     for side, needed_rad in outward.needed_rad.items():
-        over = swift if side in moving else half
-        turns_rad[side] = with_room(_eased(needed_rad, over), _held_back([outward.most_rad[side]], over))
+        over, kept = (swift, swift) if side in moving else (half, half if back is None else back)
+        turns_rad[side] = with_room(_eased(needed_rad, over), _held_back([outward.most_rad[side]], kept))
     return turns_rad
 
 

@@ -17,6 +17,7 @@ from app.motion.contacts.arms_off_trunk import Outward, outward, slow_share
 from app.motion.contacts.help_for_far_hands import Help
 from app.motion.contacts.instrument_put_aside import AsidePlace
 from app.motion.contacts.shares_of_help import (
+    BACK_EASE_S,
     OUT_EASE_S,
     SHOULDER_EASE_S,
     SLIDE_OUT_EASE_S,
@@ -89,5 +90,8 @@ def with_elbows_off_trunk(
         {side: np.interp(frames, frames[seen], turn) for side, turn in turns.items()}
         for turns in (found.needed_rad, found.most_rad)
     )
-    turned_rad = smoothed_outward(Outward(needed_rad, most_rad), half, moving, math.ceil(SLIDE_OUT_EASE_S * fps))
+    tight = player.shape is not None and player.shape.tight
+    back = math.ceil(BACK_EASE_S * fps) if tight else half
+    swift = math.ceil(SLIDE_OUT_EASE_S * fps)
+    turned_rad = smoothed_outward(Outward(needed_rad, most_rad), half, moving, swift, back)
     return replace(curves.body, elbow_out_rad=turned_rad)

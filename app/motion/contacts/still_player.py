@@ -28,7 +28,7 @@ class StillPlayer:
     ``still`` is the posture and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is the displacement of the
     mouthpiece between one lip and both playing lips, in the head's frame. ``stand`` is set for an instrument on the
     floor, ``aside`` if the musician has several. ``water`` is the place of the water key, ``stopped`` the hand position
-    that closes the bell.
+    that closes the bell. ``most_amplitude`` is the amplitude up to which the arms have room.
     """
 
     skeleton: Skeleton
@@ -46,6 +46,7 @@ class StillPlayer:
     water: Water | None = None
     stopped: Stopped | None = None
     shape: TrunkShape | None = None
+    most_amplitude: float = 1.0
 
     @property
     def steps(self) -> bool:
