@@ -25,6 +25,8 @@ from app.project.performers import Dancer
 from app.rig.characters.character_library import our_characters
 
 MOST_IN_ROW: Final = 5
+HIDES_M: Final = 0.6
+"""Distance in metres sideways within which a dancer hides a player behind from the audience."""
 
 
 def add_dancer(project: Project, choreography: str | os.PathLike[str], name: str) -> tuple[Project, str]:
@@ -133,11 +135,11 @@ def move_dancers(project: Project, dancer_ids: Collection[str], before: int) -> 
 
 def free_places(project: Project, count: int) -> tuple[StagePosition, ...]:
     """Return free places for ``count`` more dancers in front of the players, facing the audience, in rows filled from
-    the middle.
+    the middle; the first row is the one that hides fewer players.
     """
     taken = [dancer.stage for dancer in project.dancers]
     found: list[StagePosition] = []
-    places = _rows(_front_m(project))
+    places = _rows(_front_m(project), _hidden(project, 1) < _hidden(project, 0))
     while len(found) < count:
         place = next(places)
         if all(math.hypot(place.x_m - one.x_m, place.z_m - one.z_m) > DANCER_ROOM_M - 1e-6 for one in taken):
@@ -155,19 +157,32 @@ def _front_m(project: Project) -> float:
     return round(max((reach_m + DANCER_ROOM_M for reach_m in reaches_m), default=0.0), 3)
 
 
-def _rows(front_m: float) -> Iterator[StagePosition]:
+def _hidden(project: Project, shifted: int) -> int:
+    """Return the number of players whom dancers in a first row would hide, shifted by half a place or not (0 or 1)."""
+    row_m = [_sideways_m(place, shifted) for place in range(MOST_IN_ROW - shifted)]
+    return sum(any(abs(player.stage.x_m - x_m) < HIDES_M for x_m in row_m) for player in project.players)
+
+
+def _rows(front_m: float, first_shifted: bool) -> Iterator[StagePosition]:
     """Yield possible places of dancers row by row towards the audience, from the middle to both sides, in a staggered
-    grid. At the edge of the stage they continue in the last row.
+    grid whose first row is shifted by half a place or not. At the edge of the stage they continue in the last row.
     """
     row = 0
     while True:
         z_m = min(front_m + row * DANCER_ROOM_M, limits.STAGE_M[1])
         wide = z_m == limits.STAGE_M[1]
-        shifted = row % 2 == 1 and not wide
+        shifted = int((row + first_shifted) % 2 == 1 and not wide)
         for place in range(int(limits.STAGE_M[1] / DANCER_ROOM_M) if wide else MOST_IN_ROW - shifted):
-            x_m = ((place + 1 - shifted) // 2 + 0.5 * shifted) * DANCER_ROOM_M * (1.0 if place % 2 else -1.0)
-            yield StagePosition(round(x_m, 3) + 0.0, round(z_m, 3), 0.0)
+            yield StagePosition(_sideways_m(place, shifted), round(z_m, 3), 0.0)
         row += 1
+
+
+def _sideways_m(place: int, shifted: int) -> float:
+    """Return the x coordinate in metres of a place of a row, counted from the middle, shifted by half a place or not (0
+    or 1).
+    """
+    x_m = ((place + 1 - shifted) // 2 + 0.5 * shifted) * DANCER_ROOM_M * (1.0 if place % 2 else -1.0)
+    return round(x_m, 3) + 0.0
 
 
 def _with_more(project: Project, dancers: Sequence[Dancer]) -> Project:

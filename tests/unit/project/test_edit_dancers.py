@@ -62,6 +62,18 @@ def test_dancers_have_room_beside_any_instruments(instruments: list[str]) -> Non
     assert len({place.z_m for place in places}) == 2
 
 
+def test_no_dancer_of_the_first_row_hides_a_lone_player_from_the_audience() -> None:
+    project = replace(small_project(), players=())
+    project, _ = edit_players.add_player(project, MAPS["flute"], MAPS, "")
+    for _ in range(4):
+        project, _ = edit.add_dancer(project, "salsa", "Dancer")
+    front_m = min(dancer.stage.z_m for dancer in project.dancers)
+    (player,) = project.players
+    row = [dancer.stage.x_m for dancer in project.dancers if dancer.stage.z_m == front_m]
+    assert len(row) == 4
+    assert min(abs(x_m - player.stage.x_m) for x_m in row) > 1.0
+
+
 def test_a_place_that_was_taken_by_hand_is_not_given_again(pair: Project) -> None:
     first, second = pair.dancers
     free = edit.free_places(pair, 1)[0]
