@@ -236,7 +236,8 @@ def bell(
     share = (along[:tail] / along[tail]) ** 1.6
     radii = np.r_[start_r + share * (radii[0] - start_r), radii]
     solid = tail + int(np.searchsorted(-distance, -open_m)) if open_m else len(line) - 1
-    model.add(BRASS, tube(line, radii, sides=sides, closed=False, proxy=not open_m))
+    outside = radii + np.r_[np.zeros(tail), WALL_M * _share_within(distance, open_m)] if open_m else radii
+    model.add(BRASS, tube(line, outside, sides=sides, closed=False, proxy=not open_m))
     rim_bead = 0.0016
     angles = np.linspace(0, 2 * np.pi, 48, endpoint=False)
     across, over = square_to(way)
@@ -252,6 +253,16 @@ def bell(
 
 
 WALLS, WALL_SAG_M, RIM_M = 19, 0.0010, 0.02
+WALL_M = 0.00235
+"""Greatest thickness of the metal around a hand: a little more than skin yields there, so that none shows outside."""
+
+
+def _share_within(distance: Array, open_m: float) -> Array:
+    """Return how much thicker the wall of an open bell is at distances from its rim, 0 to 1: 0 at the rim and where the
+    hand ends, 1 in the middle.
+    """
+    share = np.clip(np.minimum(distance / 0.06, (open_m + 0.02 - distance) / 0.05), 0.0, 1.0)
+    return share * share * (3.0 - 2.0 * share)
 
 
 def _empty() -> Shape:
