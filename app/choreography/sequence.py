@@ -252,7 +252,7 @@ class _Search:
         self._forbidden: dict[int, list[int]] = {}
         for place, state in constraints.forbidden:
             self._forbidden.setdefault(place, []).append(state)
-        nothing = np.zeros(len(candidates.states))
+        self._nothing = nothing = np.zeros(len(candidates.states))
         self._usual = nothing if usual is None else weights.model * usual
         meets = candidates.meets or no_meets(len(nothing))
         self._off_beat = -weights.off_beat * ~grid.on_beat
@@ -317,7 +317,7 @@ class _Search:
                 heard, total = self._struck(earlier, place)
                 so_far = best[earlier - first].astype(np.float32)
                 from_segment, reached = table.best(so_far, heard, danced[earlier - first], self._weights.repeats)
-                found.append((reached, np.broadcast_to(total, segments), earlier * segments + from_segment))
+                found.append((reached, total, earlier * segments + from_segment))
             if not found:
                 continue
             scores, totals, reached_from = (np.array(rows) for rows in zip(*found, strict=True))
@@ -380,13 +380,13 @@ class _Search:
     def _is_constrained(self, place: int) -> bool:
         return place in self._forbidden or place in self._constraints.pinned or place in self._constraints.segments
 
-    def _struck(self, earlier: int, place: int) -> tuple[SingleArray | None, FloatArray | float]:
+    def _struck(self, earlier: int, place: int) -> tuple[SingleArray | None, FloatArray]:
         """Sums of the log odds of the hits between two accents for S segments: (SHARES, S) up to each possible change
         of segments, and (S,) in total.
         """
         first, stop = self._hits[earlier], self._hits[place]
         if first == stop:
-            return None, 0.0
+            return None, self._nothing
         start_s, stop_s = self._grid.times_s[earlier], self._grid.times_s[place]
         times_s, summed = self._heard.times_s, self._heard.summed
         met = np.searchsorted((times_s[first:stop] - start_s) / (stop_s - start_s), _MIDDLES)

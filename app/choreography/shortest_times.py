@@ -171,6 +171,17 @@ def not_hurried(times: TimeMap, along_s: FloatArray, least_s: FloatArray) -> Tim
     around = HURRIED_S / float(along_s[1] - along_s[0])
     for _ in range(ROUNDS):
         excess = np.maximum(least_s - lasts_s, 0.0)
-        lasts_s = lasts_s + excess - gaussian_filter1d(excess, around, mode="reflect")
+        lasts_s = lasts_s + excess - _spread(excess, around)
     calm_s = shown_s[0] + np.concatenate([[0.0], np.cumsum(np.maximum(lasts_s, 1e-4))])
     return TimeMap(calm_s, along_s)
+
+
+def _spread(excess_s: FloatArray, around: float) -> FloatArray:
+    """Smooth values (N,) that are 0 almost everywhere by a standard deviation of ``around`` values, exactly as in one
+    piece: beside each stretch of others are as many zeros as the filter reaches.
+    """
+    spread, reach = np.zeros_like(excess_s), round(4.0 * around)
+    some = np.flatnonzero(maximum_filter1d(excess_s > 0.0, 2 * reach + 1))
+    if len(some):
+        spread[some] = gaussian_filter1d(excess_s[some], around, mode="reflect", radius=reach)
+    return spread
