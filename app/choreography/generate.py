@@ -378,6 +378,8 @@ class Choreographer:
         along, speeds = plan.times.at(times_s)
         segments = np.array([step.segment for step in plan.steps])
         which = np.searchsorted((plan.hits_s + self.candidates.after_s[segments])[:-1], along, side="right")
+        # A join continues the motion of two frames before it; a single one is shown as a frame of the next segment.
+        which[0] = which[min(1, len(which) - 1)]
         source_s = self._hits_s[segments[which]] + along - plan.hits_s[which]
         frames = Frames(segments, which, source_s, speeds)
         clip, contacts, seams = self._stitcher.stitched(frames, body, fps)

@@ -72,6 +72,15 @@ def test_no_seam_shows() -> None:
     assert np.abs(hips).max() < 0.6
 
 
+def test_no_seam_shows_in_the_first_frame() -> None:
+    whole = dance()
+    for seam in whole.seams[2:7]:
+        first_s = whole.first_s + (seam - 1) / float(FPS)
+        begun = choreographer().dance(beaten(64, 0.55), Manner(), FPS, first_s=first_s, end_s=first_s + 4.0)
+        speed = np.linalg.norm(spins(begun.clip), axis=-1).max(axis=1)
+        assert speed[0] < speed[1:60].max()
+
+
 def test_standing_feet_stand() -> None:
     found = dance()
     assert len(found.standing) > 20
