@@ -8,7 +8,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Final
 
 import numpy as np
@@ -83,9 +82,11 @@ def character_scene(
     if target.choice == "own" and character.own is not None:
         meshes, weights = _own_meshes(character.own.figure, target, name), own_weights(motion.morphs, character.own)
     else:
-        # What is measured once is not kept.
-        shape = _shaped if every_influence else partial(_SHAPED.step, _shaped)
-        shaped = shape(character, sys.intern(target.eyes))
+        if every_influence:
+            # What is measured once is not kept.
+            shaped = _shaped(character, target.eyes)
+        else:
+            shaped = _SHAPED.step(_shaped, character, sys.intern(target.eyes))
         meshes, weights = (_joined_mesh(shaped, target, name),), motion.morphs
     there = {morph.name for mesh in meshes for morph in mesh.morphs}
     clip = character_clip(
