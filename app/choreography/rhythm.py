@@ -116,8 +116,8 @@ def own_beat_s(gaps_s: FloatArray) -> float:
 
 
 def pace_of(rhythm: Rhythm, beat_s: float, fastest: float) -> float:
-    """Return how much faster than usual a dancer with beats of ``beat_s`` moves to a rhythm: 1 to music as slow as
-    these beats or slower, at most ``fastest``.
+    """Return the speed, relative to the usual one, at which a dancer with beats of ``beat_s`` moves to a rhythm: 1 to
+    music as slow as these beats or slower, at most ``fastest``.
     """
     if len(rhythm.beats_s) < 2:
         return 1.0

@@ -87,7 +87,9 @@ def performer_arm_problems(
     span, pieces = whole_span(frame, fps), list[Motion]()
     for first in range(span.first, span.first + span.count, _CHUNK):
         raise_if_stopped(stop_requested)
-        pieces.append(curves.motion(fps, first, min(_CHUNK, span.first + span.count - first)))
+        piece = curves.motion(fps, first, min(_CHUNK, span.first + span.count - first))
+        # A player who changes instruments has different face shapes in some pieces, which are not needed here.
+        pieces.append(replace(piece, morphs={}))
     return arm_problems_of(performer.dressed, joined(pieces), stop_requested)
 
 
