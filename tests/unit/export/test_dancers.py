@@ -74,7 +74,8 @@ def test_bones_keep_their_length_and_feet_stand(written: tuple[Report, Path, Pro
     measures = written[0].dancers[0].measures
     assert measures.standing_s > 5.0
     assert measures.kept
-    assert measures.slide_most_mm_s < 20.0
+    # A foot that touches the floor rolls on: .4 mm a frame.
+    assert measures.slide_most_mm_s < 25.0
     assert measures.below_mm < 2.0
 
 
