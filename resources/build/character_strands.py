@@ -57,6 +57,10 @@ the end of a lock is its root, and the width over which roots dissolve.
 """
 CURLED = frozenset({"afro01"})
 """Styles of curls, whose painted lace has the grid of a repeated tile; curls are drawn instead."""
+HANGING = frozenset({"braid01", "long01"})
+"""Styles whose edges hang in front of forehead, cheeks and neck, up to 12 mm from the skin: they end as painted,
+without single hairs, which would have to bend back to the skin.
+"""
 CAP_ALONE, CAP_FACES = frozenset({"afro01", "short01", "short04"}), 100
 """Styles without their locks, half of which are lit from behind or end bluntly on the forehead, and the least number
 of faces of a cap.
@@ -284,10 +288,13 @@ def _curls(painted: np.ndarray, used: np.ndarray) -> np.ndarray:
     return drawn
 
 
-def hair_strands(painted: np.ndarray, used: np.ndarray, ends_here: tuple[np.ndarray, np.ndarray]) -> Strands:
+def hair_strands(
+    painted: np.ndarray, used: np.ndarray, ends_here: tuple[np.ndarray, np.ndarray], *, dissolved: bool = True
+) -> Strands:
     """Grey strands from a painted (H, W, 4) picture of the wanted size; unused parts are empty.
 
-    `used` is the mask of the pixels that faces use, `ends_here` are those where the mesh ends (`mesh_ends`).
+    `used` is the mask of the pixels that faces use, `ends_here` are those where the mesh ends (`mesh_ends`). The
+    hairline is `dissolved` into single hairs, or ends as painted.
     """
     alpha = painted[..., 3] * used
     solid = alpha > 0.5
@@ -308,7 +315,7 @@ def hair_strands(painted: np.ndarray, used: np.ndarray, ends_here: tuple[np.ndar
         alpha[_flecks(alpha > least)] = 0.0
     even = gaussian_filter(alpha, EVEN_PX / 3.0) * used
     scalp, bare = _caps(even), _bare(alpha, used, ends_here[0])
-    alpha = _fringe(alpha, along, used, ends_here)
+    alpha = _fringe(alpha, along, used, ends_here) if dissolved else alpha
     # Locks follow the painted picture, strands the noise.
     heights = gaussian_filter(locks, 1.5) * LOCK_HEIGHT + gaussian_filter(fine, 0.6)
     return Strands(grey, alpha, heights, along, scalp, bare)
@@ -341,7 +348,9 @@ def hair(folder: Path, style: str, source: Source, fit: SkeletonFit) -> tuple[Su
     if style in OVER_AN_EYE:
         surface = _combed(surface, fit, *OVER_AN_EYE[style])
     large = enlarged(painted, HAIR_PX)
-    made = hair_strands(_curls(large, used) if curled else large, used, ends_here)
+    made = hair_strands(_curls(large, used) if curled else large, used, ends_here, dissolved=style not in HANGING)
+    if style in HANGING:
+        return surface, *hair_textures(style, made)
     corner = free_patch(used)
     if corner is None:
         raise ValueError(f"the picture of {style} has no room for single hairs")
