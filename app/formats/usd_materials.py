@@ -80,6 +80,10 @@ class UsdMaterials:
             image = self._image(f"{path}/Color", textures.color, _SRGB, surface.base_color, _NOTHING)
             connect("diffuseColor", colors, image, "rgb", Sdf.ValueTypeNames.Float3)
             if surface.alpha_mode != "opaque":
+                untinted = (1.0, 1.0, 1.0, surface.base_color[3])
+                if surface.base_color != untinted:
+                    # Blender takes the tinted color of a picture that has a scale for its alpha.
+                    image = self._image(f"{path}/Opacity", textures.color, _SRGB, untinted, _NOTHING)
                 connect("opacity", floats, image, "a", floats)
         if textures.normal is not None:
             lean = float(textures.normal_scale)

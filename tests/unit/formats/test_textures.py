@@ -197,3 +197,17 @@ def test_a_usd_file_shows_its_textures(tmp_path: Path) -> None:
     surface = shaders["Surface"]
     linked = {one.GetBaseName() for one in surface.GetInputs() if one.HasConnectedSource()}
     assert linked == {"diffuseColor", "opacity", "normal", "roughness", "metallic", "occlusion"}
+
+
+def test_the_alpha_of_a_tinted_picture_has_no_scale_in_usd(tmp_path: Path) -> None:
+    """Blender takes the tinted color for the alpha of a picture that has a scale: heads were bald."""
+    pxr = pytest.importorskip("pxr.UsdShade")
+    from pxr import Usd
+
+    write_usd(tmp_path / "card.usdc", textured_scene(replace(card_material(), base_color=(0.1, 0.05, 0.02, 1.0))))
+    stage = Usd.Stage.Open(str(tmp_path / "card.usdc"))
+    shaders = {prim.GetName(): pxr.Shader(prim) for prim in stage.Traverse() if prim.IsA(pxr.Shader)}
+    assert tuple(shaders["Color"].GetInput("scale").Get()) == pytest.approx((0.1, 0.05, 0.02, 1.0))
+    assert not shaders["Opacity"].GetInput("scale")
+    (source, *_), *_ = shaders["Surface"].GetInput("opacity").GetConnectedSources()
+    assert source.source.GetPrim().GetName() == "Opacity"
