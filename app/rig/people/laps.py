@@ -14,8 +14,13 @@ from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.skeleton import forward
 
-LIES_M: Final = 0.005
-"""Distance of a coat from what it lies on."""
+LIES_M, LOOSE_M = 0.005, 0.012
+"""Distances of a coat from what it lies on: from trousers, and from a skirt, which would go through it where the legs
+are not quite as in the pose in which it is laid.
+"""
+_SPANS: Final = 0.05
+"""Share of the vertices of a skirt that both legs move by `_BY_EACH` at least; of trousers, hardly any are."""
+_BY_EACH: Final = 0.1
 ROUNDS: Final = 2
 """Number of times that a coat is laid: turned less, cloth also lies farther back."""
 _RAISED_RAD, _ASIDE_RAD = np.deg2rad(86.0), np.deg2rad(13.0)
@@ -68,13 +73,27 @@ def laid_on_lap(coat: Mesh, below: Sequence[Mesh], character: Character) -> Mesh
     seated = _seated(character)
     ahead_m = float(_joints_m(character, seated)[character.skeleton.index("leftUpperLeg"), 2])
     lap = _lap([_deformed(mesh, None, seated, None, 0)[mesh.triangles] for mesh in below], ahead_m)
+    lies_m = LOOSE_M if any(_spans_legs(mesh, character.skeleton.names) for mesh in below) else LIES_M
     for _ in range(ROUNDS):
-        coat = _nearer(coat, lap, seated, ahead_m, character)
+        coat = _nearer(coat, lap, lies_m, seated, ahead_m, character)
     return coat
 
 
-def _nearer(coat: Mesh, lap: FloatArray, seated: FloatArray, ahead_m: float, character: Character) -> Mesh:
-    """Return a coat that lies closer to a map of the lap, as `_lap`, in front of a depth ``ahead_m``."""
+def _spans_legs(mesh: Mesh, names: Sequence[str]) -> bool:
+    """Return whether a garment hangs around both legs together."""
+    left, right = (
+        np.where(np.array([f"{side}UpperLeg" == name for name in names])[mesh.joints], mesh.weights, 0.0).sum(axis=1)
+        for side in ("left", "right")
+    )
+    return bool(np.mean(np.minimum(left, right) > _BY_EACH) > _SPANS)
+
+
+def _nearer(
+    coat: Mesh, lap: FloatArray, lies_m: float, seated: FloatArray, ahead_m: float, character: Character
+) -> Mesh:
+    """Return a coat that lies closer to a map of the lap, as `_lap`, in front of a depth ``ahead_m``: at a height of
+    ``lies_m`` over it.
+    """
     names, pelvis = character.skeleton.names, character.skeleton.index("hips")
     leg = np.array([any(part in name for part in ("UpperLeg", "LowerLeg", "Foot", "Toes")) for name in names])
     shares = np.where(leg[coat.joints], coat.weights, 0.0).sum(axis=1, dtype=np.float64)
@@ -86,7 +105,7 @@ def _nearer(coat: Mesh, lap: FloatArray, seated: FloatArray, ahead_m: float, cha
     lies = (over_m > _NEAR_M[0]) & (over_m < _NEAR_M[1]) & (places[:, 2] > ahead_m)
     if not lies.any():
         return coat
-    moved = np.clip(LIES_M - _at(_lowest(places[lies], over_m[lies], ahead_m), places, ahead_m), -_MOST_M, _MOST_M)
+    moved = np.clip(lies_m - _at(_lowest(places[lies], over_m[lies], ahead_m), places, ahead_m), -_MOST_M, _MOST_M)
     laid = np.clip((share - _GOES_WITH_LEGS[0]) / (_GOES_WITH_LEGS[1] - _GOES_WITH_LEGS[0]), 0.0, 1.0)
     laid *= np.clip((places[:, 2] - ahead_m) / _BEFORE_M, 0.0, 1.0) * _near(over_m)
     rise = legs[:, 1] - hips[:, 1]

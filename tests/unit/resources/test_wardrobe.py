@@ -341,6 +341,20 @@ def test_the_hem_of_a_seated_coat_lies_close_to_the_thighs_of_every_build(
     assert np.nanpercentile(over_m, 25) < 0.016, np.round(over_m, 3)
 
 
+@pytest.mark.parametrize("id", ["student_sakura", "student_camila", "child_nia"])
+def test_a_skirt_does_not_go_through_the_jacket_over_it(id: str) -> None:
+    """Where thighs rose towards the knees, the jacket's hem had two or three holes."""
+    character = character_in(id, OutfitChoice("school_blazer"))
+    coat, below = mesh_named(character, "jacket"), mesh_named(character, "skirt")
+    x, y, z = coat.positions_m.T
+    front = (z > 0.05) & (np.abs(x) < 0.14)
+    hem = front & (y < y[front].min() + 0.05)
+    for raised_deg, aside_deg in ((80.0, 13.0), (92.0, 13.0), (86.0, 5.0), (86.0, 20.0)):
+        cloth, skirt = (posed(character, mesh, np.deg2rad(raised_deg), np.deg2rad(aside_deg)) for mesh in (coat, below))
+        over_m = heights_over(cloth[hem], skirt[below.triangles])
+        assert np.nanmin(over_m) > 0.002, (raised_deg, aside_deg)
+
+
 @pytest.mark.parametrize(
     ("outfit", "upper", "id"),
     [
