@@ -146,15 +146,13 @@ class LiveTrack:
             return False
         if performer is None or not isinstance(curves, PerformanceCurves):
             return False
+        # Only what was stopped is tried again, not what failed.
+        self.arms_measured = True
         try:
             self.arms = measure(performer, curves, frame, stop_requested)
         except Cancelled:
+            self.arms_measured = False
             raise
-        except Exception:
-            # What fails once is not tried again.
-            self.arms_measured = True
-            raise
-        self.arms_measured = True
         return True
 
     def has_picture(self, index: int) -> bool:

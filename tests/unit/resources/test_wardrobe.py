@@ -343,7 +343,7 @@ def test_the_hem_of_a_seated_coat_lies_close_to_the_thighs_of_every_build(
 
 @pytest.mark.parametrize("id", ["student_sakura", "student_camila", "child_nia"])
 def test_a_skirt_does_not_go_through_the_jacket_over_it(id: str) -> None:
-    """Where thighs rose towards the knees, the jacket's hem had two or three holes."""
+    """Holes were in the jacket's hem where thighs rise towards the knees."""
     character = character_in(id, OutfitChoice("school_blazer"))
     coat, below = mesh_named(character, "jacket"), mesh_named(character, "skirt")
     x, y, z = coat.positions_m.T
