@@ -8,7 +8,7 @@ from typing import Final
 
 from app.errors import FileError
 from app.formats.bvh.clip import BvhClip
-from app.formats.bvh.read import read_bvh
+from app.formats.bvh.read import encoding, read_bvh
 from app.formats.files import open_file
 
 SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf", ".vrma")
@@ -46,7 +46,7 @@ def read_motion_file(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
 
 def _kind(head: bytes) -> str:
     """Return the suffix for a file with this beginning; empty if unknown."""
-    text = head.decode("utf-16" if head[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig", "replace").lstrip()
+    text = head.decode(encoding(head), "replace").lstrip()
     if text[:9].upper() == "HIERARCHY":
         return ".bvh"
     if text.startswith(("Kaydara FBX Binary", "; FBX")) or "FBXHeaderExtension" in text:

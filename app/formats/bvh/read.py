@@ -21,6 +21,7 @@ from app.arrays import AnyFloatArray, FloatArray
 from app.errors import FileError, Message, shortened
 from app.formats import euler
 from app.formats.bvh.clip import AXES, POSITIONS, BvhClip
+from app.formats.bvh.rows import COMMENTS, read_rows, without_commas
 from app.formats.files import read_file
 from app.formats.rates import exact_rate
 
@@ -43,8 +44,8 @@ fits a rate in milliseconds.
 _NEAR: Final = 0.002
 """Relative difference below which a rate equals one of `_RATES`."""
 _MOTION: Final = re.compile(r"(?:^|[\r\n])[ \t]*MOTION(?=\s|$)", re.IGNORECASE)
+_FRAMES_LINE: Final = re.compile(r"(?=[\r\n][ \t]*Frames\s*:)", re.IGNORECASE)
 _FRAMES: Final = re.compile(r"\s*Frames\s*:\s*(\S+)\s+Frame[ \t]*Time\s*:\s*(\S+)", re.IGNORECASE)
-_DECIMAL_COMMA: Final = re.compile(r"[-+]?[0-9]*,[0-9]+(?:[eE][-+]?[0-9]+)?")
 _BRACES: Final = re.compile(r"([{}])")
 
 
@@ -65,17 +66,29 @@ def read_bvh(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
         The file is no valid BVH file, or has no skeleton of that name.
     """
     data = read_file(path, MOST_BYTES)
-    wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-    return decode_bvh(data.decode("utf-16" if wide else "utf-8-sig", "replace"), os.fspath(path), figure)
+    return decode_bvh(data.decode(encoding(data), "replace"), os.fspath(path), figure)
+
+
+def encoding(data: bytes) -> str:
+    """Return the encoding of the text that begins with these bytes; UTF-16 is recognised without a mark too."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return "utf-16"
+    if b"\0" in data[:2]:
+        return "utf-16-be" if data[:1] == b"\0" else "utf-16-le"
+    return "utf-8-sig"
 
 
 def decode_bvh(text: str, file: str, figure: str = "") -> BvhClip:
     """Parse the text of a BVH file; see `read_bvh`. ``file`` is its name for messages."""
-    found = _MOTION.search(text)
-    head, motion = (text[: found.start()], text[found.end() :]) if found else (text, "")
+    found, headless = _MOTION.search(text), _FRAMES_LINE.search(text)
+    start, stop = found.span() if found else headless.span() if headless else (len(text), len(text))
     skeleton = _Skeleton(file)
-    skeleton.read(head)
-    return _motion(motion, skeleton, len(text[: found.end()].splitlines()) if found else 0, figure)
+    skeleton.read(text[:start], is_all=start == len(text))
+    line = len(text[:stop].splitlines())
+    clip = _motion(text[stop:], skeleton, line, figure)
+    if found:
+        return clip
+    return replace(clip, guesses=(Message("motion.no_keyword", {"line": line + 1}), *clip.guesses))
 
 
 class _Skeleton:
@@ -88,6 +101,7 @@ class _Skeleton:
         self.offsets: list[list[float]] = []
         self.channels: list[list[str]] = []
         self.end_sites: dict[int, FloatArray] = {}
+        self.lines = 0
 
     @property
     def roots(self) -> list[int]:
@@ -103,9 +117,11 @@ class _Skeleton:
         found.end_sites = {joint - first: end for joint, end in self.end_sites.items() if first <= joint < stop}
         return found
 
-    def read(self, head: str) -> None:
+    def read(self, head: str, *, is_all: bool) -> None:
+        """Parse the skeletons; ``is_all`` if nothing follows in the file."""
         pieces = ((number, piece.split()) for number, line in _lines(head) for piece in _BRACES.split(line))
         rows = ((number, words) for number, words in pieces if words)
+        self.lines = len(head.splitlines())
         number, words = self._next(rows)
         if [word.upper() for word in words] != ["HIERARCHY"]:
             raise self._syntax(number, words)
@@ -128,8 +144,10 @@ class _Skeleton:
                 open_joints.pop()
             else:
                 raise self._syntax(number, words)
+        if open_joints and not is_all:
+            raise FileError("bvh.brace", file=self.file, line=_unclosed(head))
         if open_joints or not self.names:
-            raise FileError("bvh.truncated", file=self.file)
+            raise FileError("bvh.truncated", file=self.file, line=self.lines)
 
     def _open(self, number: int, name: str, open_joints: list[int]) -> None:
         if len(open_joints) >= _DEEPEST:
@@ -150,7 +168,7 @@ class _Skeleton:
 
     def _offset(self, number: int, words: list[str]) -> list[float]:
         try:
-            values = [float(word) for word in _without_commas([words[1:]], 3)[0]]
+            values = [float(word) for word in without_commas([words[1:]], 3)[0]]
         except ValueError as error:
             raise self._syntax(number, words) from error
         if words[0].upper() != "OFFSET" or len(values) != 3 or not np.isfinite(values).all():
@@ -160,7 +178,7 @@ class _Skeleton:
     def _next(self, rows: Iterator[tuple[int, list[str]]]) -> tuple[int, list[str]]:
         row = next(rows, None)
         if row is None:
-            raise FileError("bvh.truncated", file=self.file)
+            raise FileError("bvh.truncated", file=self.file, line=self.lines)
         return row
 
     def _brace(self, rows: Iterator[tuple[int, list[str]]], brace: str = "{") -> None:
@@ -173,7 +191,31 @@ class _Skeleton:
 
 
 def _lines(text: str) -> Iterator[tuple[int, str]]:
-    return enumerate(text.splitlines(), start=1)
+    numbered = enumerate(text.splitlines(), start=1)
+    return ((number, line) for number, line in numbered if not line.lstrip().startswith(COMMENTS))
+
+
+def _unclosed(head: str) -> int:
+    """Line of a skeleton before which a closing brace is missing: where the indentation goes back, else the line after
+    the last one.
+    """
+    outer: list[int] = []
+    indented = any(line[:1].isspace() for _, line in _lines(head))
+    for number, line in _lines(head):
+        words, depth = line.upper().split(), len(line) - len(line.lstrip())
+        opens = bool(words) and words[0].startswith(("ROOT", "JOINT", "END"))
+        if indented and words and outer and (depth < outer[-1] or (opens and depth == outer[-1])):
+            return number
+        outer += [depth] * opens
+        del outer[max(0, len(outer) - line.count("}")) :]
+    return len(head.splitlines()) + 1
+
+
+def _is_number(word: str) -> bool:
+    try:
+        return bool(np.isfinite(float(word)))
+    except ValueError:
+        return False
 
 
 def _motion(motion: str, skeleton: _Skeleton, line: int, figure: str) -> BvhClip:
@@ -193,7 +235,7 @@ def _motion(motion: str, skeleton: _Skeleton, line: int, figure: str) -> BvhClip
         raise FileError("bvh.frames", file=file, line=frames_line, found=said[1][:40])
     width = sum(len(channels) for channels in skeleton.channels)
     before_table = line - 1 + len(motion[: said.end()].splitlines())
-    values, guesses = _table(motion[said.end() :], frames, width, file, before_table)
+    values, guesses = read_rows(motion[said.end() :], frames, width, file, before_table)
     roots = skeleton.roots
     names = _numbered([skeleton.names[joint] for joint in roots])
     if figure and figure not in names:
@@ -219,72 +261,6 @@ def _numbered(names: list[str]) -> list[str]:
     """Return names made unique: the second "Hips" becomes "Hips (2)"."""
     earlier = [names[:at].count(name) for at, name in enumerate(names)]
     return [f"{name} ({before + 1})" if before else name for name, before in zip(names, earlier, strict=True)]
-
-
-def _table(text: str, frames: int, width: int, file: str, line: int) -> tuple[FloatArray, tuple[Message, ...]]:
-    """Parse the rows of the motion, with a message if their number differs from the stated one.
-
-    Parameters
-    ----------
-    frames : int
-        Number of rows stated in the file.
-    line : int
-        Line number at which the text begins.
-    """
-    rows = [line.split() for line in text.splitlines()]
-    if "," in text:
-        rows = _without_commas(rows, width)
-    values = _numbers(rows, file, line)
-    unlike = next((at for at, words in enumerate(rows) if words and len(words) != width), None)
-    if not width and unlike is None:
-        return np.zeros((frames, 0)), ()
-    # If the number of values is right, rows may be broken into lines anywhere; else each line must be a row.
-    if width and len(values) == frames * width:
-        return values.reshape(frames, width), ()
-    whole = len(values) // max(1, width)
-    if unlike is not None and (not whole or any(rows[unlike + 1 :])):
-        raise FileError("bvh.row", file=file, line=line + unlike, found=len(rows[unlike]), width=width)
-    if not whole:
-        raise FileError("bvh.truncated", file=file)
-    guess = Message("motion.rows" if unlike is None else "motion.row_cut", {"frames": frames, "found": whole})
-    return values[: whole * width].reshape(whole, width), (guess,)
-
-
-def _without_commas(rows: list[list[str]], width: int) -> list[list[str]]:
-    """Return rows of ``width`` numbers without commas: decimal commas become points, or commas separate numbers.
-
-    If neither gives the right count, the rows are returned unchanged.
-    """
-    decimal = all("," not in word or _DECIMAL_COMMA.fullmatch(word) for words in rows for word in words)
-    if decimal and _fit(rows, width):
-        return [[word.replace(",", ".") for word in words] for words in rows]
-    parted = [" ".join(words).replace(",", " ").split() for words in rows]
-    return parted if _fit(parted, width) else rows
-
-
-def _fit(rows: list[list[str]], width: int) -> bool:
-    """Return whether every row that is not empty has ``width`` words; the last row may be incomplete."""
-    filled = [len(words) for words in rows if words]
-    return all(count == width for count in filled[:-1] or filled)
-
-
-def _numbers(rows: list[list[str]], file: str, line: int) -> FloatArray:
-    try:
-        values = np.array([word for words in rows for word in words], dtype=np.float64)
-    except ValueError:
-        values = np.array([np.nan])
-    if not np.isfinite(values).all():
-        all_words = ((at, word) for at, words in enumerate(rows) for word in words)
-        bad, word = next(((at, word) for at, word in all_words if not _is_number(word)), (0, ""))
-        raise FileError("bvh.number", file=file, line=bad + line, found=shortened(word, 40))
-    return values
-
-
-def _is_number(word: str) -> bool:
-    try:
-        return bool(np.isfinite(float(word)))
-    except ValueError:
-        return False
 
 
 def _clip(

@@ -378,7 +378,7 @@ TEXT = encode_bvh(clip(frames=2)).decode()
         (re.sub("Frame Time: .*", "Frame Time: nan", TEXT), "bvh.frame_time"),
         (re.sub("Frame Time: .*", "Frame Time: 1e300", TEXT), "bvh.frame_time"),
         (TEXT.replace("\t{", "\t{ {", 1), "bvh.syntax"),
-        (TEXT + "word\n", "bvh.number"),
+        (TEXT.replace("\t\t}\n", "", 1), "bvh.brace"),
         ("HIERARCHY\n" + "JOINT a\n{\n" * 5, "bvh.syntax"),
         ("HIERARCHY\nROOT a\n{\n" + "JOINT a\n{\n" * 5000, "bvh.unsupported"),
     ],
