@@ -117,18 +117,33 @@ def feet_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float)
 
 def hands_within_changes(clip: MotionClip, most_rad_s: float) -> MotionClip:
     """Return the motion with the angular velocity of each hand in the world changing by at most `HANDS` times
-    ``most_rad_s`` from frame to frame, by bending wrists, since the changes of shoulder, elbow and wrist add up. The
-    same object is returned if no change is greater.
+    ``most_rad_s`` from frame to frame, by bending wrists, since the changes of shoulder, elbow and wrist add up; less
+    where a wrist would change by more than that instead. The same object is returned if no change is greater.
     """
-    parts = [SEGMENTS.index(name) for name in _HANDS]
+    parts, most_rad = [SEGMENTS.index(name) for name in _HANDS], HANDS * most_rad_s / float(clip.fps)
     world = clip.world().rotations[:, 1:]
     turns = world[:, parts]
     calm = _calm(turns, np.zeros((len(clip), 2), bool), HANDS * most_rad_s, float(clip.fps))
     if calm is turns:
         return clip
+    arms = world[:, [SEGMENTS.index(PARENT_OF[name]) for name in _HANDS]]
+    most = np.maximum(changes_rad(turns_rad(clip.rotations[:, parts])), most_rad)
+    moved: BoolArray = (calm != turns).any(axis=-1)
+    bends, shares = None, np.ones(moved.shape)
+    for share in SHARES:
+        wrists = quaternion.multiply(quaternion.conjugate(arms), calm)
+        off = changes_rad(turns_rad(wrists)) > most
+        if not off.any():
+            break
+        for hand in np.flatnonzero(off.any(axis=0)).tolist():
+            for here in (slice(*run) for run in runs(maximum_filter1d(moved[:, hand], 3))):
+                if off[here, hand].any():
+                    shares[here, hand] = share
+        if bends is None:
+            bends = quaternion.to_rotation_vector(quaternion.multiply(calm, quaternion.conjugate(turns)))
+        calm = quaternion.multiply(quaternion.from_rotation_vector(shares[..., None] * bends), turns)
     rotations = clip.rotations.copy(order="K")
-    arms = [SEGMENTS.index(PARENT_OF[name]) for name in _HANDS]
-    rotations[:, parts] = quaternion.multiply(quaternion.conjugate(world[:, arms]), calm)
+    rotations[:, parts] = quaternion.multiply(quaternion.conjugate(arms), calm)
     return replace(clip, rotations=quaternion.continuous(rotations))
 
 

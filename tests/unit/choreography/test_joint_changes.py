@@ -63,6 +63,14 @@ def test_a_hand_starts_gradually_although_all_joints_of_its_arm_snap_at_once() -
     assert hands_within_changes(found, MOST_RAD_S) is found
 
 
+def test_a_wrist_does_not_snap_in_place_of_its_hand() -> None:
+    clip, wrist = snapping("leftUpperArm", 24.0), SEGMENTS.index("leftHand")
+    assert hand_jumps(clip).max() > 2.0 * MOST_RAD_S
+    found = hands_within_changes(clip, MOST_RAD_S)
+    assert 0.5 * MOST_RAD_S < angular_jumps(found)[:, wrist].max() <= HANDS * MOST_RAD_S
+    assert hand_jumps(found).max() < 0.8 * hand_jumps(clip).max()
+
+
 def hand_jumps(clip: MotionClip) -> np.ndarray:
     """Change (F - 2,) of the left hand's angular velocity in the world in rad/s."""
     turns = clip.world().rotations[:, 1 + SEGMENTS.index("leftHand")]
