@@ -11,13 +11,14 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
-from app.arrays import BoolArray, FloatArray, IntArray
+from app.arrays import FloatArray, IntArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import free, legs_to, rest_tip_m
 from app.choreography.foot_plants import STEP_S, FootPlant, InAir, planted_frames
 from app.choreography.hovering_feet import hover_m, supporting
+from app.choreography.limbs import smooth_share
 from app.choreography.low_feet import cleared_m
 from app.rig import quaternion
 from app.rig.ik import leg
@@ -41,6 +42,9 @@ HIGHER: Final = 0.02
 lightest dancer."""
 SINK_S: Final = 0.12
 """Standard deviation in seconds of the hips' lowering and of their way towards a foot."""
+HASTE: Final = 1.5
+"""Speed relative to the motion's own above which a stand is not shown faster, but shortened: what lies between its
+beginning and its end is left out."""
 
 _UP: Final = np.array([0.0, 1.0, 0.0])
 _LEGS: Final = tuple(
@@ -118,7 +122,7 @@ def planted(
     body = MovingBody.of(clip) if body is None else body
     tips, legs = body.tips, body.world.only(_LEGS)
     if shown is not None:
-        tips = _feet_at(body, legs, shown, planted_frames(standing, len(clip)), float(clip.fps))
+        tips = _feet_at(body, legs, shown, standing, float(clip.fps))
     targets = tips.copy(order="K") if aside_m is None else tips + aside_m
     own = [[stand for stand in standing if stand.foot == foot] for foot in range(2)]
     for foot in range(2):
@@ -139,17 +143,40 @@ def planted(
     return legs_to(clip, legs, targets, planted_frames(standing, len(clip)))
 
 
-def _feet_at(body: MovingBody, legs: JointTransforms, shown: FloatArray, on_floor: BoolArray, fps: float) -> FloatArray:
+def _feet_at(
+    body: MovingBody, legs: JointTransforms, shown: FloatArray, standing: Sequence[FootPlant], fps: float
+) -> FloatArray:
     """World positions of foot tips (F, feet, 3), taken for each foot from the frame ``shown`` (F, feet), which may be
     fractional. The feet are turned likewise, in place in ``legs``; a foot in the air turns along with the hips, as it
-    does in a spin.
+    does in a spin. Stands much shorter than in the motion are shortened, see `HASTE`.
     """
     frames, tips, facing = np.arange(len(shown)), np.empty_like(body.tips), body.facing_rad
+    on_floor = planted_frames(standing, len(shown))
     for foot, name in enumerate(FEET):
         tips[:, foot], turned = body.foot_at(foot, shown[:, foot])
+        hasty, firsts, lasts, shares = _shortened(shown[:, foot], [stand for stand in standing if stand.foot == foot])
+        if len(hasty):
+            (begun_m, begun), (ended_m, ended) = (body.foot_at(foot, at) for at in (firsts, lasts))
+            tips[hasty, foot] = begun_m + shares[:, None] * (ended_m - begun_m)
+            turned[hasty] = quaternion.slerp(begun, ended, shares)
         along = free(on_floor[:, foot], fps) * (facing - np.interp(shown[:, foot], frames, facing))
         legs.of(1 + SEGMENTS.index(name))[1][:] = quaternion.multiply(quaternion.from_axis_angle(_UP, along), turned)
     return tips
+
+
+def _shortened(shown: FloatArray, standing: Sequence[FootPlant]) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
+    """Return the frames (N,) of those stands of a foot that ``shown`` (F,) hastens more than `HASTE`, for each the
+    frames of the motion counted from the stand's beginning and from its end, and the share of the latter.
+    """
+    bounds = [(stand.start, stand.stop - 1) for stand in standing if stand.stop - stand.start > 2]
+    starts, ends = np.array(bounds, np.int64).reshape(-1, 2).T
+    hasty = shown[ends] - shown[starts] > HASTE * (ends - starts)
+    starts, ends = starts[hasty], ends[hasty]
+    frames = np.concatenate([np.zeros(0, np.int64), *(np.arange(*span) for span in zip(starts, ends + 1, strict=True))])
+    which = np.repeat(np.arange(len(starts)), ends - starts + 1)
+    since, left = frames - starts[which], ends[which] - frames
+    shares = smooth_share(since / (since + left), (0.0, 1.0))
+    return frames, shown[starts][which] + since, shown[ends][which] - left, shares
 
 
 def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> FloatArray:

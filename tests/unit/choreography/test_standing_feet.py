@@ -18,6 +18,7 @@ from app.choreography.standing_feet import DEEPER, HIGHER, planted
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps
 from tests.support.dances import SHANK_M, THIGH_M, stepping, still
+from tests.unit.choreography.test_joint_changes import world_jumps_rad_s
 from tests.unit.choreography.test_spins import spinning
 
 
@@ -92,6 +93,21 @@ def test_a_quick_step_of_the_motion_itself_keeps_its_time() -> None:
     assert [(stand.foot, stand.start, stand.stop) for stand in standing] == [
         (0, 0, 58), (1, 0, 58), (0, 63, 120), (1, 63, 120)
     ]  # fmt: skip
+
+
+def test_a_stand_much_shorter_than_captured_is_not_shown_in_haste() -> None:
+    """The heel of a long stand rises and sinks twice; the music leaves a fifth of the time for it."""
+    clip, frames = still(120), np.arange(120.0)
+    clip = replace(clip, hips_m=clip.hips_m - (0.0, 0.03, 0.0))
+    risen_rad = 0.3 * np.sin(2.0 * np.pi * np.clip((frames - 30) / 60.0, 0.0, 1.0)) ** 2
+    risen = quaternion.from_rotation_vector(risen_rad[:, None] * (1.0, 0.0, 0.0))
+    clip.rotations[:, SEGMENTS.index("leftFoot")] = risen
+    shown = np.interp(frames, [0.0, 24.0, 54.0, 66.0, 96.0, 119.0], [0.0, 24.0, 30.0, 90.0, 96.0, 119.0])
+    stand = FootPlant(0, 54, 67, tuple(tips_m(clip)[0, 0].tolist()))
+    found = planted(clip, (stand,), shown=np.stack([shown, frames], axis=1))
+    assert tips_m(found)[54:67, 0] == pytest.approx(np.tile(stand.place_m, (13, 1)), abs=1e-6)
+    # In a fifth of the time it would turn up to 25 times as suddenly.
+    assert world_jumps_rad_s(found, "leftFoot")[54:64].max() < 2.0 * world_jumps_rad_s(clip, "leftFoot").max()
 
 
 def test_a_foot_of_a_body_that_is_kept_near_its_place_goes_on_standing() -> None:
