@@ -16,6 +16,7 @@ from app.motion.contacts.carried_instrument import InstrumentTransform
 from app.motion.contacts.hand_in_bell import wrist_shift
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
+from app.rig import quaternion
 from app.rig.grip.grip_pose import hand_targets
 from app.rig.grip.lips import with_lip_landmarks
 from app.rig.instrument import node_transforms
@@ -72,13 +73,16 @@ class ContactJudge:
         return tuple(found)
 
     def _feet(self, motion: Motion, frames: IndexArray, times_s: FloatArray) -> Iterator[Break]:
-        place, meant_m = self._curves.player.place, self._curves.ankles_m(times_s)
+        place, meant = self._curves.player.place, self._curves.footings(times_s)
         ankles = {side: limb.end for side, limb in place.legs.items()}
         joints = forward(
             self._character.skeleton, motion.rotations[frames], motion.hips_m[frames], sorted(ankles.values())
         )
         for side, ankle in ankles.items():
-            gaps_m = distance_m(joints.of(ankle)[0], meant_m[side])
+            # The heel, since it stays where it is however far the ankle lets the toes rise.
+            poses = joints.of(ankle), (meant[side].ankle_m, meant[side].foot)
+            there_m, meant_m = (ankle_m + quaternion.rotate(foot, place.heels_m[side]) for ankle_m, foot in poses)
+            gaps_m = distance_m(there_m, meant_m)
             yield from runs(("foot", side, ""), times_s, gaps_m, gaps_m * 1000.0 > FEET_MM)
 
     def _playing_contacts(

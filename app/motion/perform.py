@@ -21,7 +21,7 @@ from app.motion.contacts.hand_in_bell import STOPPING, bell_closing
 from app.motion.contacts.ready_player import player_body
 from app.motion.contacts.solve import PlayerBody, padding_frames, solve
 from app.motion.contacts.still_player import ContactCurves
-from app.motion.contacts.trunk_and_legs import SIDES, Side, footing, hips_path, torso_forward
+from app.motion.contacts.trunk_and_legs import SIDES, Footing, Side, footing, hips_path, torso_forward
 from app.motion.curves.curve import EVERYWHERE, Curve, Envelopes, frame_times
 from app.motion.faces.exertion import Lungs
 from app.motion.faces.face_curves import FACE, FaceCurves
@@ -251,13 +251,13 @@ class PerformanceCurves:
         asked |= {giving_for(finger) for hand in hands for lean in hand.leans for finger, _ in lean.places}
         return {name: sampled(curve, times_s) for name, curve in self.stations.items() if name in asked}
 
-    def ankles_m(self, times_s: FloatArray) -> dict[Side, FloatArray]:
-        """Intended positions (F, 3) of the ankles in metres, by side, at ascending times."""
+    def footings(self, times_s: FloatArray) -> dict[Side, Footing]:
+        """Intended poses of the feet, by side, at ascending times (F,); toes rise only as far as the ankles allow."""
         levels, amplitude = self.layers.feet.sample(times_s), self.parameters.amplitude
         moved = feet_moved(levels, self.body, amplitude, self.acting.footwork, steps=self.player.steps)
         danced = self.danced_feet.sample(times_s, steps=self.player.stands_free)
         moved = with_danced(moved, danced, self.parameters.dance_amount)
-        return {side: footing(self.player.place, side, moved, len(times_s)).ankle_m for side in SIDES}
+        return {side: footing(self.player.place, side, moved, len(times_s)) for side in SIDES}
 
     def changed_s(self, other: PerformanceCurves) -> FloatArray:
         """Return the K spans (K, 2) in seconds outside of which, and of `padding_frames` around them, both motions have

@@ -10,6 +10,7 @@ import msgspec
 import numpy as np
 
 from app.arrays import FloatArray
+from app.motion.contacts.trunk_and_legs import SIDES, Footing, Side, footing
 from app.motion.model import Motion
 from app.motion.perform import PerformanceCurves
 from app.performance.chunks import Pose
@@ -83,10 +84,10 @@ class Played:
         """Same as in `PerformanceCurves`: empty, since controls are unknown in advance."""
         return {}
 
-    def ankles_m(self, times_s: FloatArray) -> dict[str, FloatArray]:
+    def footings(self, times_s: FloatArray) -> dict[Side, Footing]:
         """Same as in `PerformanceCurves`: the feet of a live player do not move."""
         place = self.playing.player.place
-        return {side: np.tile(ankle_m, (len(times_s), 1)) for side, ankle_m in place.ankles_m.items()}
+        return {side: footing(place, side, {}, len(times_s)) for side in SIDES}
 
     def placed(self, times_s: FloatArray) -> dict[str, StationBlend]:
         """Positions of the hands at some times, by hand."""

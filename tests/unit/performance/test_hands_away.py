@@ -178,11 +178,11 @@ def _other_hand_and_feet_stay(playing: PerformanceCurves, motion: Motion, side: 
             asked_m, _ = hand_targets(hand, *place, motion.controls)
             there_m, _ = forward(skeleton, motion.rotations, motion.hips_m, [wrist]).of(wrist)
             assert np.linalg.norm(there_m - asked_m, axis=1).max() < 2e-3
-    meant_m = playing.ankles_m(motion.first_frame_s + np.arange(motion.frames) / FPS)
+    meant = playing.footings(motion.first_frame_s + np.arange(motion.frames) / FPS)
     for foot in ("left", "right"):
         ankle = skeleton.index(f"{foot}Foot")
         there_m, _ = forward(skeleton, motion.rotations, motion.hips_m, [ankle]).of(ankle)
-        assert np.linalg.norm(there_m - meant_m[foot], axis=1).max() < 1e-3
+        assert np.linalg.norm(there_m - meant[foot].ankle_m, axis=1).max() < 1e-3
 
 
 def _within_bounds(motion: Motion, without: Motion, playing: PerformanceCurves) -> None:
