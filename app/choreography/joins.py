@@ -124,11 +124,9 @@ def fading_difference(value: FloatArray, slope: FloatArray, times_s: FloatArray,
     (T, ...) float64
         Quintic with this value and slope and no curvature at 0, and all three 0 from ``fade_s`` on.
     """
-    u = np.clip(times_s / fade_s, 0.0, 1.0).reshape(-1, *(1,) * np.ndim(value))
-    rest = 1.0 - u
     # Basis of the quintic: value 1 and slope 0, value 0 and slope 1 at the start, curvature 0; all 0 at the end.
-    held = rest**3 * (1.0 + 3.0 * u + 6.0 * u * u)
-    return np.asarray(held * value + _fading_slope(u) * (fade_s * np.asarray(slope)))
+    u = np.clip(times_s / fade_s, 0.0, 1.0).reshape(-1, *(1,) * np.ndim(value))
+    return np.asarray(_fading_value(u) * value + _fading_slope(u) * (fade_s * np.asarray(slope)))
 
 
 def fading_turn(
@@ -142,8 +140,9 @@ def fading_turn(
 
     Parameters
     ----------
-    turn, spin_rad_s : (B, 3) float64
-        Rotation vector of each joint at time 0, and its rate of change per second.
+    turn, spin_rad_s : (B, 3) or (T, B, 3) float64
+        Rotation vector of each joint at time 0, and its rate of change per second; the same for all times, or each time
+        with its own.
     times_s : (T,) float64
         From 0 on.
     carried_rad : float or (B,) float64
@@ -153,8 +152,15 @@ def fading_turn(
     """
     far_s = carried_rad / (_CARRIED * np.maximum(np.linalg.norm(spin_rad_s, axis=-1), 1e-9))
     fades_s = np.clip(far_s, LEAST_FADE_S, fade_s)
-    carried = _fading_slope(np.clip(times_s[:, None] / fades_s, 0.0, 1.0))[..., None] * fades_s[:, None] * spin_rad_s
-    return np.asarray(fading_difference(turn, np.zeros_like(turn), times_s, fade_s) + carried)
+    carried = _fading_slope(np.clip(times_s[:, None] / fades_s, 0.0, 1.0))[..., None] * fades_s[..., None] * spin_rad_s
+    held = _fading_value(np.clip(times_s / fade_s, 0.0, 1.0))[:, None, None] * turn
+    return np.asarray(held + carried)
+
+
+def _fading_value(u: FloatArray) -> FloatArray:
+    """Quintic with value 1 and slope 0 at 0, and value and slope 0 at 1; no curvature at either."""
+    rest = 1.0 - u
+    return np.asarray(rest**3 * (1.0 + 3.0 * u + 6.0 * u * u))
 
 
 def _fading_slope(u: FloatArray) -> FloatArray:

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from app.arrays import FloatArray
+from app.arrays import BoolArray, FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.rig import quaternion
@@ -65,8 +65,7 @@ def within_hinges(rotations: FloatArray, captured: FloatArray, ranges: FloatArra
     ranges : (4, 2) float64
         See `hinge_ranges`.
     """
-    result = rotations.copy(order="K")
-    every = quaternion.twist_angle(rotations[:, [SEGMENTS.index(name) for name in HINGES]], list(HINGES.values()))
+    result, every = rotations.copy(order="K"), _bends_rad(rotations)
     within = (ranges[:, 0] <= every.min(axis=0)) & (every.max(axis=0) <= ranges[:, 1])
     for hinge in np.flatnonzero(~within).tolist():
         name, axis = list(HINGES.items())[hinge]
@@ -81,6 +80,17 @@ def within_hinges(rotations: FloatArray, captured: FloatArray, ranges: FloatArra
             turn = quaternion.from_rotation_vector(back[:, None] * np.array(axis))
             result[:, at] = quaternion.multiply(turn, result[:, at])
     return result
+
+
+def beyond_hinges(rotations: FloatArray, ranges: FloatArray) -> BoolArray:
+    """Return in which frames (F,) a knee or elbow is bent beyond its range; see `within_hinges`."""
+    bends = _bends_rad(rotations)
+    return np.asarray(((bends < ranges[:, 0]) | (bends > ranges[:, 1])).any(axis=1))
+
+
+def _bends_rad(rotations: FloatArray) -> FloatArray:
+    """Return the angles (F, 4) in radians by which knees and elbows are bent."""
+    return quaternion.twist_angle(rotations[:, [SEGMENTS.index(name) for name in HINGES]], list(HINGES.values()))
 
 
 def softly_within(values: FloatArray, least: float, most: float) -> FloatArray:

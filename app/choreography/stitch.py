@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -19,18 +20,14 @@ from app.choreography.contacts import foot_contacts
 from app.choreography.features import facing, height_m
 from app.choreography.joins import (
     FADE_S,
-    LEANS_RAD,
-    MOST_CARRIED_RAD,
     STATURE_M,
     Clouds,
     best_turn_rad,
-    facing_apart,
-    facing_together,
     fading_difference,
-    fading_turn,
 )
-from app.choreography.limbs import hinge_ranges, within_hinges
+from app.choreography.limbs import hinge_ranges
 from app.choreography.model import ChoreographyModel
+from app.choreography.seam_blends import HipsOnTheWay, Seams, blend_rotations
 from app.choreography.stage import STAGE_M
 from app.rig import quaternion
 
@@ -50,7 +47,6 @@ LATELY_S: Final = 1.0
 SPINS_RAD_S: Final = 5.0
 """Speed in radians per second from which a turn of the hips is a spin, in which facing is not corrected."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
-_CARRIED_RAD: FloatArray = np.array([LEANS_RAD, *[MOST_CARRIED_RAD] * len(SEGMENTS)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,14 +133,15 @@ class Stitcher:
             Frames at which motion begins that does not continue the capture before it.
         """
         runs = np.flatnonzero(np.diff(frames.which, prepend=-1, append=frames.which[-1] + 1))
-        captured, contacts = self._captured(frames, runs, body, fps)
-        out = _Output(fps, len(frames.which), self.hinges)
+        (captured_m, rotations), contacts = self._captured(frames, runs, body, fps)
+        rate, turns = float(fps), np.zeros(len(rotations))
+        way, ahead = HipsOnTheWay(rate, len(frames.which)), _Ahead.of(rotations, rate)
         seams: list[int] = []
+        rows: list[int] = []
         steered: list[_Steer] = []
         turn, moved = 0.0, 0.0 + 0.0j
-        ahead = _Ahead.of(captured[1], float(fps))
         before: int | None = None
-        for run, (start, stop) in enumerate(zip(runs[:-1].tolist(), runs[1:].tolist(), strict=True)):
+        for run, (start, stop) in enumerate(pairwise(runs.tolist())):
             step, kept, seam = int(frames.which[start]), (turn, moved), before is not None
             segment = int(frames.segments[step])
             if before is None:
@@ -154,22 +151,28 @@ class Stitcher:
                 seam = not self.follows(segment, earlier)
                 if seam or step != before + 1:
                     turn, moved = self._aligned(earlier, segment, turn, moved, self._heights_m[body])
-                turn, moved = _steered(turn, moved, out, start, ahead, slice(start + run, stop + run))
+                turn, moved = _steered(turn, moved, way, start, ahead, slice(start + run, stop + run))
                 if seam:
                     seams.append(start)
+                    rows.append(start + run)
                     steered.clear()
                 else:
                     # The capture continues exactly; only position and facing change gradually.
                     steered.append(_Steer(start, kept, (turn, moved)))
             # One additional frame: the first two show how fast the old and the new motion diverge.
             here = slice(start + run, stop + run + 1)
-            times_s = (start + np.arange(stop - start + 1)) / float(fps)
-            steered = [one for one in steered if one.start > start - FADE_S * float(fps)]
-            place = _place_at(times_s, turn, moved, steered, float(fps))
-            out.append(start, *_placed(captured[0][here], captured[1][here], *place), seam=seam)
+            steered = [one for one in steered if one.start > start - FADE_S * rate]
+            times_s = (start + np.arange(stop - start + 1)) / rate
+            turns[here], factors, moves = _place_at(times_s, turn, moved, steered, rate)
+            way.append(start, _placed(captured_m[here], factors, moves), seam=seam)
             before = step
+        rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle(_UP, turns), rotations[:, 0])
+        shown = np.arange(len(frames.which)) + np.repeat(np.arange(len(runs) - 1), np.diff(runs))
+        blend_rotations(rotations, shown, Seams(np.array(seams, np.int64), np.array(rows, np.int64)), self.hinges, rate)
         shape = self._model.clips[body].shape
-        return MotionClip(shape, fps, out.hips, quaternion.continuous(out.rotations)), contacts, tuple(seams)
+        turned = np.take(rotations.transpose(1, 2, 0), shown, axis=2).transpose(2, 0, 1)
+        clip = MotionClip(shape, fps, way.hips, quaternion.continuous(turned))
+        return clip, contacts, tuple(seams)
 
     def _captured(
         self, frames: Frames, runs: IntArray, body: int, fps: Fraction
@@ -184,7 +187,7 @@ class Stitcher:
             np.insert(frames.which, runs[1:], frames.which[last]),
         )
         clips = np.array([segment.clip for segment in self._model.segments])[frames.segments]
-        hips, rotations = np.zeros((len(which), 3)), np.zeros((len(which), len(SEGMENTS), 4))
+        hips, rotations = quaternion.planes(len(which), 3), quaternion.planes(len(which), len(SEGMENTS), 4)
         contacts = np.zeros((len(frames.which), 2), bool)
         for number, (smooth, clip) in enumerate(zip(self._clips, self._model.clips, strict=True)):
             here, shown = clips[which] == number, clips[frames.which] == number
@@ -232,19 +235,6 @@ class _SmoothClip:
         return self._hips(frames), quaternion.normalize(turns)
 
 
-class _Blend(NamedTuple):
-    """Difference of the old motion from the new one at a seam, and its rate of change.
-
-    The lean of the hips is compared apart from their facing, since it turns with a body that spins.
-    """
-
-    start: int
-    off_m: FloatArray
-    drift_m_s: FloatArray
-    turned: FloatArray
-    spin_rad_s: FloatArray
-
-
 class _Steer(NamedTuple):
     """Change of rotation (radians) and move (complex, metres) of a motion from a frame on."""
 
@@ -267,68 +257,6 @@ def _place_at(
         factors += left * (np.exp(1j * old[0]) - np.exp(1j * new[0]))
         moves += left * (old[1] - new[1])
     return turns, factors, moves
-
-
-class _Output:
-    """Output frames in progress, in which each new motion is blended from the previous one."""
-
-    def __init__(self, fps: Fraction, count: int, hinges: FloatArray) -> None:
-        self.rate, self._hinges = float(fps), hinges
-        self.hips = np.zeros((count, 3))
-        self.rotations = quaternion.planes(count, len(SEGMENTS), 4)
-        self.rotations[...] = quaternion.IDENTITY
-        self._blend: _Blend | None = None
-
-    def append(self, start: int, hips: FloatArray, rotations: FloatArray, *, seam: bool) -> None:
-        """Add the frames of a run, except the last one, which is only the start of the next blend.
-
-        At a seam all segments and the place of the hips are blended from the previous motion; a run that follows in the
-        capture continues the blend before it.
-        """
-        count = len(hips) - 1
-        if seam:
-            self._blend = self._blended(start, hips, rotations) if start >= 2 else None
-        if self._blend is not None and start >= self._blend.start + math.ceil(FADE_S * self.rate):
-            self._blend = None
-        if self._blend is not None:
-            fading = slice(0, min(count, self._blend.start + math.ceil(FADE_S * self.rate) - start))
-            times_s = (start - self._blend.start + np.arange(fading.stop)) / self.rate
-            hips[fading] += fading_difference(self._blend.off_m, self._blend.drift_m_s, times_s)
-            off_turns = quaternion.from_rotation_vector(
-                fading_turn(self._blend.turned, self._blend.spin_rad_s, times_s, _CARRIED_RAD)
-            )
-            captured = facing_apart(rotations[fading])
-            blended = within_hinges(quaternion.multiply(off_turns, captured), captured, self._hinges)
-            rotations[fading] = facing_together(blended)
-        here = slice(start, start + count)
-        self.hips[here], self.rotations[here] = hips[:-1], rotations[:-1]
-
-    def _blended(self, start: int, hips: FloatArray, rotations: FloatArray) -> _Blend:
-        """Compare a new motion, by its first two frames, with where the old one would go on to."""
-        hips_before, hips_last = self.hips[start - 2 : start]
-        turns_before, turns_last = self.rotations[start - 2 : start]
-        step, turn = hips_last - hips_before, quaternion.multiply(turns_last, quaternion.conjugate(turns_before))
-        off = hips_last + step * np.array([[1.0], [2.0]]) - hips[:2]
-        goes_on = np.stack([once := quaternion.multiply(turn, turns_last), quaternion.multiply(turn, once)])
-        goes_on, new = facing_apart(goes_on), facing_apart(rotations[:2])
-        turned = quaternion.to_rotation_vector(quaternion.multiply(goes_on, quaternion.conjugate(new)))
-        spin = turned[1] - turned[0]
-        # A difference near half a turn is ambiguous; a join that poor is never chosen.
-        spin = np.where(np.linalg.norm(spin, axis=-1, keepdims=True) > 1.0, 0.0, spin)
-        return _Blend(start, off[0], (off[1] - off[0]) * self.rate, turned[0], spin * self.rate)
-
-    def place(self, frame: int) -> complex:
-        """Position of the hips on the floor (complex, metres) just before a frame."""
-        return complex(self.hips[frame - 1, 2], self.hips[frame - 1, 0])
-
-    def lately(self, frame: int) -> complex | None:
-        """Mean position of the hips on the floor (complex, metres) over the last `LATELY_S`; None if there are too few
-        frames."""
-        first = max(0, frame - round(LATELY_S * self.rate))
-        if frame - first < 2:
-            return None
-        middle = self.hips[first:frame].mean(axis=0)
-        return complex(middle[2], middle[0])
 
 
 class _Ahead(NamedTuple):
@@ -354,20 +282,20 @@ class _Ahead(NamedTuple):
 
 
 def _steered(
-    turn: float, moved: complex, out: _Output, frame: int, ahead: _Ahead, coming: slice
+    turn: float, moved: complex, way: HipsOnTheWay, frame: int, ahead: _Ahead, coming: slice
 ) -> tuple[float, complex]:
     """Correct rotation and move of the next segment slightly, to bring the dancer back towards the usual place (from
     the recent mean position) and towards the audience (from the mean direction ``ahead`` in its ``coming`` frames). A
     spin in progress is not turned.
     """
-    hips = out.lately(frame)
+    hips = way.lately(frame, LATELY_S)
     if hips is None:
         return turn, moved
     off = cmath.phase(cmath.exp(1j * turn) * complex(ahead.faces[coming].mean()))
     if abs(off) > FACES_RAD and not ahead.spins(coming):
         nudge = -math.copysign(min(TURN_BACK * (abs(off) - FACES_RAD), MOST_TURN_RAD), off)
         # Rotated about the position of the body, so that it does not orbit the centre of the stage.
-        here = out.place(frame)
+        here = way.place(frame)
         moved = here + complex(np.exp(1j * nudge)) * (moved - here)
         turn += nudge
     away = abs(hips)
@@ -376,11 +304,8 @@ def _steered(
     return turn, moved
 
 
-def _placed(
-    hips: FloatArray, rotations: FloatArray, turns: FloatArray, factors: ComplexArray, moves: ComplexArray
-) -> tuple[FloatArray, FloatArray]:
-    """Turn hip positions (F, 3) by the complex ``factors`` and bone rotations (F, B, 4) by ``turns`` (radians) about
-    the vertical, in place, and move them over the floor by ``moves`` (complex, metres: Z + X · i), each (F,)."""
-    flat = factors * (hips[:, 2] + 1j * hips[:, 0]) + moves
-    rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle(_UP, turns), rotations[:, 0])
-    return np.stack([flat.imag, hips[:, 1], flat.real], axis=1), rotations
+def _placed(hips_m: FloatArray, factors: ComplexArray, moves: ComplexArray) -> FloatArray:
+    """Turn positions (F, 3) by the complex ``factors`` about the vertical, and move them over the floor by ``moves``
+    (complex, metres: Z + X · i), each (F,)."""
+    flat = factors * (hips_m[:, 2] + 1j * hips_m[:, 0]) + moves
+    return np.stack([flat.imag, hips_m[:, 1], flat.real], axis=1)
