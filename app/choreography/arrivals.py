@@ -105,8 +105,6 @@ def best_arrival_map(
     plain: TimeMap,
     grid: AccentGrid,
     falls: FloatArray,
-    *,
-    with_falls: bool,
 ) -> TimeMap:
     """Improve the time map of a dance in a few steps, so that arrivals and footfalls meet beats, and return the best
     map.
@@ -123,8 +121,6 @@ def best_arrival_map(
         Time map with a knot only at the place of each segment (see `app.choreography.warp.map_with_arrivals`).
     falls : (N,) float64
         Times of footfalls in the draft in seconds.
-    with_falls : bool
-        Whether footfalls without an arrival of the body are put on beats too.
     """
     along, speeds = shown.at(draft_s)
     seen = speeds > LEAST_SPEED
@@ -142,5 +138,5 @@ def best_arrival_map(
         if value > best_value:
             best, best_value = tried, value
         if number < TRIES:
-            tried = map_with_arrivals(plain, places[frames], grid, falls_along, with_falls=with_falls)
+            tried = map_with_arrivals(plain, places[frames], grid, falls_along)
     return best

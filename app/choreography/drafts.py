@@ -15,8 +15,8 @@ from app.choreography.feet_on_beats import feet_on_beats
 
 DRAFT_FPS: Final = Fraction(60)
 """Frame rate of the drafts in which arrivals and footfalls are found; at half of it contacts differ from the dance."""
-DRAFTS: Final = 4
-"""Greatest number of drafts, each with the best time map of the previous one, with and without footfalls on beats."""
+DRAFTS: Final = 5
+"""Greatest number of drafts, each with the best time map of the previous one."""
 
 
 class Draft(NamedTuple):

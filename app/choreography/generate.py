@@ -323,26 +323,22 @@ class Choreographer:
         first_s, fps = float(plain.times_s[0]), float(DRAFT_FPS)
         draft_s = first_s + np.arange(math.ceil((float(plain.times_s[-1]) - first_s) * fps)) / fps
         arrivals, falls = self._arrivals_s(segments, hits), self._falls_along(segments, hits)
+        shown = self._shortest.calmed(map_with_arrivals(plain, arrivals, grid, falls), segments, hits, hits + after)
+        if len(draft_s) < 2:
+            return planned(shown)
         best, best_worth = plain, -np.inf
-        for with_falls in (False, True):
-            shown = map_with_arrivals(plain, arrivals, grid, falls, with_falls=with_falls)
-            shown = self._shortest.calmed(shown, segments, hits, hits + after)
-            if len(draft_s) < 2:
-                return planned(shown)
-            for number in range(DRAFTS):
-                motion = self._motion(planned(shown), body, DRAFT_FPS, draft_s)
-                draft = draft_of(motion.clip, motion.contacts, motion.moved_m, draft_s, grid, self._step_s)
-                worth = beats_met(draft_s[arrival_frames(draft.speed_m_s, fps)], draft.down_s, grid)
-                if worth > best_worth:
-                    best, best_worth = shown, worth
-                if number == DRAFTS - 1:
-                    break
-                following = best_arrival_map(
-                    draft.speed_m_s, draft_s, shown, plain, grid, draft.falls_s, with_falls=with_falls
-                )
-                if following is shown:
-                    break
-                shown = self._shortest.calmed(following, segments, hits, hits + after)
+        for number in range(1, DRAFTS + 1):
+            motion = self._motion(planned(shown), body, DRAFT_FPS, draft_s)
+            draft = draft_of(motion.clip, motion.contacts, motion.moved_m, draft_s, grid, self._step_s)
+            worth = beats_met(draft_s[arrival_frames(draft.speed_m_s, fps)], draft.down_s, grid)
+            if worth > best_worth:
+                best, best_worth = shown, worth
+            if number == DRAFTS:
+                break
+            following = best_arrival_map(draft.speed_m_s, draft_s, shown, plain, grid, draft.falls_s)
+            if following is shown:
+                break
+            shown = self._shortest.calmed(following, segments, hits, hits + after)
         return planned(best)
 
     def _arrivals_s(self, segments: IntArray, hits: FloatArray) -> FloatArray:

@@ -35,8 +35,6 @@ HELD: Final = 6.0
 """Value of a segment that stays in a place set by hand, above those of all arrivals that it may keep from beats."""
 STEPPED: Final = 0.1
 """Additional value of an arrival on a beat with a footfall."""
-FALLS: Final = 0.2
-"""Value of a footfall on a beat without an arrival."""
 SPEED: Final = 0.2
 """Cost of a speed at a limit of `SPEEDS`; quadratic between."""
 MOVED: Final = 0.2
@@ -100,8 +98,6 @@ def map_with_arrivals(
     arrivals: FloatArray,
     grid: AccentGrid,
     footfalls: FloatArray | None = None,
-    *,
-    with_falls: bool = False,
 ) -> TimeMap:
     """Build the time map that puts arrivals on beats, preferably those with footfalls, within the limits of speed.
 
@@ -113,8 +109,6 @@ def map_with_arrivals(
         Positions of the arrivals along the motions in seconds, ascending.
     footfalls : (N,) float64, optional
         Positions of the footfalls along the motions in seconds, ascending.
-    with_falls : bool
-        Put footfalls on beats too where no body arrives.
     """
     held = np.zeros(len(plain.times_s), bool) if plain.held is None else plain.held
     knots = _Items(plain.along_s[1:-1], plain.times_s[1:-1, None], np.where(held, HELD, ANCHOR)[1:-1, None])
@@ -125,9 +119,6 @@ def map_with_arrivals(
         _to_meet(plain, arrivals[stepped], grid, ARRIVES + STEPPED),
         _to_meet(plain, arrivals[~stepped], grid, ARRIVES),
     ]
-    if with_falls:
-        alone = nearest_s(falls, arrivals) > STEPPED_S
-        items.append(_to_meet(plain, falls[alone], grid, FALLS))
     met = _met(_in_order(items))
     if not met:
         return plain

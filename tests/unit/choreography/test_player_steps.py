@@ -78,7 +78,7 @@ def test_short_steps_become_taps_of_the_front_foot_and_lifts_of_heels(tempo: flo
         ahead_m = [own[-1, 1] if len(own) else 0.0 for own in place_m]
         own = feet.sides[row]
         # A player stands with the left foot ahead.
-        assert ahead_m[own] - ahead_m[1 - own] > (-IN_FRONT_M if own == 0 else 0.9 * IN_FRONT_M)
+        assert ahead_m[own] - ahead_m[1 - own] >= (-IN_FRONT_M if own == 0 else 0.9 * IN_FRONT_M) - 1e-9
     # Taps stand between beats with weight on the foot, not one after the other.
     assert not np.any(toes[2:] & toes[1:-1] & toes[:-2])
 

@@ -68,16 +68,6 @@ def test_of_two_arrivals_that_with_a_footfall_comes_on_the_beat() -> None:
     assert np.median(np.abs(without.when(steps) - 0.5 * np.round(without.when(steps) / 0.5))) > 0.2
 
 
-def test_footfalls_between_arrivals_come_on_the_beats_where_they_are_asked_to() -> None:
-    arrivals = 1.1 * np.arange(1, 30)
-    steps = arrivals + 0.45
-    for with_falls in (True, False):
-        found = map_with_arrivals(even(36.0, 6.0), arrivals, grid_of(beaten(73)), steps, with_falls=with_falls)
-        off_s = np.abs(found.when(steps) - 0.5 * np.round(found.when(steps) / 0.5))
-        assert (np.median(off_s) < 0.02) == with_falls
-        assert np.median(np.abs(found.when(arrivals) - 0.5 * np.round(found.when(arrivals) / 0.5))) < 0.02
-
-
 def test_what_was_put_there_by_hand_stays_when_arrivals_beside_it_come_on_beats() -> None:
     arrivals, grid = 0.5 * np.arange(1, 39) + 0.23, grid_of(beaten(41))
     plain = even(20.0, 2.0)
