@@ -57,7 +57,7 @@ def test_motions_between_sparse_strokes_are_those_of_the_drum() -> None:
     for seed in range(2):
         asked = np.repeat(np.random.default_rng(seed).integers(0, model.states, BEATS // 6 + 1), 6)[:BEATS]
         steps = choreographer.steps(struck(asked, parts=1, beat_s=0.75), Manner(seed=seed))
-        danced = [(one.state, int(one.accent_s / 0.75 + 1e-6)) for one in steps if 0.0 <= one.accent_s]
+        danced = [(one.state, int(one.accent_s / 0.75 + 1e-6)) for one in steps if one.accent_s >= 0.0]
         shares.append(np.mean([state == asked[beat] for state, beat in danced if beat < BEATS]))
     assert np.mean(shares) >= 0.85
 
