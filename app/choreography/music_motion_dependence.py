@@ -48,11 +48,15 @@ class Pairing:
     ----------
     bits : float
         Bits per held-out motion; below 0 if sounds mislead.
+    most_bits : float
+        Bits per held-out motion of music that leaves no doubt about the motion: how unexpected the motions are by how
+        often their dancer dances each.
     chance : float
         Share of permutations of the music with as much information.
     """
 
     bits: float
+    most_bits: float
     chance: float
 
     @property
@@ -72,7 +76,7 @@ def pairing_of(model: ChoreographyModel, seed: int = 0) -> Pairing | None:
     bits = test.bits(sounds)
     others = [test.bits(sounds[test.other_order(random)]) for _ in range(ORDERS)]
     as_much = sum(other >= bits - 1e-9 for other in others)
-    return Pairing(bits, (1 + as_much) / (1 + ORDERS))
+    return Pairing(bits, test.most_bits(), (1 + as_much) / (1 + ORDERS))
 
 
 def trust_in(model: ChoreographyModel) -> float:
@@ -96,9 +100,9 @@ def verdict(found: Pairing) -> Message:
     """Return a message about the measured information in bits, and its significance."""
     if found.bits < LEAST_BITS:
         # Whatever other music predicts: this one predicts nothing.
-        return Message("learn.pairing_predicts_nothing", {})
+        return Message("learn.pairing_predicts_nothing", {"most": found.most_bits})
     id_ = "learn.pairing_tells" if found.tells else "learn.pairing_tells_nothing"
-    return Message(id_, {"bits": found.bits, "chance": found.chance})
+    return Message(id_, {"bits": found.bits, "most": found.most_bits, "chance": found.chance})
 
 
 class _Test:
@@ -125,6 +129,11 @@ class _Test:
         trust = TRUSTS[max(1, int(tried.argmax()))]
         return float(self._told(self._learned, self._held_out, sounds, (trust,))[0])
 
+    def most_bits(self) -> float:
+        """Information in bits per held-out motion that sounds could give at most."""
+        log_often = self._log_often(self._learned)[self._takes[self._held_out], self._states[self._held_out]]
+        return float(-log_often.mean() / np.log(2.0))
+
     def other_order(self, random: np.random.Generator) -> IntArray:
         """Permute the music of the motions at random by sections of each source: for each of S motions the index (S,)
         of the motion whose music it gets.
@@ -147,11 +156,8 @@ class _Test:
         of_all = counts.sum(axis=0) + 1.0 / len(SYMBOLS)
         own = counts + OF_ALL * of_all / of_all.sum(axis=-1, keepdims=True)
         log_emission = np.log(own / own.sum(axis=-1, keepdims=True))
-        often = np.zeros(self._shape)
-        np.add.at(often, (self._takes[learned], self._states[learned]), 1.0)
-        often += 1.0 / self._shape[1]
         takes, states, every = self._takes[asked], self._states[asked], np.arange(len(asked))
-        log_often = np.log(often / often.sum(axis=-1, keepdims=True))[takes]
+        log_often = self._log_often(learned)[takes]
         heard = np.einsum("ao,ako->ak", sounds[asked], log_emission[takes])
         told = []
         for trust in trusts:
@@ -160,3 +166,10 @@ class _Test:
             log_sum = np.log(np.exp(both - surest).sum(axis=1)) + surest[:, 0]
             told.append((both[every, states] - log_sum - log_often[every, states]).mean() / np.log(2.0))
         return np.array(told)
+
+    def _log_often(self, learned: IntArray) -> FloatArray:
+        """Logarithm (K, N) of how often each of K takes' dancers dances each of N basic motions in ``learned``."""
+        often = np.zeros(self._shape)
+        np.add.at(often, (self._takes[learned], self._states[learned]), 1.0)
+        often += 1.0 / self._shape[1]
+        return np.asarray(np.log(often / often.sum(axis=-1, keepdims=True)))

@@ -18,6 +18,7 @@ from app.choreography.clip import MotionClip
 from app.choreography.features import joint_points_m
 from app.choreography.peaks import prominent_peaks
 from app.choreography.rhythm import Rhythm
+from app.errors import Message
 
 SMOOTHING_S: Final = 0.04
 """Standard deviation in seconds of the Gaussian that smooths speed before minima are found."""
@@ -56,6 +57,19 @@ class MusicOffset:
 
     offset_s: float
     confidence: float
+
+
+def offset_doubt(offset_s: float, confidence: float | None) -> Message | None:
+    """Return a message that an offset may be wrong; None if it is reliable, or the user's own (``confidence`` None).
+
+    Parameters
+    ----------
+    offset_s : float
+        Time of the motion file at the music's first tick in seconds.
+    """
+    if confidence is None or confidence >= CONFIDENT:
+        return None
+    return Message("learn.offset_unsure", {"offset_s": offset_s, "confidence": confidence, "least": CONFIDENT})
 
 
 def find_offset(clip: MotionClip, rhythm: Rhythm) -> MusicOffset:

@@ -135,6 +135,7 @@ def learn(arguments: argparse.Namespace) -> int:
     from app.choreography.dancers_told_apart import reports
     from app.choreography.learn import learn as learned
     from app.choreography.model_file import write_model
+    from app.choreography.music_offset import offset_doubt
     from app.choreography.read_pair import to_check
     from app.project.choreography_files import SUFFIX
 
@@ -162,7 +163,9 @@ def learn(arguments: argparse.Namespace) -> int:
     say("", said("learn.body"), *(f"  {one.pair.motion_name}: {sentence(one.motion.checked)}" for one in read))
     if notes:
         say("", said("export_report.look_at"), *notes)
-    for source in model.sources:
+    for source, one in zip(model.sources, read, strict=True):
+        if doubt := offset_doubt(source.offset_s + one.motion.start_s, source.offset_confidence):
+            warn(f"{source.motion_name}: {sentence(doubt)}")
         if not source.credits:
             warn(said("learn.no_credits", motion=source.motion_name))
     for name, error in left_out:

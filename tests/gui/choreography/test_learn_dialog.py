@@ -149,8 +149,15 @@ def test_pairs_that_are_added_typed_and_dropped_are_learned(
     assert [row_texts(dialog, row)[4] for row in (0, 1)] == [str(count) for count in used]
     assert row_texts(dialog, 1)[5:] == [
         f"{model.sources[1].offset_s:.2f}",
-        f"{model.sources[1].offset_confidence:.2f}",
+        f"{model.sources[1].offset_confidence:.2f} (unsure)",
     ]
+    # The pair of which the user typed the offset is not named.
+    unsure = [line for line in state(dialog).splitlines() if "unsure where the music begins" in line]
+    assert [line.split(":")[0] for line in unsure] == ["Pair 2"]
+    select(dialog, 1)
+    notes = child(dialog, QLabel, "learn_pair_notes")
+    assert isinstance(notes, QLabel)
+    assert "unsure where the music begins" in notes.text().lower()
 
 
 def test_files_are_dropped_anywhere(dialog: LearnDialog, folder: Path) -> None:

@@ -176,6 +176,7 @@ def test_an_offset_is_a_time_of_the_file(drums: Path, tmp_path: Path, capsys: py
     assert main([*command, "--to", str(tmp_path / "a.choreography")]) == DONE
     printed = capsys.readouterr().out
     assert "10       4      1.00       given" in printed
+    assert "unsure" not in printed
     assert "1 frame of rest pose" in printed
     assert read_model(tmp_path / "a.choreography").sources[0].offset_s == pytest.approx(1.0 - 1.0 / 60.0)
 
@@ -187,7 +188,11 @@ def test_an_offset_that_is_not_certain_is_marked(
     printed = capsys.readouterr()
     # Five even swings fit an even rhythm at several offsets.
     assert "*" in printed.out.splitlines()[3]
-    assert "--offset" in printed.out
+    assert "(* unsure, see below)" in printed.out
+    unsure = next(line for line in printed.err.splitlines() if "unsure where the music begins" in line)
+    assert unsure.startswith("suisou: swings.bvh: ")
+    assert "sure from 0.30" in unsure
+    assert "--offset" in unsure
     assert "swings.bvh: no credits" in printed.err
     assert (tmp_path / "a.choreography").exists()
 

@@ -109,12 +109,26 @@ def test_the_verdict_and_its_bits_agree() -> None:
         (0.3, 0.2, "learn.pairing_tells_nothing"),
         (0.3, 0.04, "learn.pairing_tells"),
     ):
-        found = Pairing(bits, chance)
+        found = Pairing(bits, 2.0, chance)
         said = verdict(found)
         assert said.id == id_
         assert found.tells is (id_ == "learn.pairing_tells")
-        for language in ("en", "ja"):
+        for language, most in (("en", "of at most 2.0 bits"), ("ja", "上限 2.0 ビット")):
             assert "-0." not in text(said, language)
+            assert most in text(said, language)
+
+
+def test_the_most_bits_are_those_of_sounds_that_leave_no_doubt() -> None:
+    """The ceiling is how unexpected the held-out motions are: two bits for four kinds danced equally often."""
+    found = judged(sounding(1, 1.0))
+    assert found.most_bits == pytest.approx(2.0, abs=0.35)
+    assert 0.9 * found.most_bits < found.bits <= found.most_bits
+    for seed in range(100, 104):
+        by_chance = judged(sounding(seed, 0.0))
+        assert by_chance.bits < 0.2 < by_chance.most_bits
+    made = sounding(1, 1.0)
+    rare = tuple(replace(one, state=int(one.state == 3), sounds=(int(one.state == 3),)) for one in made.segments)
+    assert judged(replace(made, segments=rare)).most_bits < 1.2
 
 
 def test_the_same_model_is_judged_the_same() -> None:

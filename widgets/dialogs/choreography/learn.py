@@ -39,6 +39,7 @@ from widgets.dialogs.choreography.learn_rows import (
     PairList,
     PairRead,
     PairRow,
+    doubts_text,
     left_out_text,
     missing_text,
     take_contents,
@@ -368,7 +369,7 @@ class LearnDialog(WorkingDialog):
             text = sentence(self._failure)
         elif result is not None:
             learned = map(message_text, (summary(result.model, result.path), *result.pairing))
-            text = "\n".join(filter(None, (*learned, left_out_text(self._rows))))
+            text = "\n".join(filter(None, (*learned, doubts_text(self._rows), left_out_text(self._rows))))
         elif self._unknown:
             names = ", ".join(shown(path.name) for path in self._unknown)
             text = "\n".join(filter(None, (self.tr("learn_dialog.unknown_files").format(files=names), missing)))

@@ -11,7 +11,7 @@ from PySide6.QtCore import QRect, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QScrollArea, QWidget
 
-from app.choreography.music_offset import CONFIDENT
+from app.choreography.music_offset import offset_doubt
 from app.choreography.read_pair import CREDITS_SUFFIX, to_check
 from app.encoding import shown
 from app.formats.rates import exact_rate
@@ -159,11 +159,12 @@ class PairForm(Retranslated, QWidget):
                 least, most = (f"{bound_s:.3f}" for bound_s in bounds)
                 notes.append(self.tr("pair_form.offset_outside").format(least=least, most=most))
             if self._draft.offset_s is None:
-                confidence = f"{analysis.offset.confidence:.2f}"
+                confidence = analysis.offset.confidence
+                doubt = offset_doubt(offset_s_of(self._draft, self._found), confidence)
                 notes.append(
-                    self.tr("pair_form.offset_detected").format(confidence=confidence)
-                    if analysis.offset.confidence >= CONFIDENT
-                    else self.tr("pair_form.offset_found_with_confidence_another").format(confidence=confidence)
+                    self.tr("pair_form.offset_detected").format(confidence=f"{confidence:.2f}")
+                    if doubt is None
+                    else message_text(doubt)
                 )
             guessed = [message_text(message) for message in to_check(read)]
             if guessed:

@@ -13,7 +13,7 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QTreeWidgetItem
 
 from app.choreography.learn import Pair, require_usable
-from app.choreography.music_offset import CONFIDENT
+from app.choreography.music_offset import offset_doubt
 from app.editor.design_tokens import Tokens
 from app.editor.translated import tr
 from app.encoding import shown
@@ -126,9 +126,13 @@ def _unusable(pair: Pair) -> Message | None:
     return None
 
 
-def offset_confidence(row: PairRow) -> float:
-    """Return the confidence 0..1 of the automatic offset; 1 before it is computed."""
-    return 1.0 if row.found.analysis is None else row.found.analysis.offset.confidence
+def doubt_of(row: PairRow) -> Message | None:
+    """Return a message that the automatic offset of a pair may be wrong; None if it is reliable or typed, and before it
+    is computed.
+    """
+    if row.found.analysis is None or row.draft.offset_s is not None:
+        return None
+    return offset_doubt(offset_s_of(row.draft, row.found), row.found.analysis.offset.confidence)
 
 
 def row_texts(row: PairRow) -> tuple[str, ...]:
@@ -143,8 +147,12 @@ def row_texts(row: PairRow) -> tuple[str, ...]:
         str(len(analysis.segmentation.cuts if draft.cuts is None else draft.cuts)),
         "–" if row.states is None else str(row.states),
         f"{offset_s_of(draft, row.found):.2f}",
-        f"{analysis.offset.confidence:.2f}" if draft.offset_s is None else "–",
+        "–" if draft.offset_s is not None else _confidence_text(analysis.offset.confidence, doubt_of(row)),
     )
+
+
+def _confidence_text(confidence: float, doubt: Message | None) -> str:
+    return f"{confidence:.2f}" if doubt is None else tr("learn_dialog.unsure").format(confidence=f"{confidence:.2f}")
 
 
 def missing_text(rows: Sequence[PairRow]) -> str:
@@ -166,6 +174,14 @@ def missing_text(rows: Sequence[PairRow]) -> str:
     if any(row.reading for row in rows):
         return tr("learn_dialog.reading_files")
     return ""
+
+
+def doubts_text(rows: Sequence[PairRow]) -> str:
+    """Return the text of the pairs that are used although their offset may be wrong, one per line."""
+    doubts = ((at, doubt_of(row)) for at, row in enumerate(rows) if why_unusable(row) is None)
+    return "\n".join(
+        tr("learn_dialog.pair").format(n=at + 1, error=message_text(doubt)) for at, doubt in doubts if doubt is not None
+    )
 
 
 def left_out_text(rows: Sequence[PairRow]) -> str:
@@ -201,12 +217,13 @@ class PairList(ColumnList):
                 if column > 1:
                     item.setTextAlignment(column, _RIGHT)
             wrong = why_unusable(row) is not None
-            doubtful = row.draft.offset_s is None and offset_confidence(row) < CONFIDENT
+            doubt = doubt_of(row)
             for column, name in enumerate(COLUMNS):
                 colour = tokens.error if wrong else tokens.text
-                if name in ("offset", "confidence") and doubtful:
-                    colour = tokens.warning
-                item.setForeground(column, QColor(colour))
                 path = getattr(row.draft, name, None)
-                item.setToolTip(column, shown(str(path)) if isinstance(path, Path) else "")
+                tip = shown(str(path)) if isinstance(path, Path) else ""
+                if name in ("offset", "confidence") and doubt is not None:
+                    colour, tip = tokens.warning, message_text(doubt)
+                item.setForeground(column, QColor(colour))
+                item.setToolTip(column, tip)
         self.blockSignals(False)
