@@ -34,8 +34,10 @@ HEEL = (-1.0, -0.45)
 """Position of the heel, likewise."""
 SIT_BONES_M = 0.09
 """Distance in metres from the hips down to the axis about which a seated player leans the pelvis."""
-ANKLE_SOFT_RAD = float(np.deg2rad(2.0))
+ANKLE_SOFT_RAD = float(np.deg2rad(1.0))
 """Angle in radians over which a tap's toes approach the limit of the ankle."""
+ANKLE_EASE_M = 0.004
+"""Distance in metres over which dancing hips approach the height that the ankles allow."""
 X_AXIS = np.array([1.0, 0.0, 0.0])
 FOOT_PARTS = ("heel", "toes", "ahead", "up", "aside", "push")
 
@@ -205,7 +207,7 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
     rotation = quaternion.from_rotation_vector(
         quaternion.columns(forward_rad, motion.hips_turn_rad, -motion.hips_roll_rad)
     )
-    heights = []
+    heights, bounds_m = [], []
     for side in SIDES:
         limb = place.legs[side]
         a, b = np.linalg.norm(limb.upper_vector_m), np.linalg.norm(limb.lower_vector_m)
@@ -216,10 +218,35 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
         length2 = np.minimum(length2, np.square(STRAIGHTEST * (a + b)))
         rise_m = np.sqrt(np.maximum(length2 - (across_m * across_m + along_m * along_m), 0.01))
         heights.append(ankle_m[:, 1] + rise_m - joint_m[:, 1])
+        if danced:
+            off_m = np.stack([across_m, along_m], axis=1)
+            bounds_m.append(ankle_m[:, 1] + _least_rise_m(place, side, off_m, motion.feet) - joint_m[:, 1])
     lower = np.minimum(heights[0], heights[1])
     apart = np.abs(heights[0] - heights[1])
-    height_m = lower - ease_m * np.log1p(np.exp(-apart / ease_m)) - motion.hips_bob_m
+    most_m = lower - ease_m * np.log1p(np.exp(-apart / ease_m))
+    height_m = most_m - motion.hips_bob_m
+    if bounds_m:
+        for bound_m in bounds_m:
+            height_m = height_m + ANKLE_EASE_M * np.logaddexp(0.0, (bound_m - height_m) / ANKLE_EASE_M)
+        height_m = most_m - ANKLE_EASE_M * np.logaddexp(0.0, (most_m - height_m) / ANKLE_EASE_M)
     return quaternion.columns(side_m, height_m, ahead_m), rotation
+
+
+def _least_rise_m(place: Stance, side: Side, off_m: FloatArray, moved: Mapping[str, FloatArray]) -> FloatArray:
+    """Return the least height (F,) in metres of a hip joint above its ankle at which the ankle bends no farther than it
+    can; ``off_m`` (F, 2) is the joint's distance to the left and ahead. A raised heel lets the shank lean farther
+    forward, raised toes less far.
+    """
+    limb = place.legs[side]
+    thigh_m, shank_m = (float(np.linalg.norm(one)) for one in (limb.upper_vector_m, limb.lower_vector_m))
+    rest_rad = float(np.arctan2(-limb.lower_vector_m[2], -limb.lower_vector_m[1]))
+    raised_rad = moved.get(f"{side}_heel", 0.0) - moved.get(f"{side}_toes", np.zeros(len(off_m)))
+    lean_rad = np.deg2rad(place.ankle.flexion_deg[1]) - 2.0 * ANKLE_SOFT_RAD + rest_rad + raised_rad
+    out, _, ahead = quaternion.rotate(place.feet[side], np.array([0.0, 0.0, 1.0]))
+    along_m, across_m = off_m @ (out, ahead), off_m @ (ahead, -out)
+    beyond_m = along_m - shank_m * np.sin(lean_rad)
+    thigh_m2 = np.maximum(thigh_m * thigh_m - across_m * across_m - beyond_m * beyond_m, 0.0)
+    return np.asarray(shank_m * np.cos(lean_rad) + np.sqrt(thigh_m2))
 
 
 def exact_target(limb: Limb, root_m: FloatArray, target_m: FloatArray) -> FloatArray:

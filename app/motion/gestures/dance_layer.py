@@ -40,7 +40,7 @@ BREATH_TURN_ROOM: Final = 0.6
 """Reduction of turning and leaning aside while the player breathes in."""
 BREATH_EASE_S: Final = 0.35
 """Seconds before and after a breath in which these reductions take effect and end."""
-LEGS_EASE_M: Final = 0.008
+LEGS_EASE_M: Final = 0.016
 """Difference in metres of the legs' reaches over which the limit changes smoothly from one leg to the other when the
 hips roll.
 """

@@ -9,7 +9,7 @@ import pytest
 
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
-from app.motion.contacts.trunk_and_legs import SIDES, STRAIGHTEST, hips_path, solve_legs, stance
+from app.motion.contacts.trunk_and_legs import SIDES, STRAIGHTEST, Side, Stance, hips_path, solve_legs, stance
 from app.rig import quaternion
 from metadata.load import load_body
 from tests.unit.motion.figure import skeleton
@@ -61,6 +61,34 @@ def test_what_lowers_the_hips_lowers_them_by_as_much() -> None:
     level_m, _ = hips_path(place, joints, cast(BodyMotion, _Hips()))
     lower_m, _ = hips_path(place, joints, cast(BodyMotion, _Hips(hips_bob_m=np.full(FRAMES, 0.03))))
     assert level_m[0, 1] - lower_m[0, 1] == pytest.approx(0.03)
+
+
+def _bent_deg(place: Stance, solved: dict[int, FloatArray], side: Side) -> FloatArray:
+    turned = solved[place.legs[side].end]
+    return np.rad2deg(-2.0 * np.arctan2(turned[:, 0], turned[:, 3]))
+
+
+def test_a_dance_lowers_the_hips_as_far_as_the_ankles_of_flat_feet_bend() -> None:
+    joints, body = skeleton(), load_body()
+    place = stance(joints, body.postures["standing"], body.limits["foot"])
+    most_deg = body.limits["foot"].flexion_deg[1]
+    ahead_m, zero = np.repeat(np.linspace(0.0, 0.08, 8), FRAMES // 8), np.zeros(FRAMES)
+    danced = _Hips(hips_bob_m=np.tile(np.linspace(0.0, 0.16, FRAMES // 8), 8), hips_ahead_m=ahead_m)
+    free_m, free = hips_path(place, joints, cast(BodyMotion, danced))
+    danced.hips_danced = {"ahead_m": zero, "forward_rad": zero, "ease_m": zero}
+    feet = {"right_heel": np.full(FRAMES, np.deg2rad(12.0)), "left_toes": np.full(FRAMES, np.deg2rad(6.0))}
+    for moved in ({}, feet):
+        danced.feet = moved
+        hips_m, rotation = hips_path(place, joints, cast(BodyMotion, danced))
+        bent = {side: _bent_deg(place, solve_legs(place, joints, hips_m, rotation, moved), side) for side in SIDES}
+        assert most_deg - 3.0 < max(one.max() for one in bent.values()) < most_deg
+        # Where the ankles have room, the hips are where the dance puts them.
+        easy = np.maximum(bent["left"], bent["right"]) < most_deg - 8.0
+        assert easy.any()
+        if not moved:
+            assert np.abs(hips_m - free_m)[easy].max() < 0.003
+            free_deg = [_bent_deg(place, solve_legs(place, joints, free_m, free, {}), side).max() for side in SIDES]
+            assert max(free_deg) > most_deg + 2.0
 
 
 def test_toes_are_raised_as_far_as_the_ankle_lets_them() -> None:
