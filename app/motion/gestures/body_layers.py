@@ -90,7 +90,7 @@ def body_motion(
         *spine,
         hips_side_m=_aside_m(levels, sizes, steps, times_s, uneasy),
         hips_ahead_m=_ahead_m(levels, sizes, feet, times_s, uneasy) - done.back_m,
-        hips_bob_m=np.maximum(down, 0.0) * sizes.of(body.sway.bob_m),
+        hips_bob_m=sunk(down) * sizes.of(body.sway.bob_m),
         hips_roll_rad=angles.hips_roll_rad,
         hips_turn_rad=angles.hips_turn_rad,
         hips_forward_rad=angles.pelvis + done.hips_rad,
@@ -156,6 +156,14 @@ def _raise_bell(total: Sum, levels: LayerSamples, sizes: Sizes) -> FloatArray:
     total.forward(NECK_SHARES, -0.35 * up_rad)
     total.forward(TRUNK_SHARES, -0.15 * up_rad)
     return up_rad
+
+
+def sunk(down: FloatArray) -> FloatArray:
+    """Return by how much hips sink (F,), 1 for an accent of depth 1 and 0 where ``down`` (F,) rises above standing; a
+    sudden beginning would snap straight knees.
+    """
+    below = np.maximum(down, 0.0)
+    return np.asarray(2.0 * np.square(below) / (1.0 + below))
 
 
 def _bent_rad(levels: LayerSamples, sizes: Sizes, down: FloatArray) -> FloatArray:

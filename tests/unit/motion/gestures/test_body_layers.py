@@ -1,10 +1,12 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from app.motion.breath.air_in_trunk import air, lungs
 from app.motion.curves.following_gestures import follow, path
 from app.motion.gestures.accents import Accents
+from app.motion.gestures.body_layers import sunk
 from app.motion.gestures.feet import Feet
 from app.motion.gestures.layers import lowering_curve
 from app.plan.model import GestureEvent
@@ -20,6 +22,17 @@ def test_a_sway_is_where_it_goes_at_its_end() -> None:
     swings = [gesture("sway", float(i), float(i + 1), amount) for i, amount in enumerate([0.8, -0.5, 0.3])]
     values = path(swings).sample(np.array([-1.0, 0.0, 1.0, 2.0, 3.0, 9.0]))
     np.testing.assert_allclose(values, [0.0, 0.0, 0.8, -0.5, 0.3, 0.0], atol=1e-12)
+
+
+def test_hips_sink_into_an_accent_without_a_jerk() -> None:
+    times_s = np.linspace(0.0, 1.0, 241)
+    down = Accents.of([gesture("accent", 0.2, 0.8)]).sample(times_s)
+    by = sunk(down)
+    assert down.min() < -0.1
+    assert by.min() == 0.0
+    assert by.max() == pytest.approx(1.0, abs=0.01)
+    jolts, clipped = (np.abs(np.diff(one, 2)).max() for one in (by, np.maximum(down, 0.0)))
+    assert jolts < 0.4 * clipped
 
 
 def test_a_weight_shift_goes_over_in_its_transition_and_stays() -> None:
