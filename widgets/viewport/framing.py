@@ -30,8 +30,12 @@ _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
 }
 _HALF_M: dict[View, float] = {"mouth": 0.115, "feet": 0.30}
 """Least half height in metres of a close-up's picture, by view."""
-_STEPPING_HALF_M: Final = 0.14
-"""Half size in metres of a box around a dancing foot, from heel to toe."""
+_SHOE_M: Final = (-0.1, 0.2)
+"""Distance in metres of a shoe's heel and tip ahead of the ankle."""
+_STEPPING_ROOM_M: Final = 0.17
+"""Room in metres around dancing feet to every side: a camera follows them late, and between the poses that it was
+placed for they step farther.
+"""
 _HANDS_MARGIN = 1.25
 """Height of the picture relative to that of the hands' bones, so that hands and part of the instrument are visible."""
 _FINGERS = tuple(
@@ -267,6 +271,8 @@ def _around(view: View, stage: Stage, row: int, middle: FloatArray) -> FloatArra
     corners = np.array(list(product((-1.0, 1.0), repeat=3)))
     if view == "feet" and stage.members[row].dances_on_foot:
         # Steps go out of a picture of standing feet.
-        feet = np.array([stage.joint_m(row, name) for name in ("leftFoot", "rightFoot")]) - middle
-        return np.concatenate([half * corners, *(foot + _STEPPING_HALF_M * corners for foot in feet)])
+        joints = stage.members[row].assets.character.skeleton
+        feet = stage.joints[row, [joints.index(name) for name in ("leftFoot", "rightFoot")]]
+        ends = [feet[:, :, 3] + along_m * feet[:, :, 2] - middle for along_m in _SHOE_M]
+        return np.concatenate([half * corners, *(end + _STEPPING_ROOM_M * corners for end in np.concatenate(ends))])
     return half * corners
