@@ -87,7 +87,8 @@ def _calm(turns: FloatArray, most_rad: float, fps: float, may: FloatArray) -> Fl
     (F,) is the allowed share of the change, 0..1; the same object is returned if nothing is too fast.
     """
     for number in range(1, ROUNDS + 1):
-        fast = angle(turns[:-1], turns[1:]) > most_rad
+        # What stays cannot be slowed down.
+        fast = (angle(turns[:-1], turns[1:]) > most_rad) & ((may[:-1] > 0.0) | (may[1:] > 0.0))
         if not fast.any():
             break
         sigma = number * SMOOTH_S * fps

@@ -76,6 +76,17 @@ def test_standing_legs_stay_however_fast_they_turn() -> None:
     assert found.rotations == pytest.approx(clip.rotations)
 
 
+def test_a_leg_beside_a_stand_is_not_bent_for_a_turn_within_it() -> None:
+    clip, planted = still(90), np.zeros((90, 2), bool)
+    planted[36:54, 1] = True
+    angles = 0.5 * np.tanh((np.arange(90) - 45) / 3.0)
+    clip.rotations[:, SEGMENTS.index("rightUpperLeg")] = quaternion.from_axis_angle((1.0, 0.0, 0.0), angles)
+    most = np.full(len(SEGMENTS), 9.0)
+    assert turns_rad_s(clip).max() > 9.0
+    found = turns_within_speeds(clip, planted, most)
+    assert found.rotations == pytest.approx(clip.rotations, abs=1e-6)
+
+
 def test_wrists_turn_no_farther_than_those_of_people() -> None:
     clip = waving(2.2)
     part = SEGMENTS.index("leftHand")
