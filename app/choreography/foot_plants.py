@@ -32,6 +32,8 @@ SAME_M: Final = 0.04
 """Distance in metres below which places are equal if the foot hardly leaves the floor between them."""
 LIFTED_M: Final = 0.03
 """Least height in metres to which a foot rises in a step that the motion itself takes."""
+LEFT_M: Final = 0.01
+"""Height in metres above which such a foot has left the floor."""
 PULLED_M: Final = 0.04
 """Greatest distance in metres between a foot and its own path for a step that is as short as captured."""
 
@@ -103,7 +105,8 @@ def stands(
     for foot in range(2):
         on_floor_m = rest_tip_m(clip, foot)
         low = tips[:, foot, 1] < on_floor_m + REACHED_M
-        for start, stop in _spans(contacts[:, foot] & low, fps):
+        for start, end in _spans(contacts[:, foot] & low, fps):
+            stop = start + _left(tips[start:end, foot, 1])
             for first, last in _still(unmoved[start:stop, foot], fps):
                 middle = _middle(tips[start + first : start + last, foot])
                 place = (float(middle[0]), on_floor_m, float(middle[2]))
@@ -177,6 +180,16 @@ def _spans(contact: BoolArray, fps: float) -> list[tuple[int, int]]:
         else:
             spans.append((start, stop))
     return [(start, stop) for start, stop in spans if stop - start >= LEAST_S * fps]
+
+
+def _left(heights_m: FloatArray) -> int:
+    """Return the number of frames after which a foot with the heights (N,) in contact with the floor has left it: all,
+    unless it goes on rising to `LIFTED_M` in the last ones, as where a join lifts it early.
+    """
+    (sinks,) = np.nonzero(heights_m[1:] <= heights_m[:-1])
+    begins = int(sinks[-1]) + 1 if len(sinks) else 0
+    risen = heights_m[begins:] - heights_m[begins]
+    return begins + int(np.searchsorted(risen, LEFT_M, side="right")) if risen[-1] > LIFTED_M else len(heights_m)
 
 
 def _still(tip_m: FloatArray, fps: float) -> list[tuple[int, int]]:

@@ -46,6 +46,9 @@ HASTE: Final = 1.5
 """Speed relative to the motion's own above which a stand is not shown faster, but shortened: what lies between its
 beginning and its end is left out."""
 
+TWISTED_RAD: Final = (0.3, 0.1)
+"""Angle in radians by which the body turns away over a standing foot, from the angle of its captured stand, before the
+foot turns along about its tip; and the width over which it begins to."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
 _LEGS: Final = tuple(
     1 + at for at, name in enumerate(SEGMENTS) if name == "hips" or name.endswith(("UpperLeg", "LowerLeg", "Foot"))
@@ -148,7 +151,8 @@ def _feet_at(
 ) -> FloatArray:
     """World positions of foot tips (F, feet, 3), taken for each foot from the frame ``shown`` (F, feet), which may be
     fractional. The feet are turned likewise, in place in ``legs``; a foot in the air turns along with the hips, as it
-    does in a spin. Stands much shorter than in the motion are shortened, see `HASTE`.
+    does in a spin, and a standing one where they turn far. Stands much shorter than in the motion are shortened, see
+    `HASTE`.
     """
     frames, tips, facing = np.arange(len(shown)), np.empty_like(body.tips), body.facing_rad
     on_floor = planted_frames(standing, len(shown))
@@ -159,7 +163,10 @@ def _feet_at(
             (begun_m, begun), (ended_m, ended) = (body.foot_at(foot, at) for at in (firsts, lasts))
             tips[hasty, foot] = begun_m + shares[:, None] * (ended_m - begun_m)
             turned[hasty] = quaternion.slerp(begun, ended, shares)
-        along = free(on_floor[:, foot], fps) * (facing - np.interp(shown[:, foot], frames, facing))
+        off = facing - np.interp(shown[:, foot], frames, facing)
+        over = np.maximum(np.abs(off) - TWISTED_RAD[0], 0.0)
+        carried = np.sign(off) * over * over / (over + TWISTED_RAD[1])
+        along = carried + free(on_floor[:, foot], fps) * (off - carried)
         legs.of(1 + SEGMENTS.index(name))[1][:] = quaternion.multiply(quaternion.from_axis_angle(_UP, along), turned)
     return tips
 

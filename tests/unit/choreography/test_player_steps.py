@@ -30,7 +30,7 @@ def rhythm_of(tempo: float, silent: tuple[int, int] = (0, 0)) -> Rhythm:
 
 @cache
 def dance(tempo: float) -> Dance:
-    return choreographer_of("salsa").dance(rhythm_of(tempo), Manner(seed=5), Fraction(30))
+    return choreographer_of("salsa").dance(rhythm_of(tempo), Manner(seed=1), Fraction(30))
 
 
 def made(tempo: float, seed: int = 1) -> DancedFeet:

@@ -110,6 +110,29 @@ def test_a_stand_much_shorter_than_captured_is_not_shown_in_haste() -> None:
     assert world_jumps_rad_s(found, "leftFoot")[54:64].max() < 2.0 * world_jumps_rad_s(clip, "leftFoot").max()
 
 
+def test_a_standing_foot_turns_along_with_a_body_that_turns_far_over_it() -> None:
+    """A stand that the music shortens to a fifth would leave its foot turned far ahead of a spinning body."""
+    clip, frames = spinning(60, 6.0, 3.0), np.arange(241.0)
+    shown = np.interp(frames, [0.0, 90.0, 110.0, 122.0, 160.0, 240.0], [0.0, 90.0, 110.0, 150.0, 170.0, 240.0])
+    stand = FootPlant(0, 110, 123, tuple((tips_m(clip)[110, 0] * (1.0, 0.0, 1.0)).tolist()))
+    found = planted(clip, (stand,), shown=np.stack([shown, frames], axis=1))
+    ankle = quaternion.to_rotation_vector(found.rotations[100:160, SEGMENTS.index("leftFoot")])[:, 1]
+    assert np.abs(ankle).max() < 0.6
+    assert tips_m(found)[110:123, 0] == pytest.approx(np.tile(stand.place_m, (13, 1)), abs=1e-4)
+
+
+def test_a_foot_that_a_join_lifts_before_its_contact_ends_leaves_as_it_rises() -> None:
+    clip, frames = still(120), np.arange(120)
+    risen_m = 0.07 * np.clip((frames - 50) / 8.0, 0.0, 1.0) + 0.05 * np.clip((frames - 58) / 20.0, 0.0, 1.0)
+    contacts = np.ones((120, 2), bool)
+    contacts[58:] = False
+    lifted = replace(clip, hips_m=clip.hips_m + risen_m[:, None] * (0.0, 1.0, 0.0))
+    assert {(stand.start, stand.stop) for stand in stands(lifted, contacts)} == {(0, 52)}
+    # A contact of a foot that hardly rises ends where it ends.
+    hovers = replace(clip, hips_m=clip.hips_m + 0.3 * risen_m[:, None] * (0.0, 1.0, 0.0))
+    assert {(stand.start, stand.stop) for stand in stands(hovers, contacts)} == {(0, 58)}
+
+
 def test_a_foot_of_a_body_that_is_kept_near_its_place_goes_on_standing() -> None:
     clip, contacts = still(120), np.ones((120, 2), bool)
     moved = np.linspace(0.5, -0.5, 120)[:, None] * np.array((0.0, 0.0, 1.0))
