@@ -27,6 +27,14 @@ PARTS_ALIKE: Final = 0.5
 """Least ratio of the shorter part of a limb to the longer."""
 LIMB_PART: Final = 0.5
 """Least share of a limb that its two parts take; otherwise bones are split."""
+AS_LONG: Final = 0.95
+"""Least length of two consecutive bones relative to the longest two at which they may be the limb's parts: of these the
+outermost are, since a collar bone may be as long as a forearm.
+"""
+ASIDE_RAD: Final = 0.25
+"""Difference of the mean angles between the forearm and both branches of a hand from which the one farther aside is the
+thumb, radians.
+"""
 STRAIGHT: Final = 0.03
 """Sine of the bend up to which a joint is within a bone."""
 
@@ -98,11 +106,24 @@ class _Body:
         for side, leg, arm in zip(("left", "right"), legs, arms, strict=True):
             found |= self._named(leg, [f"{side}{part}" for part in ("", "UpperLeg", "LowerLeg", "Foot", "Toes")])
             found |= self._named(arm, [f"{side}{part}" for part in ("Shoulder", "UpperArm", "LowerArm", "Hand", "")])
-            found |= fingers(self._tree, side, arm.joints[2])
+            found |= fingers(self._tree, side, arm.joints[2]) or self._thumb(side, arm)
         children = self._tree.children[head[-1]]
         if len(children) == 2 and not any(self._tree.children[eye] for eye in children) and self._alike(*children):
             found |= dict(zip(("leftEye", "rightEye"), children, strict=True))
         return found
+
+    def _thumb(self, side: str, arm: _Limb) -> dict[str, int]:
+        """Return the thumb of a hand that has one bone for it and one for all fingers, which go on from the forearm."""
+        elbow, wrist = arm.joints[1:]
+        branches = self._tree.children[wrist]
+        if len(branches) != 2:
+            return {}
+        ahead, *ways = (
+            self._poses[:, to] - self._poses[:, at] for at, to in ((elbow, wrist), *((wrist, one) for one in branches))
+        )
+        aside_rad = [float(np.mean(_angle_rad(ahead, way))) for way in ways]
+        near, far = sorted(range(2), key=lambda at: aside_rad[at])
+        return {f"{side}ThumbMetacarpal": branches[far]} if aside_rad[far] - aside_rad[near] > ASIDE_RAD else {}
 
     def _pair(self, joint: int) -> tuple[_Limb, _Limb] | None:
         """Return the two longest branches of a joint that are similar limbs."""
@@ -135,7 +156,8 @@ class _Body:
             short, long = sorted((self._apart(start, middle), self._apart(middle, end)))
             if short > PARTS_ALIKE * long:
                 found.append((start, middle, end))
-        return max(found, key=self._sum, default=None)
+        longest = max(map(self._sum, found), default=0.0)
+        return next((parts for parts in reversed(found) if self._sum(parts) >= AS_LONG * longest), None)
 
     def _sum(self, parts: tuple[int, int, int]) -> float:
         return self._apart(parts[0], parts[1]) + self._apart(parts[1], parts[2])
@@ -183,3 +205,8 @@ class _Body:
         if len(path) > 1 and not children and not self._reach[path[-1]] and path[-1] not in self._turning:
             path.pop()  # the crown, present in files without end sites
         return path
+
+
+def _angle_rad(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Return the angles (F,) between vectors (F, 3) in radians."""
+    return np.asarray(np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), np.sum(one * other, axis=1)))
