@@ -36,7 +36,7 @@ SIT_BONES_M = 0.09
 """Distance in metres from the hips down to the axis about which a seated player leans the pelvis."""
 ANKLE_SOFT_RAD = float(np.deg2rad(1.0))
 """Angle in radians over which a tap's toes approach the limit of the ankle."""
-ANKLE_EASE_M = 0.004
+ANKLE_EASE_M = 0.007
 """Distance in metres over which dancing hips approach the height that the ankles allow."""
 X_AXIS = np.array([1.0, 0.0, 0.0])
 FOOT_PARTS = ("heel", "toes", "ahead", "up", "aside", "push")
