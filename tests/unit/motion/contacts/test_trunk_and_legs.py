@@ -86,7 +86,7 @@ def test_a_dance_lowers_the_hips_as_far_as_the_ankles_of_flat_feet_bend() -> Non
         easy = np.maximum(bent["left"], bent["right"]) < most_deg - 8.0
         assert easy.any()
         if not moved:
-            assert np.abs(hips_m - free_m)[easy].max() < 0.003
+            assert np.abs(hips_m - free_m)[easy].max() < 0.005
             free_deg = [_bent_deg(place, solve_legs(place, joints, free_m, free, {}), side).max() for side in SIDES]
             assert max(free_deg) > most_deg + 2.0
 
