@@ -240,7 +240,7 @@ def _foot(body: Captured, side: str) -> FloatArray:
     horizontal when standing.
     """
     name = f"{side}Foot"
-    has_toes = f"{side}Toes" in body.joints
+    has_toes = body.has_toes(side)
     toes = body.mean(name, body.at(f"{side}Toes") - body.at(name)) if has_toes else body.tips[name]
     bend = body.bend([side + part for part in LEG], 1.0)
     far = np.linalg.norm(bend, axis=1)

@@ -17,7 +17,7 @@ from app.arrays import FloatArray
 from app.choreography.anatomy import t_pose
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.body_check import SURE, Checked, checked, unlike
-from app.choreography.captured_joints import ARM, LEG, SIDES, Captured
+from app.choreography.captured_joints import ARM, LEG, NEAR_TOES, SIDES, Captured
 from app.choreography.joints_by_lengths import joints_by_lengths
 from app.choreography.raw_skeleton import JOINTS, REQUIRED, BodyError, RawSkeleton, raw_skeleton, zero_pose
 from app.choreography.sides import called_after_the_other_side, exchanged, joints_by_side
@@ -218,9 +218,13 @@ class _Motion:
         others = {bone for joint, bone in bones.items() if "Thumb" in joint}
         tips = {name: _tip(self._bvh, name, segments[name], others) for name in ENDS}
         for name in ENDS:
-            if not tips[name].any():
-                # The next joint is at the same position: the mean direction of the joints below it is used.
-                tips[name] = max(_hanging(self._bvh, self.places, self._rotations, segments[name]), key=np.linalg.norm)
+            hanging = _hanging(self._bvh, self.places, self._rotations, segments[name])
+            farthest = max(hanging, key=np.linalg.norm)
+            near = NEAR_TOES * float(np.linalg.norm(farthest)) if name.endswith("Foot") else 0.0
+            if np.linalg.norm(tips[name]) <= near:
+                # The next joint is at the same position, or the toes' joint is below the ankle: the mean direction of
+                # the farthest joint below it is used.
+                tips[name] = farthest
         return Captured(*turned, bones, segments, tips, thumbs), up
 
 

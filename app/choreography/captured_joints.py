@@ -23,6 +23,10 @@ ARM: Final = ("UpperArm", "LowerArm", "Hand")
 SIDES: Final = (("left", 1.0), ("right", -1.0))
 BENT_DEG: Final = (8.0, 20.0)
 """Bend in degrees in nine of ten frames below which a joint's hinge is unknown, and above which it is certain."""
+NEAR_TOES: Final = 0.4
+"""Distance of the toes' joint from the ankle, relative to that of the foot's tip, up to which it does not show where
+the foot points: rigs with a joint straight below the ankle have 0.2, others at least 0.6.
+"""
 FINGERS: Final = ("Index", "Middle", "Ring", "Little")
 T_POSE_DEG: Final = 25.0
 """Greatest angle in degrees of arms from pointing sideways, of legs from hanging straight down and of the trunk from
@@ -74,6 +78,13 @@ class Captured:
         """Return the position (F, 3) of a joint in the world."""
         places: FloatArray = self.positions[:, self.joints[joint]]
         return places
+
+    def has_toes(self, side: str) -> bool:
+        """Return whether a foot has a joint between ankle and tip that shows which way it points."""
+        if f"{side}Toes" not in self.joints:
+            return False
+        far = np.linalg.norm(self.at(f"{side}Toes") - self.at(f"{side}Foot"), axis=1)
+        return float(np.median(far)) > NEAR_TOES * float(np.linalg.norm(self.tips[f"{side}Foot"]))
 
     def start(self, segment: str) -> FloatArray:
         """World position (F, 3) of the joint at which a segment begins."""

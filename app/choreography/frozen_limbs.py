@@ -38,6 +38,10 @@ SMOOTH: Final = 0.55
 """Largest ratio of the first step to the second if a joint starts smoothly; usually it is a third."""
 STRETCHED_RAD: Final = 0.02
 """Angle in radians above the least bend within which an elbow or knee counts as stretched."""
+LEAP: Final = 2.5
+"""Ratio of the first step to the second above which, with `STARTS_RAD_S` in addition, a joint leaps out of its rest
+pose; 1.7 at the limit of a knee in CMU's captures.
+"""
 _HINGES: Final = tuple(at for at, name in enumerate(SEGMENTS) if "Lower" in name)
 _BALLS: Final = tuple(
     at for at, name in enumerate(SEGMENTS) if "Lower" not in name and at and name[-4:] not in ("Hand", "Foot")
@@ -98,9 +102,19 @@ def _rests(clip: MotionClip, speeds: FloatArray, part: int) -> list[tuple[int, i
     if part in _HINGES and found:
         bent = angle(clip.rotations[:, part], quaternion.IDENTITY)
         least_bent = float(bent.min()) + STRETCHED_RAD
-        # The limb is exactly in its rest pose because its marker was lost.
-        found = [run for run in found if bent[run[0]] > least_bent or bent[run[0]] < EXACT]
+        # The limb leaps into exactly its rest pose because its marker was lost; the limit of a rig may be there too.
+        found = [
+            run
+            for run in found
+            if bent[run[0]] > least_bent or (bent[run[0]] < EXACT and _leaps(speeds[:, part], *run))
+        ]
     return sorted(set(found))
+
+
+def _leaps(speeds: FloatArray, start: int, stop: int) -> bool:
+    """Return whether the steps into or out of a rest are much faster than the motion before or after them."""
+    sides = ((speeds[start - 1], speeds[max(start - 2, 0)]), (speeds[stop], speeds[min(stop + 1, len(speeds) - 1)]))
+    return any(first > LEAP * second + STARTS_RAD_S for first, second in sides)
 
 
 def _is_abrupt(speeds: FloatArray, start: int, stop: int) -> bool:

@@ -23,7 +23,7 @@ UNUSUAL: Final = 2.0
 LEAST_MORE: Final = 0.1
 """Least difference in similarity (cosine) for a full recurrence, so that no bar recurs if all are alike."""
 USUAL_MELODY: Final = 0.5
-"""Weight of a melody that counts as much as percussion when bars are compared."""
+"""Amount 0..1 of a melody that counts as much as percussion when bars are compared."""
 ANEW: Final = 0.05
 """Share of the bars of a recurring section that are danced anew."""
 COPIED_BEATS: Final = 6.0
@@ -64,23 +64,25 @@ def returns_of_bars(rhythm: Rhythm, melody: float = USUAL_MELODY) -> FloatArray:
     alike = _along_passages(likeness_of_bars(rhythm, melody))
     bars = len(alike)
     later = np.tril(np.ones((bars, bars), bool), -APART_BARS)
-    pairs = alike[later]
+    pairs = usual = alike[later]
     if not len(pairs):
         return np.zeros((bars, bars))
-    more = (alike - pairs.mean()) / max(LEAST_MORE, UNUSUAL * float(pairs.std()))
+    if rhythm.melody is not None and melody not in (0.0, USUAL_MELODY):
+        # Relative to the spread with any other amount, a melody over even drums would count the same with each.
+        usual = _along_passages(likeness_of_bars(rhythm))[later]
+    more = (alike - pairs.mean()) / max(LEAST_MORE, UNUSUAL * float(usual.std()))
     return np.where(later, np.clip(more, -1.0, 1.0), 0.0)
 
 
 def likeness_of_bars(rhythm: Rhythm, melody: float = USUAL_MELODY) -> FloatArray:
     """Cosine similarity (B, B) of the hits in all pairs of B bars, by sound, position and strength; averaged with that
-    of the melody if there is one. A melody of the usual weight 0..1 counts as much as percussion, one of weight 0 not
-    at all.
+    of the melody if there is one. A melody of the amount 0 does not count at all, one of `USUAL_MELODY` as much as
+    percussion, and one of the amount 1 alone.
     """
     struck = _likeness(rhythm)
     if rhythm.melody is None or not melody:
         return struck
-    share = melody / (melody + USUAL_MELODY)
-    return (1.0 - share) * struck + share * _likeness(rhythm.melody)
+    return (1.0 - melody) * struck + melody * _likeness(rhythm.melody)
 
 
 def _likeness(rhythm: Rhythm) -> FloatArray:

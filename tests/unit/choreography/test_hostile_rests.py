@@ -254,6 +254,27 @@ def test_joints_are_where_they_were_though_bones_lack(lost: str, names: str) -> 
     assert ours == pytest.approx(theirs, abs=0.03)
 
 
+@pytest.mark.parametrize("names", NAMES)
+@pytest.mark.parametrize("rest", [None, "x", "random"])
+def test_a_joint_straight_below_the_ankle_does_not_say_where_the_foot_points(rest: str | None, names: str) -> None:
+    """Some rigs have a forefoot there whose end is ahead of it."""
+    frames, joints = SALSA.rotations_xyzw.shape[:2]
+    feet = {side: SALSA.names.index(f"{side}Foot") for side in "lr"}
+    below = {at: np.array([0.0, -0.15 * np.linalg.norm(SALSA.end_sites_cm[at]), 0.0]) for at in feet.values()}
+    ends = {at: end for at, end in SALSA.end_sites_cm.items() if at not in below}
+    still = np.tile(quaternion.IDENTITY, (frames, len(feet), 1))
+    bvh = replace(
+        SALSA,
+        names=(*SALSA.names, *(f"{side}ForeFoot" for side in feet)),
+        parents=(*SALSA.parents, *feet.values()),
+        offsets_cm=np.concatenate([SALSA.offsets_cm, list(below.values())]),
+        end_sites_cm=ends | {joints + n: SALSA.end_sites_cm[at] - below[at] for n, at in enumerate(feet.values())},
+        rotations_xyzw=np.concatenate([SALSA.rotations_xyzw, still], axis=1),
+    )
+    bvh = NAMES[names](bvh)
+    require_same(bvh if rest is None else rerigged(bvh, REST_POSES[rest]))
+
+
 def test_feet_that_point_back_are_named() -> None:
     """Such a motion is refused, with the joint and the angle in the message."""
     back = {

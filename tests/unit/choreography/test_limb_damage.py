@@ -89,6 +89,24 @@ def test_an_elbow_that_is_stretched_as_far_as_it_goes_stays() -> None:
     assert mended(replace(clip, rotations=quaternion.continuous(rotations))).left_out == ()
 
 
+@pytest.mark.parametrize("fps", [30, 60, 120])
+def test_a_knee_that_is_straight_in_exactly_its_rest_pose_stays_unless_it_leaps_there(fps: int) -> None:
+    """The limit of CMU's knees is the rest pose, and a lost marker puts a limb there within a frame."""
+    clip = dancing(fps)
+    at, times_s = SEGMENTS.index("leftLowerLeg"), np.arange(len(clip)) / fps
+    # As in CMU 12_01: straight for 0.2 s in each step.
+    bend = 0.6 - 0.72 * np.cos(2.0 * np.pi * times_s / 1.2)
+    rotations = clip.rotations.copy()
+    rotations[:, at] = quaternion.from_axis_angle((1.0, 0.0, 0.0), np.maximum(bend, 0.0))
+    assert (bend < 0.0).mean() > 0.1
+    found = mended(replace(clip, rotations=rotations))
+    assert (found.left_out, found.mended) == ((), ())
+    start = int(np.argmax(bend > 1.0))
+    rotations[start : start + fps // 4, at] = quaternion.IDENTITY
+    found = mended(replace(clip, rotations=rotations))
+    assert any(one.start <= start and "leftLowerLeg" in one.parts for one in (*found.left_out, *found.mended))
+
+
 def accelerations(clip: MotionClip) -> FloatArray:
     """Accelerations (F - 2, 2) of the ends of the feet in m/s^2."""
     ends = points_m(clip)[:, [len(SEGMENTS) + ENDS.index(name) for name in ("leftFoot", "rightFoot")]]
