@@ -31,6 +31,12 @@ played. Drums of which each dancer heard only some have 0.9 or more, other piece
 STEEP_TOLD: Final = 8.0
 TELLING: Final = 0.1
 """Difference of relative entropy between two dancers at which one is used e times as much as the other."""
+CLEAR: Final = 3.0
+"""Log odds against a take, from drums alone, from which they count against each of its motions, and not only against
+its turns (`app.choreography.take_turns`). 3 is a twentieth of its usual share.
+"""
+MOST_AGAINST: Final = 9.0
+"""Greatest log odds against a motion by this."""
 OF_ALL: Final = 2.0
 """Weight of all dancers' drums in each dancer's, as a number of sounds, to allow for sounds that were not heard."""
 _ROUNDS: Final = 40
@@ -107,10 +113,20 @@ class TakeShares:
         Clip of each segment.
     shares : (G, K) float64
         Share of each take at each place of a grid; rows sum to 1.
+    usual : (K,) float64
+        Share of each take whatever is played.
     """
 
     takes: IntArray
     shares: FloatArray
+    usual: FloatArray
+
+    def against(self, places: slice) -> FloatArray:
+        """Log odds (P, S) against each segment at each of P places: 0 unless the drums there are clearly those of other
+        takes (`CLEAR`), so that no motion of another dancer slips in between two sounds.
+        """
+        odds = np.log(np.maximum(self.shares[places], 1e-12) / np.maximum(self.usual, 1e-12))
+        return np.asarray(np.where(odds < -CLEAR, np.minimum(-odds, MOST_AGAINST), 0.0)[:, self.takes])
 
 
 def take_shares(
@@ -130,7 +146,8 @@ def take_shares(
         like, unlike = drums.likeness(rhythm)
         nearer = (unlike - unlike.min(axis=1, keepdims=True)) * like[:, None] / TELLING
         shares = (captured * np.exp(-nearer))[beats_at(rhythm, times_s)]
-    return TakeShares(takes, shares / np.maximum(shares.sum(axis=1, keepdims=True), 1e-12))
+    usual = captured / max(float(captured.sum()), 1e-12)
+    return TakeShares(takes, shares / np.maximum(shares.sum(axis=1, keepdims=True), 1e-12), usual)
 
 
 def beats_at(rhythm: Rhythm, times_s: FloatArray) -> IntArray:

@@ -221,6 +221,8 @@ def choose(
             extra += weights.returns * again + weights.lately * lately * np.maximum(again, 0.0)
         if turns is not None:
             extra += weights.take * turns.favoured(grid, chosen, first, again)
+        if takes is not None:
+            extra -= takes.against(slice(first, seen))
         if steps is not None:
             extra += weights.steps * steps.favoured(grid, chosen, first)
         recent = [segment for _, segment in chosen[: -search.remembered - 2 : -1]]

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.choreography.drums_of_dancers import drums_of, take_shares
+from app.choreography.drums_of_dancers import CLEAR, drums_of, take_shares
 from app.choreography.rhythm import SYMBOLS, Rhythm
 from tests.support.dances import beaten
 
@@ -74,3 +74,14 @@ def test_sounds_that_none_heard_tell_nothing() -> None:
     silent = drums_of(CLIPS, [()] * 80, 2)
     assert silent.shares.shape == (2, len(SYMBOLS))
     assert silent.likeness(plain)[0].tolist() == [0.0] * BEATS
+
+
+def test_drums_count_against_motions_only_if_they_are_clearly_those_of_another_dancer() -> None:
+    """Otherwise each dancer has turns, and no motion costs anything."""
+    lasting, every = np.where(CLIPS == 0, 1.0, 3.0), slice(0, BEATS)
+    plain = beaten(BEATS)
+    for rhythm in (struck([7, 21]), replace(plain, symbols=np.full(len(plain.symbols), 40))):
+        assert not take_shares(DRUMS, rhythm, rhythm.beats_s, CLIPS, lasting).against(every).any()
+    against = take_shares(DRUMS, struck([7]), plain.beats_s, CLIPS, lasting).against(every)
+    assert not against[:, CLIPS == 0].any()
+    assert against[:, CLIPS == 1].min() > CLEAR

@@ -10,7 +10,7 @@ import pytest
 from hmmlearn.base import BaseHMM
 
 from app.choreography.accent_grid import AccentGrid, grid_of
-from app.choreography.drums_of_dancers import DancersDrums
+from app.choreography.drums_of_dancers import DancersDrums, TakeShares
 from app.choreography.hit_log_odds import HeardHits, Hearing, SoundOdds
 from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
@@ -271,6 +271,26 @@ def test_no_motion_is_danced_again_at_once_even_if_it_fits_best(segments: int, r
 
     assert soon_again(0.0) > 2
     assert soon_again(24.0) == 0
+
+
+def test_no_motion_of_another_dancer_fills_the_time_between_sounds_that_name_the_dancer() -> None:
+    """Motions of the other dancer would fit better, and no sound is struck during them."""
+    takes = np.repeat([0, 1], 20)
+    joins_m = np.where((takes[:, None] == 1) & (takes[None, :] == 1), 0.03, 0.0)
+    made = replace(candidates(40, 3), joins_m=joins_m)
+    music = beaten(32)
+    silence = heard_by(np.zeros((40, 47))).hits(
+        replace(music, symbols=music.symbols[:0], hits_s=music.hits_s[:0], strengths=music.strengths[:0]), 0.0
+    )
+    grid = grid_of(music)
+
+    def danced(share: float) -> float:
+        shares = TakeShares(takes, np.tile((share, 1.0 - share), (len(grid.times_s), 1)), np.array([0.5, 0.5]))
+        found = [choose(grid, made, silence, seed=seed, takes=shares) for seed in range(3)]
+        return float(np.mean([takes[segment] == 1 for one in found for _, segment in one]))
+
+    assert danced(0.2) < 0.9
+    assert danced(0.0001) == 1.0
 
 
 def test_the_same_seed_is_the_same_dance_and_another_is_another() -> None:
