@@ -16,6 +16,11 @@ from widgets.viewport.framing import tracked
 _POSES: Final = 64
 """Greatest number of poses examined before a film."""
 _LEAST_TIMES, _MOST_TIMES = 3, 17
+_SETTLE_S: Final[dict[View, float]] = {"feet": 0.12}
+"""Time constant in seconds with which the camera follows the object of a view, if not the usual one: travelling feet
+would leave the picture.
+"""
+_USUAL_SETTLE_S: Final = 0.35
 
 
 class Shot:
@@ -60,7 +65,9 @@ class Shot:
         rows = stage.rows(self.player_ids)
         middle_m = tracked(self.view, stage, rows[0]) if rows else None
         if middle_m is not None:
-            self._camera = followed(self._camera, middle_m + self._shift_m, time_s - self._last_s)
+            settle_s = _SETTLE_S.get(self.view, _USUAL_SETTLE_S)
+            elapsed_s = time_s - self._last_s
+            self._camera = followed(self._camera, middle_m + self._shift_m, elapsed_s, settle_s=settle_s)
         self._last_s = time_s
         if self._cameras is not None:
             self._cameras[time_s] = self._camera

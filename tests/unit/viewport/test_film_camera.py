@@ -12,7 +12,7 @@ from tests.unit.viewport.poses import pose, posed_stage, quartet
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
 from widgets.viewport.film_camera import Shot, times_looked_at
-from widgets.viewport.framing import steady_camera
+from widgets.viewport.framing import steady_camera, tracked
 
 STEP_S = 0.1
 ASPECT = 16.0 / 9.0
@@ -53,3 +53,16 @@ def test_it_makes_no_jump(view: View) -> None:
     assert turned_m.max() < 0.03
     if view in ("ensemble", "front", "side", "top"):
         assert steps_m.max() == 0.0
+
+
+def test_travelling_feet_stay_in_the_picture() -> None:
+    """At a metre a second the camera is no farther behind than the room that the view leaves around shoes."""
+    stage = posed_stage()
+    shot = Shot("feet", steady_camera("feet", [stage], [0], Camera(), ASPECT), (quartet().players[0].id,))
+    shot.camera_at(stage, 0.0)
+    for number in range(1, 61):
+        stage.joints[0, :, 0, 3] += 1.0 / 30.0
+        camera = shot.camera_at(stage, number / 30.0)
+    middle_m = tracked("feet", stage, 0)
+    assert middle_m is not None
+    assert 0.0 < middle_m[0] - camera.target_m[0] < 0.15
