@@ -21,6 +21,7 @@ from app.choreography.captured_joints import ARM, LEG, NEAR_TOES, SIDES, Capture
 from app.choreography.joints_by_lengths import joints_by_lengths
 from app.choreography.raw_skeleton import JOINTS, REQUIRED, BodyError, RawSkeleton, raw_skeleton, zero_pose
 from app.choreography.sides import called_after_the_other_side, exchanged, joints_by_side
+from app.choreography.still_ends import without_still_ends
 from app.errors import FileError, Message
 from app.formats.bvh.clip import BvhClip
 from app.rig import quaternion
@@ -95,7 +96,8 @@ def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = No
     FileError
         All joints are at one place, or a correction refers to an unknown joint or bone.
     """
-    motion = _Motion(bvh, file)
+    moving = without_still_ends(bvh)
+    motion = _Motion(moving, file)
     body, found, wrong, missing = _automatic(motion)
     if body is not None:
         body = _with_sides_said(body, motion.figure)
@@ -104,6 +106,8 @@ def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = No
         used = corrected(motion.figure, found, joints, JOINTS)
         body, wrong, missing = _by_hand(motion, used, joints)
     if body is not None:
+        if moving is not bvh:
+            body = replace(body, body=_Motion(bvh, file).captured(body.body.joints, body.up)[0])
         return replace(body, found=found)
     if wrong and not np.ptp(motion.places, axis=1).any():
         raise FileError("motion.no_size", file=file)
@@ -182,10 +186,10 @@ class _Motion:
         kept : collection of str
             Joints that a user corrected.
         """
-        body, up = self._captured(mapping.bones)
+        body, up = self.captured(mapping.bones)
         joints = joints_by_side(body, named, kept)
         if joints != mapping.bones:
-            body, up = self._captured(joints)
+            body, up = self.captured(joints)
         turns = t_pose(body)
         found = checked(body, turns)
         wrong = {one.joint: f"{one.joint} {one.off_deg:.0f}°" for one in found if one.wrong}
@@ -205,12 +209,14 @@ class _Motion:
         if not _missing(bones):
             known = _by_names(self.figure).bones.items()
             sides = [one for one in (bones, exchanged(bones)) if any(one.get(joint) == bone for joint, bone in known)]
-            bones = joints_by_side(self._captured(sides[0] if len(sides) == 1 else bones)[0], len(sides) == 1)
+            bones = joints_by_side(self.captured(sides[0] if len(sides) == 1 else bones)[0], len(sides) == 1)
         return JointMapping("", bones, (), tuple(bones))
 
-    def _captured(self, bones: Mapping[str, int]) -> tuple[Captured, str]:
-        """Return the captured motion of these bones with Y up, and the axis of the file that points up."""
-        up = _up(self.places, bones)
+    def captured(self, bones: Mapping[str, int], up: str = "") -> tuple[Captured, str]:
+        """Return the captured motion of these bones with Y up, and the axis of the file that points up, which is found
+        if ``up`` is empty.
+        """
+        up = up or _up(self.places, bones)
         turn = np.asarray(UPS[up].as_quat(), np.float64)
         segments = _segment_bones(self._bvh.parents, bones)
         turned = quaternion.rotate(turn, self.places), quaternion.multiply(turn, self._rotations)

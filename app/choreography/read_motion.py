@@ -26,6 +26,7 @@ from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.held_frames import held_frames
 from app.choreography.place_units import place_units, with_places
 from app.choreography.raw_skeleton import BodyError, RawSkeleton, raw_skeleton
+from app.choreography.still_ends import moving_frames
 from app.errors import FileError, Message, shortened
 from app.formats.bvh.clip import BvhClip
 from app.formats.motion_limits import require_frames, require_rate
@@ -36,6 +37,8 @@ UNITS_M: Final = {"cm": 0.01, "m": 1.0, "inch": 0.0254, "CMU": 0.0254 / 0.45, "m
 """Units of length in BVH files in metres; CMU: a 0.45th of an inch (CMU's ASF files, and BVH made from them)."""
 FARTHEST_CM: Final = 1e9
 """Longest way of a body, in centimetres, whatever unit a file is in; larger numbers are damage."""
+SAME: Final = 1e-5
+"""Difference of rotations and positions up to which frames are repeated, since converters round."""
 HEIGHTS_M: Final = (1.35, 2.15)
 """Plausible heights of a figure in metres; the first of `UNITS_M` that gives one is used."""
 HEIGHT_M: Final = 1.7
@@ -202,7 +205,8 @@ def motion_of(
     t_pose = np.array([found.t_pose[name] for name in SEGMENTS])
     rotations = quaternion.multiply(found.body.rotations[:, held], quaternion.conjugate(t_pose))
     positions = found.body.positions[:, held]
-    offsets = _offsets(positions, rotations)
+    moving = moving_frames(bvh)
+    offsets = _offsets(positions[moving], rotations[moving])
     ends = np.array([_end(name, quaternion.rotate(found.t_pose[name], found.hanging[name])) for name in ENDS])
     offsets[0] = 0.0
     high = _height(offsets, ends)
@@ -232,7 +236,7 @@ def motion_of(
 def _without_held(bvh: BvhClip) -> tuple[Fraction, BvhClip]:
     """Return the mean number of frames for which each is repeated, and the clip with the first of them only."""
     tracks = (bvh.rotations_xyzw, bvh.root_translation_cm, *bvh.translations_cm.values())
-    changes = [np.any(track[1:] != track[:-1], axis=tuple(range(1, track.ndim))) for track in tracks]
+    changes = [np.any(np.abs(np.diff(track, axis=0)) > SAME, axis=tuple(range(1, track.ndim))) for track in tracks]
     count, kept = held_frames(np.any(changes, axis=0))
     if count == 1:
         return count, bvh

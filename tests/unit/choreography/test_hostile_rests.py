@@ -163,6 +163,42 @@ def test_a_t_pose_before_the_motion_shows_the_head_and_the_palms() -> None:
         assert found["posed"][hand] < 15.0
 
 
+def _held_at_ends(bvh: BvhClip, before: int, after: int) -> BvhClip:
+    """Clip with its zero pose held before and after the motion."""
+    rotations, places = np.array(bvh.rotations_xyzw), np.array(bvh.root_translation_cm)
+    zero = np.tile(quaternion.IDENTITY, (1, rotations.shape[1], 1))
+    parts = [np.repeat(zero, before, axis=0), rotations, np.repeat(zero, after, axis=0)]
+    ends = [np.repeat(places[:1], before, axis=0), places, np.repeat(places[-1:], after, axis=0)]
+    return replace(bvh, rotations_xyzw=np.concatenate(parts), root_translation_cm=np.concatenate(ends))
+
+
+@pytest.mark.parametrize("rest", [None, "rolled", "random"])
+@pytest.mark.parametrize(("before", "after"), [(60, 0), (1200, 0), (0, 1200), (300, 300)])
+def test_a_zero_pose_held_at_the_ends_does_not_move_the_means(rest: str | None, before: int, after: int) -> None:
+    """The pose is a T-pose or no body at all, held for 2 to 40 s next to 7 s of motion."""
+    bvh = _smooth(SALSA)
+    bvh = bvh if rest is None else rerigged(bvh, REST_POSES[rest])
+    read, expected = motion_of(_held_at_ends(bvh, before, after), "a.bvh"), motion_of(bvh, "b.bvh")
+    assert (read.cleaned.lead_in, len(read.clip)) == (before, len(expected.clip))
+    assert max(off_deg(read.clip, expected.clip).values()) < MOST_DEG
+    assert read.apart_m == pytest.approx(expected.apart_m, abs=0.01)
+
+
+def test_repeated_frames_may_differ_by_rounding() -> None:
+    bvh = _smooth(SALSA)
+    noise = np.random.default_rng(1).normal(
+        scale=1e-7, size=(4 * len(bvh.rotations_xyzw), *SALSA.rotations_xyzw.shape[1:])
+    )
+    held = replace(
+        bvh,
+        fps=4 * bvh.fps,
+        rotations_xyzw=quaternion.normalize(np.repeat(np.array(bvh.rotations_xyzw), 4, axis=0) + noise),
+        root_translation_cm=np.repeat(np.array(bvh.root_translation_cm), 4, axis=0),
+    )
+    read = motion_of(held, "a.bvh")
+    assert (read.cleaned.held, read.clip.fps, len(read.clip)) == (4, bvh.fps, len(bvh.rotations_xyzw))
+
+
 @settings(max_examples=12, deadline=None)
 @given(st.integers(0, 2**31 - 1))
 def test_the_dance_is_the_same_for_any_zero_pose(seed: int) -> None:
