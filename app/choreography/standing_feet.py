@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -15,7 +15,7 @@ from app.arrays import FloatArray, IntArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
-from app.choreography.feet_on_floor import free, legs_to, rest_tip_m
+from app.choreography.feet_on_floor import FREE_S, free, legs_to, rest_tip_m
 from app.choreography.foot_plants import STEP_S, FootPlant, InAir, planted_frames
 from app.choreography.hovering_feet import hover_m, supporting
 from app.choreography.limbs import smooth_share
@@ -46,9 +46,6 @@ HASTE: Final = 1.5
 """Speed relative to the motion's own above which a stand is not shown faster, but shortened: what lies between its
 beginning and its end is left out."""
 
-TWISTED_RAD: Final = (0.3, 0.1)
-"""Angle in radians by which the body turns away over a standing foot, from the angle of its captured stand, before the
-foot turns along about its tip; and the width over which it begins to."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
 _LEGS: Final = tuple(
     1 + at for at, name in enumerate(SEGMENTS) if name == "hips" or name.endswith(("UpperLeg", "LowerLeg", "Foot"))
@@ -151,39 +148,85 @@ def _feet_at(
 ) -> FloatArray:
     """World positions of foot tips (F, feet, 3), taken for each foot from the frame ``shown`` (F, feet), which may be
     fractional. The feet are turned likewise, in place in ``legs``; a foot in the air turns along with the hips, as it
-    does in a spin, and a standing one where they turn far. Stands much shorter than in the motion are shortened, see
-    `HASTE`.
+    does in a spin. Stands much shorter than in the motion are shortened, see `HASTE`.
     """
     frames, tips, facing = np.arange(len(shown)), np.empty_like(body.tips), body.facing_rad
     on_floor = planted_frames(standing, len(shown))
     for foot, name in enumerate(FEET):
         tips[:, foot], turned = body.foot_at(foot, shown[:, foot])
-        hasty, firsts, lasts, shares = _shortened(shown[:, foot], [stand for stand in standing if stand.foot == foot])
-        if len(hasty):
-            (begun_m, begun), (ended_m, ended) = (body.foot_at(foot, at) for at in (firsts, lasts))
-            tips[hasty, foot] = begun_m + shares[:, None] * (ended_m - begun_m)
-            turned[hasty] = quaternion.slerp(begun, ended, shares)
-        off = facing - np.interp(shown[:, foot], frames, facing)
-        over = np.maximum(np.abs(off) - TWISTED_RAD[0], 0.0)
-        carried = np.sign(off) * over * over / (over + TWISTED_RAD[1])
-        along = carried + free(on_floor[:, foot], fps) * (off - carried)
+        faced, along = np.interp(shown[:, foot], frames, facing), free(on_floor[:, foot], fps)
+        short = _Shortened.of(shown[:, foot], [stand for stand in standing if stand.foot == foot])
+        if len(here := short.frames):
+            (begun_m, begun), (ended_m, ended) = (body.foot_at(foot, at) for at in (short.since_start, short.till_end))
+            left = facing[short.ends] - faced[short.ends]
+            kept = _turned_rad(turned[short.ends], turned[short.starts]) * np.sign(left)
+            kept = np.clip(kept / np.maximum(np.abs(left), 1e-9), 0.0, 1.0)
+            tips[here, foot] = begun_m + short.shares[:, None] * (ended_m - begun_m)
+            turned[here] = quaternion.slerp(begun, ended, short.shares)
+            faced[here], along[here] = np.interp(short.till_end, frames, facing), short.shares * kept[short.which]
+            _carry_on(along, short, kept, max(FREE_S * fps, 1.0))
+        along *= facing - faced
         legs.of(1 + SEGMENTS.index(name))[1][:] = quaternion.multiply(quaternion.from_axis_angle(_UP, along), turned)
     return tips
 
 
-def _shortened(shown: FloatArray, standing: Sequence[FootPlant]) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
-    """Return the frames (N,) of those stands of a foot that ``shown`` (F,) hastens more than `HASTE`, for each the
-    frames of the motion counted from the stand's beginning and from its end, and the share of the latter.
+def _turned_rad(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Angle (N,) about the vertical from rotations (N, 4) to others, the shorter way."""
+    return quaternion.twist_angle(quaternion.multiply(other, quaternion.conjugate(one)), _UP)
+
+
+class _Shortened(NamedTuple):
+    """Stands of a foot that are much shorter than in the motion.
+
+    Attributes
+    ----------
+    starts, ends, follow : (S,) int64
+        First and last frame of each stand, and the first one of the foot's next stand.
+    frames : (N,) int64
+        Frames of all stands, ascending.
+    which : (N,) int64
+        Index of the stand of each frame.
+    since_start, till_end : (N,) float64
+        For each the frame of the motion that is as far from the beginning and from the end of its stand.
+    shares : (N,) float64
+        Share of the latter, 0 at the beginning and 1 at the end.
     """
-    bounds = [(stand.start, stand.stop - 1) for stand in standing if stand.stop - stand.start > 2]
-    starts, ends = np.array(bounds, np.int64).reshape(-1, 2).T
-    hasty = shown[ends] - shown[starts] > HASTE * (ends - starts)
-    starts, ends = starts[hasty], ends[hasty]
-    frames = np.concatenate([np.zeros(0, np.int64), *(np.arange(*span) for span in zip(starts, ends + 1, strict=True))])
-    which = np.repeat(np.arange(len(starts)), ends - starts + 1)
-    since, left = frames - starts[which], ends[which] - frames
-    shares = smooth_share(since / (since + left), (0.0, 1.0))
-    return frames, shown[starts][which] + since, shown[ends][which] - left, shares
+
+    starts: IntArray
+    ends: IntArray
+    follow: IntArray
+    frames: IntArray
+    which: IntArray
+    since_start: FloatArray
+    till_end: FloatArray
+    shares: FloatArray
+
+    @classmethod
+    def of(cls, shown: FloatArray, standing: Sequence[FootPlant]) -> _Shortened:
+        """Return those stands of a foot that ``shown`` (F,) hastens by more than `HASTE`."""
+        starts = np.array([stand.start for stand in standing], np.int64)
+        ends = np.array([stand.stop - 1 for stand in standing], np.int64)
+        (hasty,) = np.nonzero(shown[ends] - shown[starts] > HASTE * (ends - starts))
+        follow = np.append(starts, 2 * len(shown))[hasty + 1]
+        starts, ends = starts[hasty], ends[hasty]
+        spans = [np.arange(start, end + 1) for start, end in zip(starts.tolist(), ends.tolist(), strict=True)]
+        frames = np.concatenate([np.zeros(0, np.int64), *spans])
+        which = np.repeat(np.arange(len(starts)), ends - starts + 1)
+        since, left = frames - starts[which], ends[which] - frames
+        shares = smooth_share(since / (since + left), (0.0, 1.0))
+        return cls(starts, ends, follow, frames, which, shown[starts][which] + since, shown[ends][which] - left, shares)
+
+
+def _carry_on(along: FloatArray, short: _Shortened, kept: FloatArray, over: float) -> None:
+    """Let the shares (F,) in which a foot turns along with the hips rise, in place, from those ``kept`` (S,) at the end
+    of shortened stands, within ``over`` frames.
+    """
+    since = np.arange(1, round(over) + 1)
+    after, begun = short.ends[:, None] + since, kept[:, None]
+    risen = begun + (1.0 - begun) * smooth_share(since.astype(np.float64), (0.0, over))
+    shares = np.minimum(risen, smooth_share((short.follow[:, None] - after).astype(np.float64), (0.0, over)))
+    some = after < np.minimum(short.follow, len(along))[:, None]
+    along[after[some]] = shares[some]
 
 
 def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> FloatArray:

@@ -121,6 +121,18 @@ def test_a_standing_foot_turns_along_with_a_body_that_turns_far_over_it() -> Non
     assert tips_m(found)[110:123, 0] == pytest.approx(np.tile(stand.place_m, (13, 1)), abs=1e-4)
 
 
+def test_the_foot_of_a_shortened_stand_stays_as_it_landed_under_a_body_that_only_sways() -> None:
+    clip, frames = still(120), np.arange(120.0)
+    clip = replace(clip, hips_m=clip.hips_m - (0.0, 0.03, 0.0))
+    swayed = quaternion.from_axis_angle((0.0, 1.0, 0.0), 0.9 * np.sin(np.pi * np.clip((frames - 30) / 60.0, 0.0, 1.0)))
+    clip.rotations[:, 0], clip.rotations[:, SEGMENTS.index("leftUpperLeg")] = swayed, quaternion.conjugate(swayed)
+    shown = np.interp(frames, [0.0, 24.0, 46.0, 58.0, 96.0, 119.0], [0.0, 24.0, 30.0, 75.0, 96.0, 119.0])
+    stand = FootPlant(0, 46, 59, tuple(tips_m(clip)[0, 0].tolist()))
+    found = planted(clip, (stand,), shown=np.stack([shown, frames], axis=1))
+    turned = found.world().rotations[46:59, 1 + SEGMENTS.index("leftFoot")]
+    assert np.abs(quaternion.to_rotation_vector(turned)[:, 1]).max() < 0.1
+
+
 def test_a_foot_that_a_join_lifts_before_its_contact_ends_leaves_as_it_rises() -> None:
     clip, frames = still(120), np.arange(120)
     risen_m = 0.07 * np.clip((frames - 50) / 8.0, 0.0, 1.0) + 0.05 * np.clip((frames - 58) / 20.0, 0.0, 1.0)
