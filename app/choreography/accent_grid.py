@@ -11,6 +11,8 @@ import numpy as np
 from app.arrays import BoolArray, FloatArray
 from app.choreography.rhythm import Rhythm
 
+SAME_S: Final = 0.05
+"""Greatest time in seconds between a hit and a place of the grid that is meant."""
 WEAK: Final = 0.0
 """Strength of an additional beat between the beats of the piece."""
 
@@ -46,6 +48,12 @@ class AccentGrid:
         """Position (G,) of each grid time in beats, counted from the first grid time."""
         on_beat = np.flatnonzero(self.on_beat)
         return np.asarray(np.interp(np.arange(len(self.times_s)), on_beat, np.arange(len(on_beat))))
+
+    def until(self, time_s: float) -> AccentGrid:
+        """Return the grid up to its first place at a time or later."""
+        count = int(np.searchsorted(self.times_s, time_s - SAME_S)) + 1
+        written = None if self.written is None else self.written[:count]
+        return AccentGrid(self.times_s[:count], self.on_beat[:count], written)
 
 
 def grid_of(rhythm: Rhythm) -> AccentGrid:

@@ -38,7 +38,7 @@ HELD_S: Final = 1.5
 """Time in seconds for which the last stand is held, with what feet and hands need to arrive in it."""
 ENDS_S: Final = RESTS_S + HELD_S
 """Time in seconds from the last motion to the end of a clip."""
-GOES_ON_S: Final = 0.4
+GOES_ON_S: Final = 0.15
 """Greatest time in seconds for which a last motion goes on after the music."""
 LEAST_S: Final = 0.3
 """Least time in seconds for that; with less before the first or after the last motion there is no stand."""

@@ -18,6 +18,7 @@ from app.choreography.arrivals import FPS, arrival_frames, beats_met, best_arriv
 from app.choreography.clip import MotionClip
 from app.choreography.coming_to_rest import ENDS_S, GOES_ON_S, CapturedStands, between_stands, captured_stands
 from app.choreography.dance import Dance, Manner, SegmentStep
+from app.choreography.dance_ends import EndOdds, danced_grid, odds_of_ends
 from app.choreography.dance_flaws import usual_change_rad_s
 from app.choreography.drafts import DRAFT_FPS, DRAFTS, draft_of
 from app.choreography.drums_of_dancers import TakeShares, take_shares
@@ -142,6 +143,11 @@ class Choreographer:
         return idling_odds(self.model.segments, self._speeds, self._fps)
 
     @cached_property
+    def _end_odds(self) -> EndOdds:
+        """Log odds of ending a dance with segments."""
+        return odds_of_ends(self.model.clips, self.model.segments, self._hits_s)
+
+    @cached_property
     def _stands_at_rest(self) -> CapturedStands:
         """Captured poses in which a dance may begin and end."""
         return captured_stands(self.model.clips, self._stitcher.hinges)
@@ -208,7 +214,7 @@ class Choreographer:
         count = max(1, math.ceil((end_s - first_s) * float(fps)))
         if not plan.steps:
             return Dance(self._stitcher.still(count, body, fps), first_s, (), np.zeros(count), (), ())
-        rests_s = min(rhythm.end_s + GOES_ON_S, end_s - ENDS_S)
+        rests_s = min(plan.steps[-1].end_s, end_s - ENDS_S)
         times_s = first_s + np.arange(count) / float(fps)
         clip, moved_m, contacts, seams, speeds = self._motion(plan, body, fps, times_s, rests_s)
         clip = sized(clip, manner.size, self._stitcher.hinges)
@@ -256,7 +262,8 @@ class Choreographer:
     ) -> _Plan:
         """Choose the segments for a rhythm, and fit them to its accents; the plan has the segments, their times, and
         the map from performance to motion time."""
-        candidates, grid, segments = self.candidates, grid_of(rhythm), self.model.segments
+        held = set() if constraints is None else {*constraints.pinned, *constraints.segments}
+        candidates, grid, segments = self.candidates, danced_grid(rhythm, held), self.model.segments
         initial = np.log(self.model.initial * self.model.states)[candidates.states]
         pace = pace_of(rhythm, self._beat_s, SPEEDS[1])
         preferred = PREFERRED * np.array([one.clip == manner.source for one in segments], np.float64)
@@ -272,15 +279,16 @@ class Choreographer:
             takes=self._take_shares(rhythm, grid) if manner.source is None else None,
             steps=step_balance(segments, self._fps, self._falls_s, pace),
             initial=initial + self._standing([one.start for one in segments]),
-            final=self._standing([one.end for one in segments]),
+            final=self._standing([one.end for one in segments]) + self._end_odds.last,
+            closing=self._end_odds.closing,
         )
-        held = set() if constraints is None else {*constraints.pinned, *constraints.segments}
-        plan = self._timed(chosen, grid, manner.source or 0, np.array([place in held for place, _ in chosen], bool))
+        stay = np.array([place in held or place == chosen[-1][0] for place, _ in chosen], bool)
+        plan = self._timed(chosen, grid, manner.source or 0, stay)
         if not plan.steps:
             return plan
-        # The last motion ends with the music, and what is left of it is not danced.
+        # The last motion ends soon after the last accent, and what is left of it is not danced.
         last = plan.steps[-1]
-        ends_s = min(last.end_s, max(last.accent_s, rhythm.end_s + GOES_ON_S))
+        ends_s = min(last.end_s, max(last.accent_s, rhythm.closes_s) + GOES_ON_S)
         return replace(plan, steps=(*plan.steps[:-1], replace(last, end_s=ends_s)))
 
     def _take_shares(self, rhythm: Rhythm, grid: AccentGrid) -> TakeShares:
@@ -378,11 +386,11 @@ class Choreographer:
         which[0] = which[min(1, len(which) - 1)]
         source_s = self._hits_s[segments[which]] + along - plan.hits_s[which]
         frames = Frames(segments, which, source_s, speeds)
-        clip, contacts, seams = self._stitcher.stitched(frames, body, fps)
-        hips_m = on_stage(clip.hips_m, float(fps))
-        moved_m, clip = hips_m - clip.hips_m, replace(clip, hips_m=hips_m)
         starts_s, ends_s = plan.times.times_s[[0, -1]]
         first, stop = np.searchsorted(times_s, (starts_s, min(ends_s, rests_s))).tolist()
+        clip, contacts, seams = self._stitcher.stitched(frames, body, fps, stop)
+        hips_m = on_stage(clip.hips_m, float(fps))
+        moved_m, clip = hips_m - clip.hips_m, replace(clip, hips_m=hips_m)
         clip, moved_m, contacts = between_stands(clip, moved_m, contacts, (first, stop), self._stands_at_rest)
         shown = tuple(seam for seam in seams if seam <= stop)
         return _Motion(unbroken(clip), moved_m, contacts, shown, np.where(times_s < rests_s, speeds, 0.0))

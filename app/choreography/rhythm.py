@@ -55,6 +55,15 @@ class Rhythm:
         last_s = 0.0 if self.melody is None else self.melody.end_s
         return float(np.concatenate([[last_s], self.beats_s[-1:], self.hits_s[-1:]]).max())
 
+    @property
+    def closes_s(self) -> float:
+        """Time in seconds of the last accent: the last hit, also of the melody, or the last downbeat if that is later;
+        without hits the last beat.
+        """
+        hits_s = np.concatenate([self.hits_s[-1:], () if self.melody is None else self.melody.hits_s[-1:]])
+        downbeats_s = self.beats_s[self.bar_beats == 0]
+        return float(np.concatenate([hits_s, downbeats_s[-1:]]).max()) if len(hits_s) else self.end_s
+
 
 def are_alike(one: Rhythm | None, other: Rhythm | None) -> bool:
     """Return whether two rhythms have equal beats and hits, so that dances to them are equal."""

@@ -87,6 +87,8 @@ class Weights:
 
 
 LATELY_S: Final = 12.0
+CLOSING_S: Final = 2.5
+"""Seconds before the last accent in which a dance comes to its end."""
 RECENT: Final = 7
 """Greatest number of motions before the last one that are not soon danced again."""
 PER_RECENT: Final = 8
@@ -163,6 +165,7 @@ def choose(
     usual: FloatArray | None = None,
     initial: FloatArray | None = None,
     final: FloatArray | None = None,
+    closing: FloatArray | None = None,
     returns: ReturningPlaces | None = None,
     takes: TakeShares | None = None,
     steps: StepBalance | None = None,
@@ -175,8 +178,8 @@ def choose(
         Log odds of hits by segment of the candidates.
     constraints : Constraints, optional
         The user's corrections.
-    usual, initial, final : (S,) float64, optional
-        Log odds of each segment anywhere, as the first, and as the last.
+    usual, initial, final, closing : (S,) float64, optional
+        Log odds of each segment anywhere, as the first, as the last, and as one of the last `CLOSING_S`.
     returns : ReturningPlaces, optional
         Places at which earlier music recurs.
     takes : TakeShares, optional
@@ -223,6 +226,8 @@ def choose(
             extra += weights.take * turns.favoured(grid, chosen, first, again)
         if takes is not None:
             extra -= takes.against(slice(first, seen))
+        if closing is not None:
+            extra += weights.model * closing * (grid.times_s[first:seen, None] > grid.times_s[-1] - CLOSING_S)
         if steps is not None:
             extra += weights.steps * steps.favoured(grid, chosen, first)
         recent = [segment for _, segment in chosen[: -search.remembered - 2 : -1]]

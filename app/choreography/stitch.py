@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -28,24 +26,11 @@ from app.choreography.joins import (
 from app.choreography.limbs import hinge_ranges
 from app.choreography.model import ChoreographyModel
 from app.choreography.seam_blends import HipsOnTheWay, Seams, blend_rotations
-from app.choreography.stage import STAGE_M
+from app.choreography.steering import Ahead
 from app.rig import quaternion
 
-FACES_RAD: Final = math.radians(6.0)
-"""Greatest mean angle in radians of a motion from facing the audience; spins and turns of the capture remain
-complete.
-"""
-TURN_BACK: Final = 1.0
-MOST_TURN_RAD: Final = math.radians(70.0)
-STEP_BACK: Final = 0.2
-MOST_STEP_M: Final = 0.08
-"""`TURN_BACK` and `STEP_BACK` are the shares of the excess over `FACES_RAD` and `STAGE_M` that each join corrects,
-`MOST_TURN_RAD` and `MOST_STEP_M` the greatest corrections.
-"""
 LATELY_S: Final = 1.0
 """Seconds of motion whose mean is the dancer's place."""
-SPINS_RAD_S: Final = 5.0
-"""Speed in radians per second from which a turn of the hips is a spin, in which facing is not corrected."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
 
 
@@ -115,13 +100,17 @@ class Stitcher:
         scale = self._heights_m[body] / self._heights_m[first.clip]
         return MotionClip(self._model.clips[body].shape, fps, hips * _UP * scale, rotations)
 
-    def stitched(self, frames: Frames, body: int, fps: Fraction) -> tuple[MotionClip, BoolArray, tuple[int, ...]]:
+    def stitched(
+        self, frames: Frames, body: int, fps: Fraction, ends: int
+    ) -> tuple[MotionClip, BoolArray, tuple[int, ...]]:
         """Concatenate the captured segments shown by ``frames`` to one motion.
 
         Parameters
         ----------
         body : int
             Index of the clip whose body dances.
+        ends : int
+            Frame before which the dance ends, facing the audience.
 
         Returns
         -------
@@ -135,7 +124,7 @@ class Stitcher:
         runs = np.flatnonzero(np.diff(frames.which, prepend=-1, append=frames.which[-1] + 1))
         (captured_m, rotations), contacts = self._captured(frames, runs, body, fps)
         rate, turns = float(fps), np.zeros(len(rotations))
-        way, ahead = HipsOnTheWay(rate, len(frames.which)), _Ahead.of(rotations, rate)
+        way, ahead = HipsOnTheWay(rate, len(frames.which)), Ahead.of(rotations, runs, ends, rate)
         seams: list[int] = []
         rows: list[int] = []
         steered: list[_Steer] = []
@@ -151,7 +140,8 @@ class Stitcher:
                 seam = not self.follows(segment, earlier)
                 if seam or step != before + 1:
                     turn, moved = self._aligned(earlier, segment, turn, moved, self._heights_m[body])
-                turn, moved = _steered(turn, moved, way, start, ahead, slice(start + run, stop + run))
+                if (lately := way.lately(start, LATELY_S)) is not None:
+                    turn, moved = ahead.steered(run, turn, moved, way.place(start), lately)
                 if seam:
                     seams.append(start)
                     rows.append(start + run)
@@ -257,51 +247,6 @@ def _place_at(
         factors += left * (np.exp(1j * old[0]) - np.exp(1j * new[0]))
         moves += left * (old[1] - new[1])
     return turns, factors, moves
-
-
-class _Ahead(NamedTuple):
-    """Directions (F,) of the hips in a captured motion as complex numbers, whose mean is small if they turn around, and
-    the angles (F,) in radians by which they turn to the next frame.
-    """
-
-    faces: ComplexArray
-    turns_rad: FloatArray
-    fps: float
-
-    @classmethod
-    def of(cls, rotations: FloatArray, fps: float) -> _Ahead:
-        """Return the directions of the hips for rotations (F, 16, 4)."""
-        yaw = quaternion.twist_angle(rotations[:, 0], _UP)
-        turns_rad = np.abs(np.diff(yaw, append=yaw[-1:]))
-        return cls(np.exp(1j * yaw), np.minimum(turns_rad, 2.0 * np.pi - turns_rad), fps)
-
-    def spins(self, some: slice) -> bool:
-        """Return whether the hips turn at `SPINS_RAD_S` or more at some moment soon after the first of some frames."""
-        soon = slice(some.start, min(some.stop, some.start + round(FADE_S * self.fps) + 1) - 1)
-        return float(self.turns_rad[soon].max(initial=0.0)) * self.fps >= SPINS_RAD_S
-
-
-def _steered(
-    turn: float, moved: complex, way: HipsOnTheWay, frame: int, ahead: _Ahead, coming: slice
-) -> tuple[float, complex]:
-    """Correct rotation and move of the next segment slightly, to bring the dancer back towards the usual place (from
-    the recent mean position) and towards the audience (from the mean direction ``ahead`` in its ``coming`` frames). A
-    spin in progress is not turned.
-    """
-    hips = way.lately(frame, LATELY_S)
-    if hips is None:
-        return turn, moved
-    off = cmath.phase(cmath.exp(1j * turn) * complex(ahead.faces[coming].mean()))
-    if abs(off) > FACES_RAD and not ahead.spins(coming):
-        nudge = -math.copysign(min(TURN_BACK * (abs(off) - FACES_RAD), MOST_TURN_RAD), off)
-        # Rotated about the position of the body, so that it does not orbit the centre of the stage.
-        here = way.place(frame)
-        moved = here + complex(np.exp(1j * nudge)) * (moved - here)
-        turn += nudge
-    away = abs(hips)
-    if away > 0.5 * STAGE_M:
-        moved -= hips / away * min(STEP_BACK * (away - 0.5 * STAGE_M), MOST_STEP_M)
-    return turn, moved
 
 
 def _placed(hips_m: FloatArray, factors: ComplexArray, moves: ComplexArray) -> FloatArray:

@@ -47,7 +47,7 @@ def test_a_spin_cut_into_segments_leans_as_captured() -> None:
     library = replace(model(), clips=(clip,), segments=segments)
     at = np.arange(edges[-1])
     frames = Frames(np.arange(len(segments)), np.searchsorted(edges[1:], at, side="right"), at / 60.0, np.ones(len(at)))
-    danced, _, seams = Stitcher(library).stitched(frames, 0, Fraction(60))
+    danced, _, seams = Stitcher(library).stitched(frames, 0, Fraction(60), len(at))
     assert not seams
     assert leans_rad(danced) == pytest.approx(leans_rad(clip)[: len(at)], abs=0.01)
     spin = slice(80, 165)
@@ -61,7 +61,7 @@ def test_a_spin_joined_to_another_one_leans_no_farther_than_both() -> None:
     which = np.repeat([0, 1], [100, 110])
     source_s = np.concatenate([np.arange(20, 120), np.arange(110, 220)]) / 60.0
     danced, _, seams = Stitcher(library).stitched(
-        Frames(np.arange(2), which, source_s, np.ones(len(which))), 0, Fraction(60)
+        Frames(np.arange(2), which, source_s, np.ones(len(which))), 0, Fraction(60), len(which)
     )
     assert seams == (100,)
     assert leans_rad(danced)[100:].max() < 0.27
