@@ -1,4 +1,5 @@
 """A dance begins and ends in a natural stand: raised feet are put down with a step, and the body settles between them.
+A longer stand is not held like a statue (`app.choreography.quiet_standing`).
 
 The stand is a captured pose near the last one of the dance, with its legs solved again for feet that are flat on the
 floor; feet that already stand stay where they are. The difference to it fades out as at a join.
@@ -29,6 +30,7 @@ from app.choreography.joins import (
     fading_turn,
 )
 from app.choreography.limbs import within_hinges
+from app.choreography.quiet_standing import quietly
 from app.choreography.standing_feet import planted
 from app.rig import quaternion
 
@@ -166,6 +168,7 @@ def between_stands(
     contacts: BoolArray,
     danced: Sequence[int],
     stands: CapturedStands,
+    seed: int = 0,
 ) -> tuple[MotionClip, FloatArray, BoolArray]:
     """Return a motion that begins and ends in a stand, as far as there is time before and after its dance, with
     ``moved_m`` and ``contacts`` that fit.
@@ -178,18 +181,22 @@ def between_stands(
         Whether the left and the right foot stand.
     danced : (int, int)
         First frame of the dance and the frame after the last one.
+    seed : int
+        Seed for breaths and shifts of weight, see `app.choreography.quiet_standing.quietly`.
     """
     room, (first, stop) = LEAST_S * float(clip.fps), danced
+    rests, frames = RESTS_S * float(clip.fps), np.arange(len(clip))
     if stop - first < 2:
         return clip, moved_m, contacts
     moved_m, contacts = moved_m.copy(), contacts.copy()
     if len(clip) - stop >= room:
         clip = _to_rest(clip, contacts, stop, stands)
+        clip = quietly(clip, np.maximum(frames - stop - rests, 0.0) / float(clip.fps), seed)
         moved_m[stop:] = moved_m[stop - 1]
     if first >= room:
         # The start is an end in reversed time.
         turned = _to_rest(_reversed(clip), contacts[::-1], len(clip) - first, stands)
-        clip = _reversed(turned)
+        clip = quietly(_reversed(turned), np.maximum(first - frames - rests, 0.0) / float(clip.fps), seed)
         moved_m[:first] = moved_m[first]
     return clip, moved_m, contacts
 

@@ -216,7 +216,7 @@ class Choreographer:
             return Dance(self._stitcher.still(count, body, fps), first_s, (), np.zeros(count), (), ())
         rests_s = min(plan.steps[-1].end_s, end_s - ENDS_S)
         times_s = first_s + np.arange(count) / float(fps)
-        clip, moved_m, contacts, seams, speeds = self._motion(plan, body, fps, times_s, rests_s)
+        clip, moved_m, contacts, seams, speeds = self._motion(plan, body, fps, times_s, rests_s, manner.seed)
         clip = sized(clip, manner.size, self._stitcher.hinges)
         if manner.mirrored:
             clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
@@ -374,7 +374,9 @@ class Choreographer:
             found.append(falls_s[first:stop] - hit_s + hit)
         return np.concatenate(found)
 
-    def _motion(self, plan: _Plan, body: int, fps: Fraction, times_s: FloatArray, rests_s: float = np.inf) -> _Motion:
+    def _motion(
+        self, plan: _Plan, body: int, fps: Fraction, times_s: FloatArray, rests_s: float = np.inf, seed: int = 0
+    ) -> _Motion:
         """Compute the motion of a plan at ascending times: its segments joined for the body of the clip with index
         ``body``, moving over the stage; it comes to rest after the last segment, from ``rests_s`` on at the latest.
         """
@@ -391,6 +393,6 @@ class Choreographer:
         clip, contacts, seams = self._stitcher.stitched(frames, body, fps, stop)
         hips_m = on_stage(clip.hips_m, float(fps))
         moved_m, clip = hips_m - clip.hips_m, replace(clip, hips_m=hips_m)
-        clip, moved_m, contacts = between_stands(clip, moved_m, contacts, (first, stop), self._stands_at_rest)
+        clip, moved_m, contacts = between_stands(clip, moved_m, contacts, (first, stop), self._stands_at_rest, seed)
         shown = tuple(seam for seam in seams if seam <= stop)
         return _Motion(unbroken(clip), moved_m, contacts, shown, np.where(times_s < rests_s, speeds, 0.0))
