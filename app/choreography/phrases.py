@@ -24,6 +24,8 @@ LEAST_MORE: Final = 0.1
 """Least difference in similarity (cosine) for a full recurrence, so that no bar recurs if all are alike."""
 USUAL_MELODY: Final = 0.5
 """Amount 0..1 of a melody that counts as much as percussion when bars are compared."""
+MELODY_RETURNS: Final = 2.0
+"""Weight of a recurrence at the amount 1 of a melody, relative to one at the usual amount."""
 ANEW: Final = 0.05
 """Share of the bars of a recurring section that are danced anew."""
 COPIED_BEATS: Final = 6.0
@@ -48,7 +50,7 @@ class ReturningPlaces:
         For each place, the place at the same position of each bar; -1 if there is none.
     worths : (G, B) float64
         Similarity of the place's bar to each earlier bar, relative to the mean of the piece: 1 if it recurs, -1 for the
-        opposite, 0 for bars that are not earlier.
+        opposite, 0 for bars that are not earlier; up to `MELODY_RETURNS` times as much by a melody.
     """
 
     bars: IntArray
@@ -58,19 +60,33 @@ class ReturningPlaces:
 
 def returns_of_bars(rhythm: Rhythm, melody: float = USUAL_MELODY) -> FloatArray:
     """For all pairs of B bars, the similarity (B, B) of a bar to an earlier one relative to the mean of the piece,
-    -1..1; 0 for bars that are not earlier. A bar lasts from one downbeat to the next. For ``melody`` see
-    `likeness_of_bars`.
+    -1..1 times the weight of a recurrence; 0 for bars that are not earlier. A bar lasts from one downbeat to the next.
+
+    Similarity has no scale of its own, since it is relative to its spread. So an amount ``melody`` 0..1 lies between
+    the recurrences by percussion (0), by both (`USUAL_MELODY`), and by the melody alone (1, `MELODY_RETURNS`).
     """
-    alike = _along_passages(likeness_of_bars(rhythm, melody))
+    if rhythm.melody is None or melody <= 0.0:
+        return _relative(likeness_of_bars(rhythm, 0.0))
+    usual = _relative(likeness_of_bars(rhythm))
+    if melody == USUAL_MELODY:
+        return usual
+    if melody < USUAL_MELODY:
+        part, other = melody / USUAL_MELODY, _relative(likeness_of_bars(rhythm, 0.0))
+    else:
+        part = (1.0 - melody) / (1.0 - USUAL_MELODY)
+        other = MELODY_RETURNS * _relative(likeness_of_bars(rhythm, 1.0))
+    return part * usual + (1.0 - part) * other
+
+
+def _relative(likeness: FloatArray) -> FloatArray:
+    """Return similarities (B, B) relative to their mean and spread, -1..1; 0 for bars that are not earlier."""
+    alike = _along_passages(likeness)
     bars = len(alike)
     later = np.tril(np.ones((bars, bars), bool), -APART_BARS)
-    pairs = usual = alike[later]
+    pairs = alike[later]
     if not len(pairs):
         return np.zeros((bars, bars))
-    if rhythm.melody is not None and melody not in (0.0, USUAL_MELODY):
-        # Relative to the spread with any other amount, a melody over even drums would count the same with each.
-        usual = _along_passages(likeness_of_bars(rhythm))[later]
-    more = (alike - pairs.mean()) / max(LEAST_MORE, UNUSUAL * float(usual.std()))
+    more = (alike - pairs.mean()) / max(LEAST_MORE, UNUSUAL * float(pairs.std()))
     return np.where(later, np.clip(more, -1.0, 1.0), 0.0)
 
 

@@ -111,6 +111,8 @@ def test_two_melodies_over_the_same_drums_tell_two_dancers_apart() -> None:
     assert [one.melody for one in model.segments] == [(one.sounds[0] + (5, 9)[one.clip],) for one in model.segments]
     clips, heard = np.array([one.clip for one in model.segments]), hearing(model)
     summed = [heard.hits(rhythms[0], amount).summed[-1] for amount in (0.0, 0.5, 1.0)]
+    # The usual amount weighs half of what percussion does; the greatest four times as much as the usual one.
+    assert summed[2] - summed[0] == pytest.approx(4.0 * (summed[1] - summed[0]))
     assert summed[0][clips == 0] == pytest.approx(summed[0][clips == 1])
     own, other = (np.array([one[clips == clip].mean() for one in summed]) for clip in (0, 1))
     assert (np.diff(own - other) > 1.0).all()

@@ -69,6 +69,28 @@ def test_sections_return_by_their_melody_too() -> None:
     assert worths[9, 1] > 0.5 > worths[13, 1]
 
 
+def test_sections_return_by_their_melody_the_more_the_more_it_weighs() -> None:
+    """Over even drums every amount from 0.25 on was the same, since recurrences are relative to their own spread."""
+    beats = played("AAAA").beats_s
+    even = replace(played("AAAA"), hits_s=beats, symbols=np.zeros(len(beats), int), strengths=np.ones(len(beats)))
+    rhythm = replace(even, melody=played("ABAC"))
+    amounts = np.array([0.0, 0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 1.0])
+    worths = np.array([returns_of_bars(rhythm, amount)[9, 1] for amount in amounts])
+    assert worths == pytest.approx(2.0 * amounts, abs=1e-6)
+    assert np.array_equal(returns_of_bars(rhythm, 0.0), returns_of_bars(even))
+
+
+def test_a_melody_alone_decides_at_the_amount_1() -> None:
+    rhythm = replace(played("ABBA"), melody=played("ABAC"))
+    by_drums, by_both, by_melody = (returns_of_bars(rhythm, amount) for amount in (0.0, 0.5, 1.0))
+    assert by_drums[13, 1] > 0.5 > by_melody[13, 1]
+    assert by_melody[9, 1] > 1.5 > by_drums[9, 1]
+    # The usual amount, which dances have unless the user changes it, is the mean of both as it always was.
+    alike = likeness_of_bars(rhythm)
+    assert np.array_equal(by_both, returns_of_bars(rhythm))
+    assert np.allclose(alike, 0.5 * (likeness_of_bars(rhythm, 0.0) + likeness_of_bars(rhythm, 1.0)))
+
+
 def test_places_return_to_the_same_place_of_the_bar() -> None:
     rhythm = played("ABA")
     times = grid_of(rhythm).times_s
