@@ -1,4 +1,5 @@
-"""Limits sudden changes of the rotation speeds of legs where feet land or leave, by raising or lowering heels.
+"""Limits sudden changes of the rotation speeds of legs where feet land or leave, by raising or lowering heels and by
+turning knees.
 
 A foot that lands earlier or later than captured stops within a frame, and with it the knee. The tip of the foot must be
 where it is, but its heel may follow a moment later: ankle, knee and hip then slow down over a few frames, and the foot
@@ -7,19 +8,20 @@ neither moves nor skids.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.ndimage import maximum_filter1d
 
-from app.arrays import BoolArray, FloatArray
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.body_speeds import changes_rad, runs, turns_rad
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import LEG, foot_paths, legs_along, soles_m
+from app.choreography.legs_apart import knees_turned
 from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
 from app.rig.sole import SIDES
@@ -79,16 +81,59 @@ def heels_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float
     """
     fps = float(clip.fps)
     for _ in range(TRIES):
-        calmer = _calmer(clip, planted, ROOM * most_rad_s / fps, most_m_s2 / fps**2)
+        calmer = _calmer(clip, planted, ROOM * most_rad_s / fps, most_m_s2 / fps**2, _heels)
         if calmer is clip:
             break
         clip = calmer
     return clip
 
 
-def _calmer(clip: MotionClip, planted: BoolArray, most_rad: float, most_m: float) -> MotionClip:
-    """Move heels where angular velocities of a leg change by more than ``most_rad`` a frame; the same object is
-    returned if none does, or if heels cannot help. Second differences of ankles greater than ``most_m`` do not grow.
+def knees_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float) -> MotionClip:
+    """Return the motion with the angular velocity of each joint of the legs changing by at most ``most_rad_s`` from
+    frame to frame, as far as knees can be turned about the line between hip joint and ankle for it; feet stay. The same
+    object is returned if no change is greater.
+    """
+    return _calmer(clip, planted, ROOM * most_rad_s / float(clip.fps), np.inf, _knees)
+
+
+class _Moves(NamedTuple):
+    """How legs are moved by angles.
+
+    Attributes
+    ----------
+    moved : callable
+        Motion in some frames (N,) with both legs moved by angles (N, 2) in radians.
+    least_rad : (N, 2) float64
+        Least angles.
+    """
+
+    moved: Callable[[FloatArray], MotionClip]
+    least_rad: FloatArray
+
+
+def _heels(clip: MotionClip, part: MotionClip, planted: BoolArray, frames: IntArray, tips: FloatArray) -> _Moves:
+    """Heels that are raised about the tips of feet; they are lowered down to the floor."""
+    paths, world = foot_paths(clip, tips, planted).at(frames), part.world(_ANKLES)
+    reach_m = [float(np.linalg.norm(clip.shape.ends_m[ENDS.index(name)])) for name in FEET]
+    least_rad = -np.minimum(np.maximum(soles_m(part, world)[..., 1], 0.0) / reach_m, MOST_RAD)
+    return _Moves(lambda raised: legs_along(part, _heels_turned(world, raised), paths), least_rad)
+
+
+def _knees(clip: MotionClip, part: MotionClip, planted: BoolArray, frames: IntArray, tips: FloatArray) -> _Moves:
+    """Knees that are turned about the lines between hip joints and ankles."""
+    world = part.world()
+    return _Moves(lambda turned: knees_turned(part, world, turned.T), np.full((len(frames), 2), -MOST_RAD))
+
+
+def _calmer(
+    clip: MotionClip,
+    planted: BoolArray,
+    most_rad: float,
+    most_m: float,
+    moves_of: Callable[[MotionClip, MotionClip, BoolArray, IntArray, FloatArray], _Moves],
+) -> MotionClip:
+    """Move legs where their angular velocities change by more than ``most_rad`` a frame; the same object is returned
+    if none does, or if the moves cannot help. Second differences of ankles greater than ``most_m`` do not grow.
     """
     around = 2 * (round(AROUND_S * float(clip.fps)) + EDGE) + 1
     turns = [turns_rad(clip.rotations[:, leg]) for leg in map(_leg, range(2))]
@@ -104,12 +149,10 @@ def _calmer(clip: MotionClip, planted: BoolArray, most_rad: float, most_m: float
     for _, here in spans:
         moves[here] = True
     frames = np.flatnonzero(moves)
-    paths = foot_paths(clip, tips, planted).at(frames)
-    # Legs are bent only in the frames of the spans, of which ``along`` are the places among these frames.
+    # Legs are moved only in the frames of the spans, of which ``along`` are the places among these frames.
     part, along = clip.at(frames), np.cumsum(moves) - 1
-    world = part.world(_ANKLES)
-    highest = soles_m(part, world)[..., 1]
-    some = legs_along(part, _heels_turned(world, np.full((len(frames), 2), SOME_RAD)), paths)
+    moved_by = moves_of(clip, part, planted, frames, tips)
+    some = moved_by.moved(np.full((len(frames), 2), SOME_RAD))
     lengths = [here.stop - here.start for _, here in spans]
     legs, least = [], []
     follow = [_turns(part.rotations[:, leg], some.rotations[:, leg]) / SOME_RAD for leg in map(_leg, range(2))]
@@ -117,14 +160,13 @@ def _calmer(clip: MotionClip, planted: BoolArray, most_rad: float, most_m: float
     for (foot, here), place in zip(spans, places, strict=True):
         path = np.pad(np.cumsum(turns[foot][here.start : here.stop - 1], axis=0), ((1, 0), (0, 0), (0, 0)))
         legs.append(_Legs(path, follow[foot][place]))
-        reach_m = float(np.linalg.norm(clip.shape.ends_m[ENDS.index(FEET[foot])]))
-        least.append(-np.minimum(np.maximum(highest[place, foot], 0.0) / reach_m, MOST_RAD))
+        least.append(moved_by.least_rad[place, foot])
     raised = np.zeros((len(frames), 2))
     # All spans are one path: the frames at which they meet stay.
     every = _angles(_joined(legs), np.concatenate(least), _inside(lengths), most_rad)
     for (foot, _), place, angles in zip(spans, places, np.split(every, np.cumsum(lengths)[:-1]), strict=True):
         raised[place, foot] = angles
-    found = legs_along(part, _heels_turned(world, raised), paths)
+    found = moved_by.moved(raised)
     moved = found.world(_ANKLES)
     off = planted[frames] & (np.linalg.norm(tips_m(found, moved) - tips[frames], axis=-1) > EXACT_M)
     rotations, changed = clip.rotations.copy(order="K"), False

@@ -292,11 +292,12 @@ def knees_apart(clip: MotionClip) -> MotionClip:
     for start, stop in overlaps(depths_m(clip, world), float(clip.fps), LEAST_M):
         found = least_way(depths, len(TURNING), Span(start, stop, len(clip), float(clip.fps)), TURNS_RAD, TURN_SMOOTH_S)
         angles[:, found.frames] += outwards[:, found.way, None] * found.sizes
-    return _knees_turned(clip, world, angles) if angles.any() else clip
+    return knees_turned(clip, world, angles) if angles.any() else clip
 
 
-def _knees_turned(clip: MotionClip, world: JointTransforms, angles_rad: FloatArray) -> MotionClip:
-    """Turn the knees of a motion about the lines between hip joints and ankles by ``angles_rad`` (2, F)."""
+def knees_turned(clip: MotionClip, world: JointTransforms, angles_rad: FloatArray) -> MotionClip:
+    """Return the motion with its knees turned about the lines between hip joints and ankles by ``angles_rad`` (2, F);
+    ``world`` are its transforms."""
     rotations = clip.rotations.copy(order="K")
     hips = world.rotations[:, 1]
     for foot, side in enumerate(SIDES):

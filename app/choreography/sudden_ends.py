@@ -24,7 +24,7 @@ from app.choreography.features import height_m
 from app.choreography.feet_on_floor import AHEAD, LEG, free, grounded
 from app.choreography.foot_plants import FootPlant, planted_frames
 from app.choreography.hands_out_of_body import ELBOW
-from app.choreography.heel_changes import heels_within_changes
+from app.choreography.heel_changes import heels_within_changes, knees_within_changes
 from app.choreography.joint_changes import feet_within_changes, hands_within_changes, within_changes
 from app.choreography.joint_speeds import turns_within_speeds, within_speeds
 from app.choreography.limbs import bend, smooth_share
@@ -135,7 +135,8 @@ def within_limits(
             break
         clip = without_twitches(calm, standing, usual)
     clip = with_feet_cleared(hands_within_changes(clip, usual_change_rad_s), standing)
-    return heels_within_changes(clip, on_floor, usual_change_rad_s, ankle_m_s2)
+    clip = heels_within_changes(clip, on_floor, usual_change_rad_s, ankle_m_s2)
+    return knees_within_changes(clip, on_floor, usual_change_rad_s)
 
 
 def _within_changes(clip: MotionClip, on_floor: BoolArray, most_rad_s: float, ankle_m_s2: float) -> MotionClip:
