@@ -55,7 +55,8 @@ stay where they are at the end of a dance."""
 HIGH: Final = 0.975
 """Least height of the hips relative to that in the T-pose."""
 TURNED_RAD: Final = 0.5
-"""Greatest angle in radians between the hips of a stand and their direction for its feet."""
+"""Greatest angle in radians between the hips of a stand and their direction for its feet, and by which the hips turn
+to the audience while they come to rest."""
 CHANGES_RAD: Final = 0.5
 """Mean rotation of the upper body, in radians, that counts as much as one unit of `_strangeness`."""
 _ANKLES: Final = [1 + SEGMENTS.index(name) for name in FEET]
@@ -239,7 +240,9 @@ def _stand(last: MotionClip, contacts: BoolArray, stands: CapturedStands) -> tup
     chosen = _nearest(last.rotations[-1], stands)
     tips, own = tips_m(last, world)[-1] * _FLAT, stands.tips_m[chosen] * _FLAT * scale
     feet_rad = quaternion.twist_angle(world.rotations[-1, _ANKLES], _UP)
-    faces_rad = float(quaternion.twist_angle(last.rotations[-1, 0], _UP))
+    faces_rad = float(_wrapped(quaternion.twist_angle(last.rotations[-1, 0], _UP)))
+    # The body goes on to turn towards the audience.
+    faces_rad -= min(max(faces_rad, -TURNED_RAD), TURNED_RAD)
     floor_m = np.array([rest_tip_m(last, foot) for foot in range(2)])
     stay = contacts & (tips_m(last, world)[-1, :, 1] < floor_m + REACHED_M)
     turn_rad = _turn_rad(faces_rad, feet_rad - stands.feet_rad[chosen], stay)

@@ -18,6 +18,7 @@ from app.choreography.feet_on_floor import soles_m
 from app.choreography.formation import Role, dance_together
 from app.choreography.generate import Choreographer
 from app.choreography.limbs import hinge_ranges
+from app.rig import quaternion
 from tests.support.dances import beaten, model, stepping
 
 FPS = Fraction(30)
@@ -66,6 +67,23 @@ def test_a_raised_foot_is_put_down_after_the_last_motion_in_half_a_second() -> N
     # The other foot does not move.
     (stays,) = np.flatnonzero(contacts[-1])
     assert np.abs(soles[stop:, stays]).max() < 0.03
+
+
+def test_a_dancer_turns_towards_the_audience_while_coming_to_rest() -> None:
+    clip, stop = stepping(8), 15 + 30 * 3
+    turn = quaternion.from_axis_angle(np.array([0.0, 1.0, 0.0]), 0.8)
+    rotations = clip.rotations[:stop].repeat([1] * (stop - 1) + [121], axis=0)
+    rotations[:, 0] = quaternion.multiply(turn, rotations[:, 0])
+    shown = replace(clip, rotations=rotations, hips_m=clip.hips_m[: stop + 120])
+    contacts = soles_m(shown, shown.world()).max(axis=2) < 0.01
+    rested, *_ = between_stands(
+        shown, np.zeros((len(shown), 3)), contacts, (0, stop), captured_stands([clip], hinge_ranges([clip]))
+    )
+    assert quaternion.twist_angle(rested.rotations[-1, 0], (0.0, 1.0, 0.0)) == pytest.approx(0.3, abs=0.05)
+    (stays,) = np.flatnonzero(contacts[stop - 1])
+    ankle = 1 + SEGMENTS.index(FEET[stays])
+    foot_rad = quaternion.twist_angle(rested.world().rotations[stop - 1 :, ankle], (0.0, 1.0, 0.0))
+    assert np.ptp(foot_rad[[0, -1]]) < 0.02
 
 
 def test_without_time_there_is_no_stand() -> None:
