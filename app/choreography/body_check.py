@@ -22,6 +22,11 @@ toes and the forward direction.
 """
 MOST_TURNED_DEG: Final = {"shoulders": 60.0, "knees": 75.0, "toes": 75.0}
 """Greatest same angles in degrees in the mean of the motion, relative to the hips."""
+MOST_LYING_DEG: Final = 60.0
+"""Greatest angle in degrees from straight down at which both legs and arms are in half of the motion, from hips to feet
+and from shoulders to hands: at most 17 in 112 captures of people, 85 in those of animals on four legs, along whose
+trunks their heads are farthest from their feet.
+"""
 LEVEL: Final = np.array([1.0, 0.0, 1.0])
 UNLIKE: Final = 0.4
 """Least length of a part of a limb relative to the other part."""
@@ -78,6 +83,7 @@ def checked(body: Captured, turns: Mapping[str, FloatArray]) -> tuple[Checked, .
     column = [turned(name, end - start) for name, (start, end) in zip(trunk, ways, strict=True)]
     off("spine", "spine", np.sum(column, axis=0), Y)
     off("shoulders", "chest", turned("hips", unit(body.shoulder_line)), X, MOST_TURNED_DEG)
+    found.append(Checked("spine", "hips", _lying_deg(body), MOST_LYING_DEG))
     for side, sign in SIDES:
         for kind, limb, ahead in (("knees", LEG, X), ("elbows", ARM, Y)):
             bend = body.bend([side + name for name in limb], sign)
@@ -94,6 +100,15 @@ def checked(body: Captured, turns: Mapping[str, FloatArray]) -> tuple[Checked, .
         off("toes", foot, turned("hips", quaternion.rotate(own, X) * LEVEL) * LEVEL, X, MOST_TURNED_DEG)
         off("toes", foot, turned("hips", quaternion.rotate(own, Y)), Y, MOST_TURNED_DEG)
     return tuple(found)
+
+
+def _lying_deg(body: Captured) -> float:
+    """Angle in degrees from straight down that legs or arms, whichever is less, have in half of the motion."""
+    angles = []
+    for limb in (LEG, ARM):
+        ways = np.sum([body.at(side + limb[2]) - body.at(side + limb[0]) for side, _ in SIDES], axis=0)
+        angles.append(float(np.degrees(np.median(np.arccos(np.clip(-unit(ways)[:, 1], -1.0, 1.0))))))
+    return min(angles)
 
 
 def unlike(body: Captured, parents: Sequence[int]) -> tuple[str, ...]:

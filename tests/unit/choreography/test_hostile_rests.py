@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, product
 from pathlib import Path
 from typing import Final
 
@@ -309,6 +309,25 @@ def test_a_joint_straight_below_the_ankle_does_not_say_where_the_foot_points(res
     )
     bvh = NAMES[names](bvh)
     require_same(bvh if rest is None else rerigged(bvh, REST_POSES[rest]))
+
+
+@pytest.mark.parametrize("names", NAMES)
+@pytest.mark.parametrize("rest", [None, "x"])
+def test_an_animal_on_four_legs_is_not_danced(rest: str | None, names: str) -> None:
+    """Rigs of animals have names of people's bones, and their heads are farthest from their feet along the trunk."""
+    rotations, offsets = np.array(SALSA.rotations_xyzw), np.array(SALSA.offsets_cm)
+    turns = {"Thigh": (1.0, -90.0), "Shin": (1.0, 6.0), "Shldr": (0.0, 90.0), "ForeArm": (0.0, 6.0)}
+    for (part, (across, deg)), side in product(turns.items(), "lr"):
+        turned_deg = deg if across or side == "r" else -deg
+        turn = quaternion.from_axis_angle((across, 1.0 - across, 0.0), np.radians(turned_deg))
+        rotations[:, SALSA.names.index(side + part)] = turn
+    for part in ("abdomen", "chest", "neck"):
+        offsets[SALSA.names.index(part)] *= 3.0
+    bvh = NAMES[names](replace(SALSA, rotations_xyzw=rotations, offsets_cm=offsets))
+    with pytest.raises(FileError) as raised:
+        motion_of(bvh if rest is None else rerigged(bvh, REST_POSES[rest]), "elephant.bvh")
+    assert raised.value.message.id == "motion.misread"
+    assert "hips" in str(raised.value.message.arguments["joints"])
 
 
 def test_feet_that_point_back_are_named() -> None:
