@@ -1,4 +1,4 @@
-"""Where a dance ends: soon after the last accent of the music, with a motion that ends as it faces."""
+"""Choice of the end of a dance: soon after the last accent of the music, with a motion that ends as it faces."""
 
 from __future__ import annotations
 
