@@ -34,20 +34,26 @@ def bent(path: FloatArray, most: float, held: BoolArray, rounds: int = ROUNDS) -
     (N, 3) float64
         Path as near as possible to the given one.
     """
-    moved, before = np.zeros_like(path), np.zeros_like(path)
+    moved, before, back = np.zeros_like(path), np.zeros_like(path), np.zeros_like(path)
     free = ~held[:, None]
     possible = ~(held[:-2] & held[1:-1] & held[2:])
     for number in range(rounds):
         # Nesterov's momentum needs far fewer rounds for long stretches.
-        ahead = moved + number / (number + 3.0) * (moved - before)
-        change = np.diff(path + ahead, 2, axis=0)
-        size = np.linalg.norm(change, axis=-1, keepdims=True)
-        excess = change * np.maximum(0.0, 1.0 - most / np.maximum(size, 1e-12))
+        ahead = moved - before
+        ahead *= number / (number + 3.0)
+        ahead += moved
+        bends = path + ahead
+        bends = bends[1:] - bends[:-1]
+        bends = bends[1:] - bends[:-1]
+        size = np.sqrt(np.add.reduce(bends * bends, axis=-1, keepdims=True))
         if not number % 20 and size[possible].max(initial=0.0) <= most * 1.001:
             break
-        back = np.zeros_like(path)
-        back[:-2] += excess
-        back[1:-1] -= 2.0 * excess
-        back[2:] += excess
+        share = most / np.maximum(size, 1e-12)
+        np.subtract(1.0, share, out=share)
+        bends *= np.maximum(0.0, share, out=share)
+        back[:-2] = bends
+        back[-2:] = 0.0
+        back[1:-1] -= 2.0 * bends
+        back[2:] += bends
         before, moved = moved, free * (ahead - STEP * back)
     return path + moved

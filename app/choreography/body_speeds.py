@@ -49,6 +49,27 @@ def changes_rad(turns: FloatArray) -> FloatArray:
     return result
 
 
+def sudden(rotations: FloatArray, most_rad: float) -> BoolArray:
+    """Mark where the turns of rotations (F, ..., 4) change by more than ``most_rad`` from frame to frame, as
+    `changes_rad` of `turns_rad` does. Those are computed only where they may be, since most of a motion is calm.
+    """
+    found = np.zeros(rotations.shape[:-1], bool)
+    if len(rotations) < 3:
+        return found
+    steps = rotations[1:] - rotations[:-1]
+    bends = steps[1:] - steps[:-1]
+    chords2 = quaternion.dot(steps, steps)
+    # Of two turns d and e, half of whose sines are the vectors of their quaternions, the change is at most
+    # 2 |e - d| / cos(a), where a is half of the greater turn; its sine is at most the chord between the frames.
+    room = 1.0 - np.maximum(chords2[1:], chords2[:-1])
+    near = np.nonzero(4.0001 * quaternion.dot(bends, bends) > most_rad * most_rad * room)
+    if len(near[0]):
+        before, here, after = (rotations[(near[0] + more, *near[1:])] for more in range(3))
+        turns = turns_rad(np.stack([before, here, after]))
+        found[1:-1][near] = changes_rad(turns)[1] > most_rad
+    return found
+
+
 def runs(of: BoolArray) -> list[tuple[int, int]]:
     """Return the spans (start, stop) of frames in which a condition (F,) is true; ``stop`` is exclusive."""
     edges = np.flatnonzero(np.diff(of.astype(np.int8), prepend=0, append=0))

@@ -17,7 +17,7 @@ from scipy.ndimage import maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.body import ENDS, FEET, SEGMENTS
-from app.choreography.body_speeds import changes_rad, runs, turns_rad
+from app.choreography.body_speeds import changes_rad, runs, sudden, turns_rad
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import LEG, foot_paths, legs_along, soles_m
@@ -136,11 +136,11 @@ def _calmer(
     if none does, or if the moves cannot help. Second differences of ankles greater than ``most_m`` do not grow.
     """
     around = 2 * (round(AROUND_S * float(clip.fps)) + EDGE) + 1
-    turns = [turns_rad(clip.rotations[:, leg]) for leg in map(_leg, range(2))]
+    snaps = sudden(clip.rotations, FROM / ROOM * most_rad)
     spans = [
         (foot, slice(start, stop))
         for foot in range(2)
-        for start, stop in runs(maximum_filter1d(_greatest(turns[foot]) > FROM / ROOM * most_rad, around))
+        for start, stop in runs(maximum_filter1d(snaps[:, _leg(foot)].any(axis=1), around))
     ]
     if not spans:
         return clip
@@ -158,7 +158,7 @@ def _calmer(
     follow = [_turns(part.rotations[:, leg], some.rotations[:, leg]) / SOME_RAD for leg in map(_leg, range(2))]
     places = [slice(along[here.start], along[here.start] + here.stop - here.start) for _, here in spans]
     for (foot, here), place in zip(spans, places, strict=True):
-        path = np.pad(np.cumsum(turns[foot][here.start : here.stop - 1], axis=0), ((1, 0), (0, 0), (0, 0)))
+        path = np.pad(np.cumsum(turns_rad(clip.rotations[here, _leg(foot)]), axis=0), ((1, 0), (0, 0), (0, 0)))
         legs.append(_Legs(path, follow[foot][place]))
         least.append(moved_by.least_rad[place, foot])
     raised = np.zeros((len(frames), 2))
@@ -180,10 +180,8 @@ def _calmer(
         ankle[inside] = moved.of(leg.stop)[0][place]
         if off[place, foot].any() or _acceleration(ankle) > max(most_m, before):
             continue
-        steps = slice(beside.start, beside.start + len(new) - 1)
-        new_turns = turns_rad(new)
-        if _square(new_turns, most_rad) < _square(turns[foot][steps], most_rad):
-            rotations[beside, leg], turns[foot][steps] = new, new_turns
+        if _square(turns_rad(new), most_rad) < _square(turns_rad(rotations[beside, leg]), most_rad):
+            rotations[beside, leg] = new
             changed = True
     return replace(clip, rotations=quaternion.continuous(rotations)) if changed else clip
 

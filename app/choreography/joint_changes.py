@@ -17,7 +17,7 @@ from scipy.ndimage import maximum_filter1d
 from app.arrays import BoolArray, FloatArray
 from app.choreography.bent_paths import bent
 from app.choreography.body import FEET, PARENT_OF, SEGMENTS
-from app.choreography.body_speeds import changes_rad, runs, turns_rad
+from app.choreography.body_speeds import changes_rad, runs, sudden, turns_rad
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.feet_on_floor import legs_to
@@ -154,22 +154,21 @@ def _calm(rotations: FloatArray, held: BoolArray, most_rad_s: float, fps: float)
     most_rad = ROOM * most_rad_s / fps
     if len(rotations) < 3:
         return rotations
-    turns = turns_rad(rotations)
-    sudden = changes_rad(turns) > most_rad
+    snaps = sudden(rotations, most_rad)
     # A change amid frames that all stay cannot be avoided.
-    sudden[1:-1] &= ~(held[:-2] & held[1:-1] & held[2:])
-    if not sudden.any():
+    snaps[1:-1] &= ~(held[:-2] & held[1:-1] & held[2:])
+    if not snaps.any():
         return rotations
     around = 2 * (round(AROUND_S * fps) + EDGE) + 1
     spans = [
         (slice(start, stop), part)
         for part in range(held.shape[1])
-        for start, stop in runs(maximum_filter1d(sudden[:, part], around))
+        for start, stop in runs(maximum_filter1d(snaps[:, part], around))
     ]
     # All spans are bent as one path: the frames at which they meet stay.
     paths, stay = [], []
     for here, part in spans:
-        turned = np.cumsum(turns[here.start : here.stop - 1, part], axis=0)
+        turned = np.cumsum(turns_rad(rotations[here, part]), axis=0)
         paths.append(np.concatenate([np.zeros((1, 3)), turned]))
         own = held[here, part].copy()
         own[:EDGE] = own[-EDGE:] = True

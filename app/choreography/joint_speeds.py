@@ -37,11 +37,13 @@ def within_speeds(clip: MotionClip, planted: BoolArray) -> MotionClip:
     """
     if len(clip) < 2:
         return clip
-    rotations = clip.rotations
+    rotations, fps = clip.rotations, float(clip.fps)
+    near = np.abs(quaternion.dot(rotations[:-1], rotations[1:])).min(axis=0)
     for part, fastest_rad_s in enumerate(FASTEST[: len(SEGMENTS)]):
-        if not part:
+        # The product of two rotations is the cosine of half the turn between them.
+        if not part or near[part] > np.cos(0.5 * ROOM * float(fastest_rad_s) / fps) + 1e-9:
             continue
-        name, fps = SEGMENTS[part], float(clip.fps)
+        name = SEGMENTS[part]
         turns = rotations[:, part]
         calm = _calm(turns, ROOM * float(fastest_rad_s) / fps, fps, _may_change(name, planted, fps))
         if calm is not turns:

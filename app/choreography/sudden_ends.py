@@ -18,7 +18,7 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 from app.arrays import BoolArray, FloatArray
 from app.choreography.bent_paths import bent
 from app.choreography.body import ENDS, SEGMENTS
-from app.choreography.body_speeds import changes_rad, runs, turns_rad
+from app.choreography.body_speeds import runs, sudden
 from app.choreography.clip import MotionClip
 from app.choreography.features import height_m
 from app.choreography.feet_on_floor import AHEAD, LEG, free, grounded
@@ -152,16 +152,18 @@ def _limbs_smoothed(clip: MotionClip, on_floor: BoolArray, most_rad_s: float) ->
     one of their joints changes by more than ``most_rad_s`` from frame to frame; the same object if there are none.
     """
     fps, rotations = float(clip.fps), clip.rotations
-    around = 2 * round(AROUND_S * fps) + 1
+    around, snaps = 2 * round(AROUND_S * fps) + 1, sudden(rotations, most_rad_s / fps)
     for foot, side in enumerate(SIDES):
         for limb in (LEG, _ARM):
-            may = free(on_floor[:, foot], fps) if limb is LEG else np.ones(len(clip))
             first = SEGMENTS.index(f"{side}{limb[0]}")
             part = slice(first, first + len(limb))
-            sudden = (changes_rad(turns_rad(clip.rotations[:, part])).max(axis=1) * fps > most_rad_s) & (may > 0.0)
-            if not sudden.any():
+            if not snaps[:, part].any():
                 continue
-            near = gaussian_filter1d(maximum_filter1d(sudden.astype(np.float64), around), EDGES_S * fps)
+            may = free(on_floor[:, foot], fps) if limb is LEG else np.ones(len(clip))
+            swung = snaps[:, part].any(axis=1) & (may > 0.0)
+            if not swung.any():
+                continue
+            near = gaussian_filter1d(maximum_filter1d(swung.astype(np.float64), around), EDGES_S * fps)
             rotations = rotations.copy(order="K") if rotations is clip.rotations else rotations
             for here in (slice(*run) for run in runs(near > 0.0)):
                 turns = quaternion.continuous(clip.rotations[here, part])
@@ -210,8 +212,8 @@ def _calm(
     fps = float(clip.fps)
     most = MOST * usual * height_m(clip) / fps**2
     points = _points_m(clip, world, limb[-1])
-    sudden = (np.linalg.norm(np.diff(points, 2, axis=0), axis=-1) > most).any(axis=-1)
-    if not sudden.any():
+    jerks = (np.linalg.norm(np.diff(points, 2, axis=0), axis=-1) > most).any(axis=-1)
+    if not jerks.any():
         return False
     around = 2 * round(AROUND_S * fps) + 1
     end_at = 1 + SEGMENTS.index(limb[-1])
@@ -219,7 +221,7 @@ def _calm(
     from_root_m = np.linalg.norm(points[:, 0] - world.positions_m[:, 1 + SEGMENTS.index(limb[1])], axis=-1)
     unfolded = smooth_share(from_root_m / length_m, FOLDED)
     changed = False
-    for start, stop in runs(maximum_filter1d(np.pad(sudden, 1), around)):
+    for start, stop in runs(maximum_filter1d(np.pad(jerks, 1), around)):
         here = slice(start, stop)
         beside = slice(max(0, start - 2), min(len(clip), stop + 2))
         held = np.ones(beside.stop - beside.start, bool)

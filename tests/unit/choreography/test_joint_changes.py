@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from app.choreography.body import FEET, SEGMENTS
+from app.choreography.body_speeds import changes_rad, sudden, turns_rad
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
 from app.choreography.dance import Manner
@@ -143,6 +144,18 @@ def test_a_standing_foot_does_not_turn_against_a_body_that_spins_about_its_tip()
     ankle = SEGMENTS.index(FEET[0])
     assert angular_jumps(found)[20:40, ankle].max() <= 1.1 * MOST_RAD_S
     assert np.abs(tips_m(found) - tips_m(clip))[20:40, 0].max() < 1e-3
+
+
+@pytest.mark.parametrize("rad", [0.01, 0.3, 1.5])
+def test_sudden_frames_are_those_whose_turns_change_too_much(rad: float) -> None:
+    """Also where joints turn by more than half a turn between frames, or the sign of a quaternion changes."""
+    random = np.random.default_rng(3)
+    turns = np.cumsum(random.normal(scale=rad, size=(400, 5, 3)) * random.random((400, 5, 1)) ** 3, axis=0)
+    rotations = quaternion.from_rotation_vector(turns) * random.choice((-1.0, 1.0), (400, 1, 1))
+    changes = changes_rad(turns_rad(rotations))
+    for most_rad in np.quantile(changes, (0.1, 0.5, 0.9, 0.99)).tolist():
+        assert np.array_equal(sudden(rotations, most_rad), changes > most_rad)
+    assert not sudden(rotations[:2], 0.0).any()
 
 
 def test_what_is_calm_enough_is_left_as_it_is() -> None:
