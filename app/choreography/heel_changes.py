@@ -97,7 +97,7 @@ def knees_within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float
 
 
 class _Moves(NamedTuple):
-    """How legs are moved by angles.
+    """Motion of legs that are moved by angles.
 
     Attributes
     ----------

@@ -368,8 +368,8 @@ class LearnDialog(WorkingDialog):
         elif self._failure is not None:
             text = sentence(self._failure)
         elif result is not None:
-            learned = map(message_text, (summary(result.model, result.path), *result.pairing))
-            text = "\n".join(filter(None, (*learned, doubts_text(self._rows), left_out_text(self._rows))))
+            done, *learned = map(message_text, (summary(result.model, result.path), *result.pairing))
+            text = "\n".join(filter(None, (done, doubts_text(self._rows), *learned, left_out_text(self._rows))))
         elif self._unknown:
             names = ", ".join(shown(path.name) for path in self._unknown)
             text = "\n".join(filter(None, (self.tr("learn_dialog.unknown_files").format(files=names), missing)))

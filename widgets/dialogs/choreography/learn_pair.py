@@ -164,7 +164,7 @@ class PairForm(Retranslated, QWidget):
                 notes.append(
                     self.tr("pair_form.offset_detected").format(confidence=f"{confidence:.2f}")
                     if doubt is None
-                    else message_text(doubt)
+                    else sentence(doubt)
                 )
             guessed = [message_text(message) for message in to_check(read)]
             if guessed:

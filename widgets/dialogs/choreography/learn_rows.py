@@ -177,11 +177,10 @@ def missing_text(rows: Sequence[PairRow]) -> str:
 
 
 def doubts_text(rows: Sequence[PairRow]) -> str:
-    """Return the text of the pairs that are used although their offset may be wrong, one per line."""
-    doubts = ((at, doubt_of(row)) for at, row in enumerate(rows) if why_unusable(row) is None)
-    return "\n".join(
-        tr("learn_dialog.pair").format(n=at + 1, error=message_text(doubt)) for at, doubt in doubts if doubt is not None
-    )
+    """Return a text that names the pairs that are used although their offset may be wrong; empty if there is none."""
+    doubtful = [at + 1 for at, row in enumerate(rows) if doubt_of(row) is not None and why_unusable(row) is None]
+    pairs = ", ".join(map(str, doubtful))
+    return tr("learn_dialog.unsure_pairs").format(pairs=pairs) if doubtful else ""
 
 
 def left_out_text(rows: Sequence[PairRow]) -> str:
