@@ -21,7 +21,7 @@ from app.choreography.joins import STATURE_M
 from app.choreography.standing_feet import planted
 from app.rig import quaternion
 
-CALM_S: Final = 1.0
+CALM_S: Final = 1.2
 """Time in seconds for which a pose is held before the body moves in it."""
 RISES_S: Final = 1.5
 """Time in seconds in which this motion grows to its full size."""

@@ -106,7 +106,7 @@ def test_the_last_stand_is_held_for_a_second_at_all_tempi(bpm: int) -> None:
 @pytest.mark.parametrize("seed", range(3))
 def test_a_dancer_who_waits_is_no_statue_and_keeps_both_feet_in_place(seed: int) -> None:
     found = choreographer().dance(beaten(12), Manner(seed=seed), FPS, first_s=-8.0, end_s=16.0)
-    assert 1.0 < max(stop_s - start_s for start_s, stop_s in still_s(found)) < 2.0
+    assert 1.0 < max(stop_s - start_s for start_s, stop_s in still_s(found)) < 2.2
     tips, fps = tips_m(found.clip), float(FPS)
     for here in (slice(0, round(6.0 * fps)), slice(-round(8.0 * fps), None)):
         assert np.ptp(tips[here], axis=0).max() < 0.001
