@@ -23,11 +23,13 @@ from app.choreography.dance_flaws import usual_change_rad_s
 from app.choreography.drafts import DRAFT_FPS, DRAFTS, draft_of
 from app.choreography.drums_of_dancers import TakeShares, take_shares
 from app.choreography.feet_on_beats import feet_on_beats
-from app.choreography.foot_plants import STEP_S, FootPlant, stands, steps_s
+from app.choreography.feet_on_floor import grounded
+from app.choreography.foot_plants import STEP_S, FootPlant, planted_frames, stands, steps_s
 from app.choreography.hands_out_of_body import out_of_body
 from app.choreography.hit_log_odds import Hearing, hearing
 from app.choreography.idling import idling_odds
 from app.choreography.joins import distances_m
+from app.choreography.joint_changes import within_changes
 from app.choreography.legs_apart import with_legs_apart, with_swings_apart
 from app.choreography.limbs import hinged, unbroken, wrists_within
 from app.choreography.model import ChoreographyModel
@@ -226,9 +228,11 @@ class Choreographer:
         clip, standing = with_legs_apart(clip, feet.clip, feet.falls, manner.weight)
         # Knees that swing from side to side turn their thighs suddenly, so that they are turned before the limits too.
         clip = within_limits(hinged(clip), standing, self._usual_accelerations(fps), usual, fastest)
-        # Legs slowed down in the air may enter each other again.
-        clip = hinged(with_swings_apart(clip, standing))
-        return Dance(clip, first_s, plan.steps, speeds, seams, standing)
+        # Legs slowed down in the air may enter each other again, and snap where they are swung apart.
+        if (apart := with_swings_apart(clip, standing)) is not clip:
+            on_floor = planted_frames(standing, count)
+            clip = grounded(within_changes(apart, on_floor, usual, legs_only=True), on_floor)
+        return Dance(hinged(clip), first_s, plan.steps, speeds, seams, standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:
         """Usual change of motion in the model's captures, for a frame rate (see

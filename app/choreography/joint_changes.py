@@ -46,7 +46,9 @@ EXACT_M: Final = 1e-4
 _HANDS: Final = ("leftHand", "rightHand")
 
 
-def within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float, lands_s: float = LANDS_S) -> MotionClip:
+def within_changes(
+    clip: MotionClip, planted: BoolArray, most_rad_s: float, lands_s: float = LANDS_S, *, legs_only: bool = False
+) -> MotionClip:
     """Return the motion with the angular velocity of each joint except the hips changing by at most ``most_rad_s`` from
     frame to frame, as far as standing feet allow; the same object if no change is greater.
 
@@ -56,8 +58,12 @@ def within_changes(clip: MotionClip, planted: BoolArray, most_rad_s: float, land
         Frames in which the left and the right foot stand; their legs stay as they are.
     lands_s : float
         Time in seconds before they land in which they stay too.
+    legs_only : bool
+        Change legs only.
     """
     rotations, held = clip.rotations, _held(planted, float(clip.fps), lands_s)
+    if legs_only:
+        held[:, [not name.endswith(("Leg", "Foot")) for name in SEGMENTS]] = True
     for _ in range(TRIES):
         calmer = _calm(rotations, held, most_rad_s, float(clip.fps))
         if calmer is rotations:

@@ -98,6 +98,15 @@ def test_a_leg_is_bent_up_to_its_landing_only_if_asked() -> None:
     assert found.rotations[17:22] == pytest.approx(clip.rotations[17:22])
 
 
+def test_only_legs_are_bent_if_asked() -> None:
+    clip, leg = snapping("leftUpperArm", 24.0), SEGMENTS.index("rightUpperLeg")
+    clip.rotations[:, leg] = snapping("rightUpperLeg", 24.0).rotations[:, leg]
+    found = within_changes(clip, FREE, MOST_RAD_S, legs_only=True)
+    assert angular_jumps(found)[:, leg].max() <= MOST_RAD_S < 2.0 * MOST_RAD_S < angular_jumps(clip)[:, leg].max()
+    others = np.arange(len(SEGMENTS)) != leg
+    assert found.rotations[:, others] == pytest.approx(clip.rotations[:, others])
+
+
 def test_hips_that_snap_start_gradually_and_all_else_stays() -> None:
     clip = snapping("hips", 24.0)
     found = hips_within_changes(clip, MOST_RAD_S)
