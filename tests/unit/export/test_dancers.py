@@ -74,8 +74,9 @@ def test_bones_keep_their_length_and_feet_stand(written: tuple[Report, Path, Pro
     measures = written[0].dancers[0].measures
     assert measures.standing_s > 5.0
     assert measures.kept
-    # A foot that touches the floor rolls on: .4 mm a frame.
-    assert measures.slide_most_mm_s < 25.0
+    # A foot that touches the floor rolls on: .9 mm a frame where it brushes it for four frames only.
+    assert measures.slide_mm_s < 1.5
+    assert measures.slide_most_mm_s < 60.0
     assert measures.below_mm < 2.0
 
 
