@@ -150,8 +150,12 @@ def hinged(clip: MotionClip) -> MotionClip:
             continue
         kept = np.where(over > 0.0, np.sin(least - more * np.expm1(-over / more)), np.abs(aside))
         wide = np.maximum(back, 1e-9)
-        turn = np.arcsin(np.clip(np.abs(aside) / wide, 0.0, 1.0)) - np.arcsin(np.clip(kept / wide, 0.0, 1.0))
-        turn *= smooth_share(back, CLEAR) * np.sign(aside) * np.sign(-way[:, 2])
+        off = np.arcsin(np.clip(np.abs(aside) / wide, 0.0, 1.0))
+        ahead, bent = way[:, 2] > 0.0, back > CLEAR[1]
+        # A bent knee that points ahead has turned sideways by more than a quarter; a straight one is stretched too far.
+        off = np.where(ahead & bent & (over > 0.0), np.pi - off, off)
+        turn = off - np.arcsin(np.clip(kept / wide, 0.0, 1.0))
+        turn *= smooth_share(back, CLEAR) * np.sign(aside) * np.where(ahead & ~bent, -1.0, 1.0)
         twist = quaternion.from_rotation_vector(quaternion.columns(*(turn * axis for axis in along)))
         thigh = quaternion.multiply(world.rotations[:, thigh_at], twist)
         rotations[:, thigh_at - 1] = quaternion.multiply(rotations[:, thigh_at - 1], twist)

@@ -80,3 +80,22 @@ def test_no_knee_of_an_exported_dance_bends_sideways(tmp_path: Path, monkeypatch
     for clip in (*limited, dance.clip):
         write_motion(tmp_path / "dance.bvh", clip)
         assert sideways_deg(tmp_path / "dance.bvh").max() < 7.0
+
+
+def test_thighs_follow_bent_knees_that_swing_past_the_side_without_a_jump() -> None:
+    """A folded leg that was swung around the other one points its knee ahead for a few frames."""
+    still = stepping(1)
+    count, thigh, shank = 41, SEGMENTS.index("rightUpperLeg"), SEGMENTS.index("rightLowerLeg")
+    rotations = np.repeat(still.rotations[:1], count, axis=0)
+    swung = Rotation.from_rotvec(np.outer(2.0 * np.sin(np.linspace(0.0, np.pi, count)), (0.0, 1.0, 0.0)))
+    rotations[:, thigh] = Rotation.from_euler("x", -1.2).as_quat()
+    rotations[:, shank] = (swung * Rotation.from_euler("x", 2.2)).as_quat()
+    clip = MotionClip(still.shape, still.fps, np.repeat(still.hips_m[:1], count, axis=0), rotations)
+    mended = hinged(clip)
+    turns = Rotation.from_quat(mended.rotations[:, thigh])
+    steps = np.degrees((turns[1:] * turns[:-1].inv()).magnitude())
+    assert steps.max() < 1.5 * np.degrees(np.diff(swung.as_rotvec()[:, 1])).max()
+    way = Rotation.from_quat(mended.rotations[:, shank]).apply(still.shape.offsets_m[SEGMENTS.index("rightFoot")])
+    assert np.degrees(np.arcsin(np.abs(way[:, 0]) / np.linalg.norm(way, axis=1))).max() < 7.0
+    assert (way[:, 2] < 0.0).all()
+    assert mended.world().positions_m == pytest.approx(clip.world().positions_m, abs=1e-9)
