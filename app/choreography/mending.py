@@ -100,10 +100,9 @@ def _pairs(clip: MotionClip, jumps: Sequence[Damage]) -> list[Damage]:
         back = -1
         for one, other in pairwise(sorted(jump for jump in jumps if part in jump.parts)):
             apart_s = (other.start - one.stop) / float(clip.fps)
-            # A jump that undoes the previous one does not begin another damaged span.
-            undone = (
-                part != "place" and one.stop != back and (_swapped(part, one, other) or _undone(clip, at, one, other))
-            )
+            # A jump that undoes the previous one does not begin another damaged span; a held body does not jump.
+            jumped = part != "place" and one.stop != back and _short(one, clip) and _short(other, clip)
+            undone = jumped and (_swapped(part, one, other) or _undone(clip, at, one, other))
             if apart_s <= APART_S or (apart_s <= LONG_APART_S and undone):
                 found.append(Damage(one.start, other.stop, (part,)))
                 back = other.stop

@@ -294,3 +294,17 @@ def test_a_foot_turned_farther_than_ankles_go_is_left_out(most_deg: float, left_
         (one,) = found
         assert one.parts == ("leftFoot",)
         assert 1.0 < one.start / 60.0 < 2.0 < 4.0 < one.stop / 60.0 < 5.0
+
+
+def test_clean_motion_between_two_held_places_stays() -> None:
+    """A body held twice, a few seconds apart, did not jump out and back."""
+    clip = dancing(60, 12)
+    rotations, hips_m = clip.rotations.copy(), clip.hips_m.copy()
+    held = np.zeros(len(clip), bool)
+    for start, stop in ((150, 180), (430, 460)):
+        rotations[start:stop], hips_m[start:stop] = rotations[start], hips_m[start]
+        held[start:stop] = True
+    found = mended(replace(clip, rotations=rotations, hips_m=hips_m))
+    out = outside(clip, found.left_out)
+    assert not out[held].any()
+    assert out[200:410].all()
