@@ -33,6 +33,8 @@ FPS: Final = KEPT_FPS
 """Frame rate of the motion in a model."""
 SMOOTHING: Final = 1.0
 """Observations added to every distribution, see `app.choreography.hidden_markov.count`."""
+MOSTLY: Final = 0.5
+"""Share of captures that cannot be learned from above which that is why there is no motion."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,8 +103,18 @@ def require_usable(pair: Pair) -> None:
     clip = stored(pair.motion)
     cuts = _cuts(pair, clip)
     if not cuts:
-        raise UsageError("learn.no_motion", motions=pair.motion_name)
+        raise _no_motion([pair])
     _require_sounds(pair, _sounds(pair.rhythm, _source(pair, clip), [(cut.start, cut.end) for cut in cuts]))
+
+
+def _no_motion(pairs: Sequence[Pair]) -> UsageError:
+    """Return the error of pairs without motion to learn from; it says so if most of it cannot be used."""
+    unfit = sum(stop - start for pair in pairs for start, stop in pair.unfit)
+    share = unfit / max(1, sum(len(pair.motion) for pair in pairs))
+    motions = ", ".join(pair.motion_name for pair in pairs)
+    if share > MOSTLY:
+        return UsageError("learn.no_sound_motion", motions=motions, percent=round(100.0 * share))
+    return UsageError("learn.no_motion", motions=motions)
 
 
 def learn(
@@ -141,7 +153,7 @@ def learn(
     progress(classifying, name)
     total = sum(map(len, cuts))
     if not total:
-        raise UsageError("learn.no_motion", motions=", ".join(pair.motion_name for pair in pairs))
+        raise _no_motion(pairs)
     if states is not None and states > total:
         raise UsageError("learn.states", states=states, segments=total)
     found = classify(

@@ -157,6 +157,11 @@ def test_what_cannot_be_learned_is_said() -> None:
     with pytest.raises(UsageError) as caught:
         learn([still], states=None, seed=0, name="")
     assert caught.value.message.id == "learn.no_motion"
+    noisy = replace(still, unfit=((5, 35),))
+    with pytest.raises(UsageError) as caught:
+        learn([noisy], states=None, seed=0, name="")
+    assert caught.value.message.id == "learn.no_sound_motion"
+    assert caught.value.message.arguments["percent"] == 75
     with pytest.raises(UsageError) as caught:
         learn([replace(SWINGS, offset_s=100.0)], states=None, seed=0, name="")
     assert caught.value.message.arguments == {"motion": "swings.bvh", "music": "swings.mid"}
