@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QColor, QKeyEvent
+from PySide6.QtGui import QColor, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QWidget
 
 from app.editor.session import Session
@@ -107,7 +107,13 @@ class BoneTree(QWidget):
         self.chosen.emit(item.text(0))
 
     def eventFilter(self, watched: object, event: QEvent) -> bool:
-        """Move from the search field to the bones with the arrow keys, and choose the selected one with Enter."""
+        """Move from the search field to the bones with the arrow keys, and choose the selected one with Enter; a choice
+        is undone from the field too, once it has no text of its own to undo.
+        """
+        if watched is self.search and event.type() is QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent):
+            if event.matches(QKeySequence.StandardKey.Undo):
+                return not self.search.isUndoAvailable()
+            return event.matches(QKeySequence.StandardKey.Redo) and not self.search.isRedoAvailable()
         if watched is self.search and event.type() is QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
             key = Qt.Key(event.key())
             if key in (Qt.Key.Key_Down, Qt.Key.Key_Up):
@@ -117,6 +123,8 @@ class BoneTree(QWidget):
             if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
                 item = self.tree.currentItem()
                 if item is not None and not item.isHidden():
+                    # Text that was set, unlike text that was cleared, cannot be undone.
+                    self.search.setText("")
                     self._activated(item)
                 return True
         return False

@@ -106,6 +106,11 @@ def test_corrections_are_taken_back(dialog: LearnDialog, folder: Path) -> None:
     joint, bone = next(iter(wrong_bones(dialog, folder).items()))
     give(dialog, joint, bone)
     assert dialog.drafts[0].joints == {joint: bone}
+    # The field in which the name was typed has nothing of its own to undo.
+    ctrl, shift = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
+    for modifiers, joints in ((ctrl, {}), (ctrl | shift, {joint: bone})):
+        QTest.keyClick(tree(dialog).search, Qt.Key.Key_Z, modifiers)
+        assert dialog.drafts[0].joints == joints
     QTest.mouseClick(child(dialog, QToolButton, "body_undo"), Qt.MouseButton.LeftButton)
     assert dialog.drafts[0].joints == {}
     QTest.keyClick(dialog.body, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
