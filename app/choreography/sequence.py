@@ -88,7 +88,7 @@ class Weights:
 
 LATELY_S: Final = 12.0
 CLOSING_S: Final = 2.5
-"""Seconds before the last accent in which a dance comes to its end."""
+"""Seconds before the last accent in which a dance comes to its end, facing the audience."""
 RECENT: Final = 7
 """Greatest number of motions before the last one that are not soon danced again."""
 PER_RECENT: Final = 8

@@ -13,6 +13,7 @@ import numpy as np
 
 from app.arrays import ComplexArray, FloatArray, IntArray
 from app.choreography.joins import FADE_S
+from app.choreography.sequence import CLOSING_S
 from app.choreography.stage import STAGE_M
 from app.rig import quaternion
 
@@ -29,8 +30,6 @@ MOST_STEP_M: Final = 0.08
 """
 SPINS_RAD_S: Final = 5.0
 """Speed in radians per second from which a turn of the hips is a spin, in which facing is not corrected."""
-LAST_S: Final = 2.5
-"""Seconds before the end of a dance in which it is brought to end facing the audience."""
 FACES_S: Final = 0.2
 """Seconds of motion whose mean is the direction in which a dance ends."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
@@ -42,7 +41,7 @@ class Ahead(NamedTuple):
     Attributes
     ----------
     faces : list of complex
-        Mean direction of the hips in each run, small if they turn around in it; in runs that begin within `LAST_S`
+        Mean direction of the hips in each run, small if they turn around in it; in runs that begin within `CLOSING_S`
         before the end of the dance, the direction in which it would end.
     spins : list of bool
         Whether the hips turn at `SPINS_RAD_S` or more at some moment soon after the start of each run.
@@ -72,7 +71,7 @@ class Ahead(NamedTuple):
         faces = [complex(directions[start:stop].mean()) for start, stop in spans]
         fastest = [turns_rad[start : min(stop, start + soon) - 1].max(initial=0.0) for start, stop in spans]
         last = min(int(np.searchsorted(runs, ends)), len(spans)) - 1
-        first = min(int(np.searchsorted(runs, ends - LAST_S * fps)), last + 1)
+        first = min(int(np.searchsorted(runs, ends - CLOSING_S * fps)), last + 1)
         for run, left in _turning_left(directions, spans[first : last + 1], ends + last, FACES_S * fps):
             faces[first + run] = complex(directions[spans[first + run][0]] * left)
         return cls(faces, [float(one) * fps >= SPINS_RAD_S for one in fastest])
